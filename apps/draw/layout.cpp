@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "draw/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/weight_painter.h"
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+
+PixelMap::PixelMap(const Box& content, const Box& frame) {
+  const Vector<2> size = content.size();
+  const Vector<2> room = frame.size();
+  // A content without width or height gives infinity for one quotient, never for both.
+  scale_ = std::min(room.x() / size.x(), room.y() / size.y());
+  offset_ = frame.center() + Vector<2>(-scale_, scale_).cwiseProduct(content.center());
+}
+
+PointList<2> PixelMap::operator()(const PointList<2>& points) const {
+  return (Vector<2>(scale_, -scale_).asDiagonal() * points).colwise() + offset_;
+}
+
+Box bounding_box(const PointList<2>& points) {
+  if (points.cols() == 0) throw InputError("there is nothing to draw: the cage has no points");
+  const Box box{points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
+  const double extent = box.size().maxCoeff();
+  if (!points.allFinite() || !std::isfinite(extent) || extent <= 0) {
+    throw InputError("the cage cannot be drawn: its points coincide or are not finite");
+  }
+  return box;
+}
+
+PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options, Strip strip) {
+  const double unit = pixel_unit(options);
+  const double margin = 44 * unit;
+  const double gap = 44 * unit;
+  const double bar_width = 26 * unit;
+  const double label_width = 60 * unit;
+  const double right =
+      options.width - margin - (options.color_bar ? gap + bar_width + label_width : 0);
+  const double strip_width = strip == Strip::kBeside ? 0.26 * options.width + gap : 0;
+  const double strip_height = strip == Strip::kBelow ? 0.26 * options.width + gap : 0;
+
+  const double width = right - margin - strip_width;
+  const Vector<2> size = content.size();
+  const double wanted = size.x() > 0 ? width * size.y() / size.x() : 1e9;
+  const double height = std::clamp(wanted, 0.27 * options.width, 1.3 * options.width);
+
+  PictureLayout layout;
+  layout.width = options.width;
+  layout.height = static_cast<int>(std::lround(height + strip_height + 2 * margin));
+  layout.frame = {{margin, margin}, {margin + width, margin + height}};
+  layout.strip =
+      strip == Strip::kBeside
+          ? Box{{margin + width + gap, margin}, {right, margin + height}}
+          : Box{{margin, margin + height + gap}, {right, margin + height + strip_height}};
+
+  // Above and below the bar there is room for its title and the colours of defects.
+  const double bar_height = std::min(layout.height - 240 * unit, 620 * unit);
+  const double top = (layout.height - bar_height) / 2 + 16 * unit;
+  layout.color_bar = {{right + gap, top}, {right + gap + bar_width, top + bar_height}};
+  return layout;
+}
+
+}  // namespace flbc::draw

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Where things stand in a picture.
+#pragma once
+
+#include "draw/picture_options.h"
+#include "draw/primitives.h"
+
+namespace flbc::draw {
+
+//! From a plane with y upwards to pixels with y downwards, by one scale for both directions.
+class PixelMap {
+ public:
+  //! Maps `content` as large as possible into the middle of `frame`.
+  PixelMap(const Box& content, const Box& frame);
+
+  Vector<2> operator()(const Vector<2>& p) const {
+    return {offset_.x() + scale_ * p.x(), offset_.y() - scale_ * p.y()};
+  }
+  //! All points at once.
+  PointList<2> operator()(const PointList<2>& points) const;
+
+  //! Pixels per unit of length.
+  double scale() const { return scale_; }
+
+ private:
+  double scale_;
+  Vector<2> offset_;
+};
+
+//! The smallest box with all points. \throws InputError if it has no extent or is not finite
+Box bounding_box(const PointList<2>& points);
+
+//! Where room is kept for something beside the drawing.
+enum class Strip { kNone, kBelow, kBeside };
+
+//! A picture with one drawing and, if wanted, a strip of further ones and a colour bar at the
+//! right.
+struct PictureLayout {
+  int width;      //!< of the picture in pixels
+  int height;     //!< of the picture in pixels
+  Box frame;      //!< for the drawing
+  Box strip;      //!< meaningless for Strip::kNone
+  Box color_bar;  //!< for the coloured part of the bar
+};
+
+//! The width is as demanded. The height of the drawing follows from the content, but is no less
+//! than 0.27 times and no more than 1.3 times the width.
+PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options,
+                           Strip strip = Strip::kNone);
+
+}  // namespace flbc::draw

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From where a stack of slices is looked at.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "flbc/types.h"
+
+namespace flbc::draw {
+
+//! A parallel projection of space on the picture's plane.
+struct ObliqueView {
+  Vector<3> right;   //!< on the picture
+  Vector<3> up;      //!< on the picture
+  Vector<3> toward;  //!< to the eye
+
+  Vector<2> project(const Vector<3>& p) const { return {right.dot(p), up.dot(p)}; }
+
+  //! All points at once.
+  PointList<2> project(const PointList<3>& points) const {
+    PointList<2> result(2, points.cols());
+    result.row(0) = right.transpose() * points;
+    result.row(1) = up.transpose() * points;
+    return result;
+  }
+};
+
+//! A view, with the y axis upwards as usual for models, in which slices perpendicular to an axis
+//! lie side by side or above each other without hiding too much.
+//! \param axis  0, 1 or 2, the one that the slices are perpendicular to
+//! \param side  a vector to the side from which to look, for example to the control point
+inline ObliqueView view_of_slices(int axis, const Vector<3>& side) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  // A flat angle with the slices keeps them apart, a steep one shows them undistorted.
+  const double elevation = (axis == 1 ? 34 : 20) * kDegree;
+  const double turn = (axis == 1 ? 62 : 56) * kDegree;
+  const int first = axis == 1 ? 0 : axis;
+  const int second = 2 - first;
+  Vector<3> toward = std::sin(elevation) * Vector<3>::UnitY();
+  toward[first] = std::copysign(std::cos(elevation) * std::cos(turn), side[first]);
+  toward[second] = std::copysign(std::cos(elevation) * std::sin(turn), side[second]);
+  const Vector<3> right = Vector<3>::UnitY().cross(toward).normalized();
+  return {right, toward.cross(right), toward};
+}
+
+}  // namespace flbc::draw

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! A cage with slices, as the camera sees it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "draw/canvas.h"
+#include "draw/layout.h"
+#include "draw/oblique_view.h"
+#include "draw/picture_options.h"
+#include "draw/slice.h"
+
+namespace flbc::draw {
+
+//! What all steps of painting in space have in common.
+struct Scene {
+  const Cage<3>& cage;
+  const std::vector<Slice>& slices;  //!< at least one, parallel, ascending along their normal
+  ObliqueView view;
+  PixelMap map;
+  double unit;  //!< the pixels of a line that is 1 pixel wide in a picture of the usual size
+  WeightPictureOptions options;
+
+  //! Where a point in space appears on the canvas.
+  Vector<2> pixel(const Vector<3>& p) const { return map(view.project(p)); }
+};
+
+//! Paints the cage and the slices, from the farthest to the nearest.
+void paint_scene(Canvas& canvas, const Scene& scene);
+
+//! Paints one slice with its outline.
+//! \param pixel  from plane coordinates to the canvas; must be affine
+void paint_slice(Canvas& canvas, const Slice& slice,
+                 const std::function<Vector<2>(const Vector<2>&)>& pixel, double unit,
+                 const WeightPictureOptions& options);
+
+}  // namespace flbc::draw

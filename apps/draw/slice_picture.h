@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Pictures of coordinate functions in space.
+#pragma once
+
+#include "draw/picture_options.h"
+#include "draw/primitives.h"
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc::draw {
+
+//! Draws one coordinate function on parallel slices through the cage, in an oblique view: the
+//! cage's edges, lighter at its back and hidden by the slices before them, and the control point in
+//! red. The planes are those of choose_planes(). \param values  V, the function's value at each
+//! vertex of the mesh \param number_of_slices  1 .. 50 \throws InputError if a value is missing or
+//! not finite, OptionError if there is no such control point or an option is outside its range
+Image draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd& values,
+                  Index control_point, int number_of_slices = 3,
+                  const WeightPictureOptions& options = {});
+
+}  // namespace flbc::draw

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "draw/stroke_font.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace flbc::draw {
+namespace {
+
+// Digits are 6 wide and 9 high on the grid; strokes are points "xy", separated by commas. "~" marks
+// a stroke that is rounded: its points are the control polygon of a quadratic B-spline.
+struct Glyph {
+  char character;
+  int width;
+  std::string_view strokes;
+};
+
+constexpr Glyph kGlyphs[] = {
+    {'0', 6, "~39 09 00 60 69 39"},
+    {'1', 4, "07 29 20,00 40"},
+    {'2', 6, "~07 09 69 65 22 00,00 60"},
+    {'3', 6, "~07 09 69 65 25,~25 65 60 00 02"},
+    {'4', 6, "63 03 49 40"},
+    {'5', 6, "59 19 05,~05 17 66 60 00 02"},
+    {'6', 6, "~59 18 03,~36 06 00 60 66 36"},
+    {'7', 6, "09 69 20"},
+    {'8', 6, "~39 09 05 65 69 39,~35 05 00 60 65 35"},
+    {'9', 6, "~11 51 66,~33 63 69 09 03 33"},
+    {'.', 0, "00"},
+    {'-', 4, "04 44"},
+    {'<', 5, "57 04 51"},
+    {'>', 5, "07 54 01"},
+    {'w', 8, "06 20 45 60 86"},
+};
+
+constexpr double kUnitsPerHeight = 9;
+constexpr int kGap = 3;
+constexpr int kSpaceWidth = 3;
+
+const Glyph* find_glyph(char character) {
+  const auto* const found =
+      std::find_if(std::begin(kGlyphs), std::end(kGlyphs),
+                   [character](const Glyph& glyph) { return glyph.character == character; });
+  return found == std::end(kGlyphs) ? nullptr : found;
+}
+
+int width_of(char character) {
+  const Glyph* const glyph = find_glyph(character);
+  return glyph != nullptr ? glyph->width : kSpaceWidth;
+}
+
+using Polyline = std::vector<Vector<2>>;
+
+Polyline parse_points(std::string_view stroke) {
+  Polyline points;
+  for (std::size_t i = 0; i + 1 < stroke.size(); i += 3) {
+    points.emplace_back(stroke[i] - '0', stroke[i + 1] - '0');
+  }
+  return points;
+}
+
+// Cutting corners at a quarter of each edge, and at half of the first and last one, converges to
+// the quadratic B-spline that starts and ends at the ends of its control polygon.
+Polyline cut_corners(const Polyline& points) {
+  Polyline result{points.front()};
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (i == 0 || i + 2 == points.size()) {
+      result.push_back(0.5 * (points[i] + points[i + 1]));
+    } else {
+      result.push_back(0.75 * points[i] + 0.25 * points[i + 1]);
+      result.push_back(0.25 * points[i] + 0.75 * points[i + 1]);
+    }
+  }
+  result.push_back(points.back());
+  return result;
+}
+
+Polyline parse_stroke(std::string_view stroke) {
+  if (stroke.front() != '~') return parse_points(stroke);
+  Polyline points = parse_points(stroke.substr(1));
+  for (int round = 0; round < 4; ++round) points = cut_corners(points);
+  return points;
+}
+
+void append_glyph(const Glyph& glyph, const Vector<2>& position, double unit,
+                  std::vector<Segment>& segments) {
+  const auto place = [&](const Vector<2>& p) {
+    return Vector<2>(position.x() + unit * p.x(), position.y() - unit * p.y());
+  };
+  std::string_view rest = glyph.strokes;
+  while (!rest.empty()) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const Polyline points = parse_stroke(rest.substr(0, comma));
+    if (points.size() == 1) segments.push_back({place(points[0]), place(points[0])});
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      segments.push_back({place(points[i]), place(points[i + 1])});
+    }
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+}
+
+}  // namespace
+
+double text_width(std::string_view text, double height) {
+  int units = 0;
+  for (const char character : text) units += width_of(character) + kGap;
+  return std::max(0, units - kGap) * height / kUnitsPerHeight;
+}
+
+void draw_text(Canvas& canvas, const Vector<2>& position, std::string_view text, double height,
+               Color color) {
+  const double unit = height / kUnitsPerHeight;
+  std::vector<Segment> segments;
+  Vector<2> cursor = position;
+  for (const char character : text) {
+    const Glyph* const glyph = find_glyph(character);
+    if (glyph != nullptr) append_glyph(*glyph, cursor, unit, segments);
+    cursor.x() += (width_of(character) + kGap) * unit;
+  }
+  canvas.draw_segments(segments, 1.15 * unit, color);
+}
+
+}  // namespace flbc::draw

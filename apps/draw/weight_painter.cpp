@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "draw/weight_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "draw/colormap.h"
+#include "draw/isolines.h"
+#include "draw/stroke_font.h"
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+namespace {
+
+constexpr Color kSupportLine{0.55F, 0.58F, 0.63F};
+constexpr Color kMeshEdge{0.25F, 0.28F, 0.33F};
+
+void fill_cells(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
+                const Eigen::VectorXd& values) {
+  for (Eigen::Index s = 0; s < cells.cols(); ++s) {
+    const auto v = cells.col(s);
+    canvas.fill_triangle({points.col(v[0]), points.col(v[1]), points.col(v[2])},
+                         {values[v[0]], values[v[1]], values[v[2]]}, weight_color);
+  }
+}
+
+// Edges are found once per cell: the canvas unites lines that coincide.
+void draw_mesh_edges(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
+                     double unit) {
+  std::vector<Segment> edges;
+  for (const auto& v : cells.colwise()) {
+    for (int k = 0; k < 3; ++k) edges.push_back({points.col(v[k]), points.col(v[(k + 1) % 3])});
+  }
+  canvas.draw_segments(edges, 0.6 * unit, kMeshEdge, 0.35F);
+}
+
+void fill_box(Canvas& canvas, const Box& box, double value_at_bottom, double value_at_top) {
+  const Vector<2> low_right(box.high.x(), box.low.y());
+  const Vector<2> high_left(box.low.x(), box.high.y());
+  canvas.fill_triangle({box.low, low_right, high_left},
+                       {value_at_top, value_at_top, value_at_bottom}, weight_color);
+  canvas.fill_triangle({low_right, box.high, high_left},
+                       {value_at_top, value_at_bottom, value_at_bottom}, weight_color);
+}
+
+void draw_outline(Canvas& canvas, const Box& box, double width) {
+  const Vector<2> low_right(box.high.x(), box.low.y());
+  const Vector<2> high_left(box.low.x(), box.high.y());
+  canvas.draw_segments(
+      {{box.low, low_right}, {low_right, box.high}, {box.high, high_left}, {high_left, box.low}},
+      width, kInk);
+}
+
+// A patch of the colours that show defects, with its label.
+void draw_defect_patch(Canvas& canvas, const Box& box, double slight, double severe,
+                       const char* label, double unit) {
+  fill_box(canvas, box, std::min(slight, severe), std::max(slight, severe));
+  draw_outline(canvas, box, 1.2 * unit);
+  draw_text(canvas, {box.high.x() + 11 * unit, box.center().y() + 8 * unit}, label, 16 * unit,
+            kInk);
+}
+
+}  // namespace
+
+double pixel_unit(const WeightPictureOptions& options) {
+  return options.width / 1200.0;
+}
+
+void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
+                  const Eigen::VectorXd& values, const WeightPictureOptions& options) {
+  // Lines below a pixel's width would fade in small pictures.
+  const double unit = std::max(0.6, pixel_unit(options));
+  fill_cells(canvas, points, cells, values);
+  if (options.mesh_edges) draw_mesh_edges(canvas, points, cells, unit);
+  if (options.support_level > 0) {
+    canvas.draw_segments(trace_isolines(points, cells, values, {options.support_level}), 1.1 * unit,
+                         kSupportLine);
+  }
+  canvas.draw_segments(trace_isolines(points, cells, values, isoline_levels(options.isolines)),
+                       1.5 * unit, kInk, 0.75F);
+}
+
+void paint_dot(Canvas& canvas, const Vector<2>& center, double radius, Color color) {
+  canvas.fill_disc(center, radius * 1.3, kWhite);
+  canvas.fill_disc(center, radius, color);
+}
+
+void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height) {
+  const std::string subscript = std::to_string(control_point);
+  const double small = 0.62 * height;
+  const double gap = 0.2 * height;
+  const double symbol_width = text_width("w", height);
+  const double width = symbol_width + gap + text_width(subscript, small);
+  const Vector<2> start(position.x() - width / 2, position.y());
+  draw_text(canvas, start, "w", height, kInk);
+  draw_text(canvas, start + Vector<2>(symbol_width + gap, 0.25 * height), subscript, small, kInk);
+}
+
+void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
+                     double greatest, const WeightPictureOptions& options) {
+  const double unit = pixel_unit(options);
+  const double patch = box.size().x();
+  const double gap = 10 * unit;
+  double top = box.low.y();
+  if (greatest > 1 + kWeightTolerance) {
+    top -= gap + patch;
+    draw_defect_patch(canvas, {{box.low.x(), top}, {box.high.x(), top + patch}},
+                      1 + 2 * kWeightTolerance, 1.1, ">1", unit);
+  }
+  if (least < -kWeightTolerance) {
+    const double below = box.high.y() + gap;
+    draw_defect_patch(canvas, {{box.low.x(), below}, {box.high.x(), below + patch}},
+                      -2 * kWeightTolerance, -0.1, "<0", unit);
+  }
+  paint_symbol(canvas, {box.center().x(), top - 26 * unit}, control_point, 24 * unit);
+
+  fill_box(canvas, box, 0, 1);
+  const auto row_of = [&](double weight) { return box.high.y() - weight * box.size().y(); };
+  std::vector<Segment> lines;
+  for (const double level : isoline_levels(options.isolines)) {
+    lines.push_back({{box.low.x(), row_of(level)}, {box.high.x(), row_of(level)}});
+  }
+  canvas.draw_segments(lines, 1.5 * std::max(0.6, unit), kInk, 0.75F);
+  draw_outline(canvas, box, 1.2 * unit);
+  for (const auto& [weight, label] : {std::pair(0.0, "0"), {0.5, "0.5"}, {1.0, "1"}}) {
+    const double y = row_of(weight);
+    canvas.draw_segments({{{box.high.x(), y}, {box.high.x() + 6 * unit, y}}}, 1.2 * unit, kInk);
+    draw_text(canvas, {box.high.x() + 13 * unit, y + 9 * unit}, label, 18 * unit, kInk);
+  }
+}
+
+void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,
+                  Index num_control_points) {
+  if (control_point < 0 || control_point >= num_control_points) {
+    throw OptionError("there is no control point " + std::to_string(control_point) +
+                      ": the cage has the control points 0 to " +
+                      std::to_string(num_control_points - 1));
+  }
+  if (values.size() != num_vertices) {
+    throw InputError("the weights belong to " + std::to_string(values.size()) +
+                     " points, but the domain mesh has " + std::to_string(num_vertices) +
+                     " vertices");
+  }
+  for (Eigen::Index v = 0; v < values.size(); ++v) {
+    if (!std::isfinite(values[v])) {
+      throw InputError("the weight of control point " + std::to_string(control_point) +
+                       " at vertex " + std::to_string(v) + " is not a finite number");
+    }
+  }
+}
+
+}  // namespace flbc::draw

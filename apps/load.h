@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Loading what the subcommands work on, with the file's name in every message.
+#pragma once
+
+#include <string>
+
+#include "flbc/domain_mesh.h"
+#include "flbc/io/cage_io.h"
+
+namespace flbc::app {
+
+//! Any polygon file: OBJ and OFF exactly, other formats through OpenMesh if it was built in.
+io::PolygonSoup load_polygons(const std::string& path);
+
+//! A cage that has passed all checks, self-intersection included where CGAL was built in.
+io::AnyCage load_cage(const std::string& path);
+
+//! The vertices of a model. \throws InputError if it has none
+template <int Dim>
+PointList<Dim> load_model(const std::string& path);
+
+//! \throws OptionError before any work is done if the file could not be written in the end: unknown
+//! extension; IoError: missing or unwritable folder. Nothing is checked for an empty path.
+void require_writable(const std::string& path, std::initializer_list<const char*> extensions);
+
+}  // namespace flbc::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc: local barycentric coordinates from the command line. A file per subcommand.
+#include <iostream>
+#include <new>
+
+#include "commands.h"
+#include "exit_status.h"
+#include "flbc/errors.h"
+#include "flbc/version.h"
+
+namespace {
+
+int fail(int exit_status, const char* what) {
+  std::cerr << "flbc: " << what << '\n';
+  return exit_status;
+}
+
+int run(int argc, char** argv) {
+  using namespace flbc::app;
+  CLI::App app{
+      "Local barycentric coordinates of cages in 2D and 3D.\n"
+      "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure."};
+  app.set_version_flag("--version", "flbc " FLBC_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  int exit_status = kDone;
+  add_mesh_command(app, exit_status);
+  add_solve_command(app, exit_status);
+  add_draw_command(app, exit_status);
+  add_info_command(app, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help and --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return kWrongUsage;
+  }
+  return exit_status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace flbc::app;
+  try {
+    return run(argc, argv);
+  } catch (const flbc::OptionError& error) {
+    return fail(kWrongUsage, error.what());
+  } catch (const flbc::IoError& error) {
+    return fail(kIoFailure, error.what());
+  } catch (const flbc::Error& error) {
+    return fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kBadInput, "out of memory; try fewer --vertices");
+  } catch (const std::exception& error) {
+    return fail(kBadInput, error.what());
+  }
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "flbc/version.h"
+
+namespace flbc::app {
+
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::kAuto:
+      return "auto";
+    case Method::kGradient:
+      return "gradient";
+    case Method::kPaper:
+      return "paper";
+    case Method::kHarmonic:
+      break;
+  }
+  return "harmonic";
+}
+
+const char* name_of(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration limit";
+    case SolveStatus::kStopped:
+      break;
+  }
+  return "stopped";
+}
+
+const char* name_of(DistanceScheme scheme) {
+  switch (scheme) {
+    case DistanceScheme::kSquare:
+      return "square";
+    case DistanceScheme::kLinear:
+      return "linear";
+    case DistanceScheme::kSquareRoot:
+      return "sqrt";
+    case DistanceScheme::kConstant:
+      break;
+  }
+  return "constant";
+}
+
+const char* name_of(Recovery recovery) {
+  switch (recovery) {
+    case Recovery::kAuto:
+      return "auto";
+    case Recovery::kBreadthFirst:
+      return "breadth-first";
+    case Recovery::kLeastSquares:
+      break;
+  }
+  return "least-squares";
+}
+
+std::string report_json(const SolveReport& report, const SolverOptions& given,
+                        const RunContext& context) {
+  const auto options = resolve(given, context.dim);
+  nlohmann::ordered_json json;
+  json["method"] = name_of(report.method);
+  json["dim"] = context.dim;
+  json["control_points"] = report.control_points;
+  json["vertices"] = report.vertices;
+  json["cells"] = report.cells;
+  json["iterations"] = report.iterations;
+  json["converged"] = report.status == SolveStatus::kConverged;
+  json["status"] = name_of(report.status);
+  json["primal_residual"] = report.primal_residual;
+  json["dual_residual"] = report.dual_residual;
+  json["objective"] = report.objective;
+  json["seconds"] = {{"mesh", context.mesh_seconds},
+                     {"setup", report.seconds.setup},
+                     {"solve", report.seconds.solve},
+                     {"recover", report.seconds.recover}};
+  json["min_weight"] = context.delivered.min_weight;
+  json["max_partition_error"] = context.delivered.max_partition_error;
+  json["max_reproduction_error"] = context.delivered.max_reproduction_error;
+  json["mean_influences"] = context.delivered.mean_influences;
+  json["numbers_per_cell"] = report.numbers_per_cell;
+  json["version"] = FLBC_VERSION;
+  json["options"] = {{"cage", context.cage},
+                     {"domain", context.domain},
+                     {"model", context.model},
+                     {"embed", context.embed},
+                     {"vertices", context.wanted_vertices},
+                     {"method", name_of(given.method)},
+                     {"phi", name_of(options.phi)},
+                     {"recovery", name_of(options.recovery)},
+                     {"precision", options.precision == Precision::kSingle ? "single" : "double"},
+                     {"tolerance", options.tolerance},
+                     {"max_iterations", options.max_iterations},
+                     {"penalty", options.penalty},
+                     {"relaxation", options.relaxation},
+                     {"threads", options.threads}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What is known beforehand: the coordinates of the points on the cage.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Barycentric coordinates of the mesh's boundary vertices in the cage facets on which they lie
+//! (Lagrange property and linearity on facets, properties 4 and 5 of the paper). At most Dim
+//! control points matter to each; a vertex at a control point or on a cage edge has zeros
+//! elsewhere.
+template <int Dim>
+struct BoundaryValues {
+  std::vector<Index> vertices;          //!< the boundary vertices, ascending
+  std::vector<Index> slot;              //!< per mesh vertex: its place in `vertices`, or -1 inside
+  FacetList<Dim> control_points;        //!< Dim x B, the control points of the facet
+  PointList<Dim> values;                //!< Dim x B, their weights, each column sums to 1
+  std::vector<Index> control_vertices;  //!< per control point: the mesh vertex that lies on it
+
+  //! Adds the coordinates of boundary vertex `vertices[b]` to a row of n zeros.
+  template <class Row>
+  void scatter(Index b, Row&& row) const {
+    for (int k = 0; k < Dim; ++k) row[control_points(k, b)] += values(k, b);
+  }
+};
+
+//! Locates every boundary vertex on the cage by geometry, so that any mesh of the cage's interior
+//! serves, whoever made it.
+//! \throws InputError naming the vertex if one is farther from the cage than 1e-6 of the cage's
+//! size, or if a control point is no vertex of the mesh.
+template <int Dim>
+BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                    const MeshTopology<Dim>& topology);
+
+}  // namespace flbc

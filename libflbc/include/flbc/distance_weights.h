@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The weight functions phi_i of the paper's problem (1): they make the variation of w_i dearer the
+//! farther it is from its control point, which keeps w_i local.
+#pragma once
+
+#include <vector>
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! How phi_i grows with the relative distance d_i in [0, 1] from its control point.
+enum class DistanceScheme {
+  kSquare,      //!< d^2, the usual default
+  kLinear,      //!< d
+  kSquareRoot,  //!< sqrt(d)
+  kConstant     //!< 1, plain total variation
+};
+
+//! Geodesic distances inside the domain by the heat method (Crane et al. 2013).
+//! \param sources  vertices of the mesh, one per control point
+//! \return #sources x V, in the units of the mesh, >= 0
+//! \throws SolverError if a system cannot be factored
+template <int Dim>
+Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const std::vector<Index>& sources);
+
+//! Divides by the largest distance over all control points, averages over each cell's vertices and
+//! applies the scheme.
+//! \param distances  n x V, or empty for kConstant
+//! \return n x F, phi_i on each cell, in [0, 1]
+template <int Dim>
+Eigen::MatrixXd distance_weights(DistanceScheme scheme, const Eigen::MatrixXd& distances,
+                                 const DomainMesh<Dim>& mesh, Index num_control_points);
+
+}  // namespace flbc

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The exceptions of the library. Not converging is no exception: it is a status in the report.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace flbc {
+
+//! Base of all exceptions thrown by libflbc.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+//! A defect of the data: cage, mesh, model or weights. The text names file, element and coordinates
+//! as far as they are known.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+//! An option outside its valid range. The text names the option.
+class OptionError : public Error {
+ public:
+  using Error::Error;
+};
+
+//! A file that cannot be opened, read or written. The text names the file and the system's reason.
+class IoError : public Error {
+ public:
+  using Error::Error;
+};
+
+//! A numerical breakdown, for example a matrix that cannot be factored.
+class SolverError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace flbc

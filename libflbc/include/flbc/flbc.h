@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! All of libflbc's core.
+#pragma once
+
+#include "flbc/boundary_values.h"
+#include "flbc/cage.h"
+#include "flbc/coordinates.h"
+#include "flbc/distance_weights.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/errors.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/meshing.h"
+#include "flbc/options.h"
+#include "flbc/recovery.h"
+#include "flbc/report.h"
+#include "flbc/solver.h"
+#include "flbc/types.h"
+#include "flbc/version.h"

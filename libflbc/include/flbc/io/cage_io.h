@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From a file's points, polylines and polygons to a cage.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "flbc/cage.h"
+#include "flbc/io/polygon_file.h"
+
+namespace flbc::io {
+
+//! A cage whose dimension the file decides.
+using AnyCage = std::variant<Cage<2>, Cage<3>>;
+
+//! Polygons make a 3D cage, polylines a 2D cage; points alone are one closed polyline in their
+//! order, and so is a single polygon in a plane z = const. Polygons with more than three vertices
+//! are cut into triangles, along the shorter diagonal if they have four and fanwise otherwise,
+//! because the coordinates are linear on triangles. The cage is not validated. \param name  of the
+//! file, for messages \throws InputError if a 2D cage is not in a plane z = const, or polygons and
+//! polylines mix
+AnyCage to_cage(const PolygonSoup& soup, const std::string& name);
+
+//! The points of a model in Dim dimensions. \throws InputError naming the vertex if Dim is 2 and
+//! the points are not in a plane z = const
+template <int Dim>
+PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name);
+
+}  // namespace flbc::io

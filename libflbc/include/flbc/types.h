@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The matrix orientation and the index type of the whole library: points are columns.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace flbc {
+
+//! Index of a vertex, facet, cell or control point.
+using Index = std::int32_t;
+
+//! A point or vector in R^Dim.
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+//! Dim x #points, a point per column.
+template <int Dim>
+using PointList = Eigen::Matrix<double, Dim, Eigen::Dynamic>;
+
+//! Dim x #facets, the vertices of an edge (2D) or triangle (3D) per column.
+template <int Dim>
+using FacetList = Eigen::Matrix<Index, Dim, Eigen::Dynamic>;
+
+//! (Dim + 1) x #cells, the vertices of a triangle (2D) or tetrahedron (3D) per column.
+template <int Dim>
+using CellList = Eigen::Matrix<Index, Dim + 1, Eigen::Dynamic>;
+
+//! n x #points: column v holds the n coordinates of point v, one per control point, contiguous.
+//! With the control points C as columns, reproduction reads C W = X.
+using WeightMatrix = Eigen::MatrixXd;
+
+}  // namespace flbc

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Partition of unity and reproduction as one linear system per point, and the projection on it.
+#pragma once
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! The constraints A^T w = [1; x] with A = [1; c] (n x (Dim + 1)), and for gradients (8):
+//! A^T g_d = [0; e_d]. With A = Q R, Q orthonormal, both say what Q^T w or Q^T g_d is; projecting
+//! costs 2 n (Dim + 1) multiplications where the paper's n x n matrix K would cost n^2.
+template <int Dim>
+class BarycentricConstraints {
+ public:
+  //! \param control_points  Dim x n, affinely spanning R^Dim
+  explicit BarycentricConstraints(const PointList<Dim>& control_points);
+
+  //! n x (Dim + 1), orthonormal columns.
+  const Eigen::Matrix<double, Eigen::Dynamic, Dim + 1>& basis() const { return basis_; }
+
+  //! (Dim + 1) x Dim: Q^T g_d for every gradient that satisfies (8), a column per direction d.
+  Eigen::Matrix<double, Dim + 1, Dim> gradient_target() const;
+
+  //! The nearest weights with sum 1 that reproduce the point.
+  template <class Column>
+  void project_weights(const Vector<Dim>& point, Column&& weights) const {
+    Vector<Dim + 1> sums;
+    sums << 1, point;
+    const Vector<Dim + 1> excess = basis_.transpose() * weights - inverse_r_transposed_ * sums;
+    weights -= basis_ * excess;
+  }
+
+ private:
+  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis_;
+  Eigen::Matrix<double, Dim + 1, Dim + 1> inverse_r_transposed_;
+};
+
+}  // namespace flbc

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Geometry of one cell: everything the finite-element parts of the library need.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Measure of a cell and the gradients of its Dim + 1 hat functions (columns).
+template <int Dim>
+struct CellGeometry {
+  double measure;
+  Eigen::Matrix<double, Dim, Dim + 1> hat_gradients;
+};
+
+template <int Dim>
+CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
+  Eigen::Matrix<double, Dim, Dim> edges;
+  for (int k = 0; k < Dim; ++k) {
+    edges.col(k) = mesh.points.col(mesh.cells(k + 1, cell)) - mesh.points.col(mesh.cells(0, cell));
+  }
+  CellGeometry<Dim> geometry;
+  geometry.measure = std::abs(edges.determinant()) / (Dim == 2 ? 2 : 6);
+  geometry.hat_gradients.template rightCols<Dim>() = edges.inverse().transpose();
+  geometry.hat_gradients.col(0) = -geometry.hat_gradients.template rightCols<Dim>().rowwise().sum();
+  return geometry;
+}
+
+}  // namespace flbc

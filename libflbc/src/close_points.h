@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points that coincide up to a tolerance.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Pairs (i, j), i < j, of points whose distance is at most `tolerance`. Each point is paired with
+//! at most one of those before it, so a heap of k coinciding points gives k - 1 pairs and not k^2
+//! / 2. \return at most `limit` pairs, ascending by j
+template <int Dim>
+std::vector<std::array<Index, 2>> find_close_pairs(const PointList<Dim>& points, double tolerance,
+                                                   std::size_t limit);
+
+}  // namespace flbc

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The paper's gradient ADMM (4.2.1 in 2D, 4.2.3 in 3D) in compact form.
+#pragma once
+
+#include <vector>
+
+#include "aligned_array.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/recovery.h"
+#include "gradient/boundary_periods.h"
+#include "gradient/gradient_kernel.h"
+
+namespace flbc::gradient {
+
+//! Norms of the residual matrices r_p and r_d of the paper.
+struct Residuals {
+  double primal;
+  double dual;
+};
+
+//! The iteration, allocated once. Without over-relaxation its gradients are the paper's G, iterate
+//! by iterate. The paper keeps X, Y, Z and a dual for each; but projecting on a constraint changes
+//! a vector only along the constrained direction, so writing the dual steps relative to the
+//! extrapolated gradients 2 G - G_before leaves one number per tangent direction of a facet and one
+//! vector per cell. docs/method.md derives it.
+//!
+//! On domains with holes it has the period constraints besides, which the paper lacks.
+template <class Scalar, int Dim>
+class GradientAdmm {
+ public:
+  //! \param penalty  mu > 0
+  //! \param relaxation  in (0, 2), 1 for the paper's iteration
+  //! \param periods  what joins the components of the boundary; empty leaves them apart, as the
+  //! paper
+  GradientAdmm(const LbcProblem<Dim>& problem, double penalty, double relaxation,
+               const std::vector<Period<Dim>>& periods);
+
+  //! Starts from the least-norm solution of (8), duals zero.
+  void start_from_least_norm();
+
+  //! Starts from the gradients of given weights (n x V), duals zero.
+  void start_from_weights(const WeightMatrix& weights);
+
+  //! One iteration: X- and Y-step, Z-step, G-step, duals. \return what is needed for residuals()
+  Change iterate();
+
+  //! The paper's residual norms after an iteration. With over-relaxation the primal residual is the
+  //! violation X - G S_X, Y - G S_Y, Z - G at the extrapolated gradient.
+  Residuals residuals(const Change& change) const;
+
+  //! Number of components of r_p and of r_d, which is the same.
+  double num_residual_components() const;
+
+  GradientView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
+
+  //! Numbers held per cell and control point, state and phi together.
+  double numbers_per_cell() const;
+
+ private:
+  void set_up_facets(const LbcProblem<Dim>& problem);
+  void set_up_boundary_slopes(const LbcProblem<Dim>& problem);
+  void set_up_constraints(const LbcProblem<Dim>& problem);
+  void set_up_radii(const LbcProblem<Dim>& problem);
+  void set_up_periods(const std::vector<Period<Dim>>& periods);
+  double update_periods();
+  Arrays<Scalar, Dim> arrays();
+
+  const LbcProblem<Dim>& problem_;
+  const Kernel<Scalar, Dim>& kernel_;
+  const Index n_;
+  const std::size_t stride_;
+  const double penalty_;
+  const double relaxation_;
+  const std::size_t num_periods_;
+  const double copies_;  // M of (11): a gradient's copies in Z, in X or Y per facet, per period
+  // state
+  AlignedArray<Scalar> gradient_;
+  AlignedArray<Scalar> extrapolated_;
+  AlignedArray<Scalar> tv_dual_;
+  AlignedArray<Scalar> facet_dual_;
+  AlignedArray<Scalar> period_dual_;
+  // data
+  AlignedArray<Scalar> radius_;
+  AlignedArray<Scalar> boundary_slope_;
+  AlignedArray<Scalar> basis_;
+  std::vector<Scalar> tangents_;
+  std::vector<Index> boundary_slot_;
+  std::vector<Scalar> period_fields_;
+  AlignedArray<double> period_values_;
+  Scalar target_[Dim * (Dim + 1)];
+};
+
+}  // namespace flbc::gradient

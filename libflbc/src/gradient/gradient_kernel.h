@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The inner loops of the gradient ADMM on plain arrays. The same source is compiled for several
+//! instruction sets; nothing here may depend on headers whose inline functions could then clash, so
+//! there is no Eigen.
+//!
+//! Every array is element-major, then component, then `stride` control points contiguous (n padded
+//! to a multiple of kLanes; the padding stays zero).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace flbc::gradient {
+
+constexpr int kLanes = 8;
+
+//! State and data of the iteration. Scaled duals u = lambda / mu in the compact form: the dual of a
+//! facet's constraint is one tangential vector (Dim - 1 components), positive on its first side.
+template <class Scalar, int Dim>
+struct Arrays {
+  std::size_t stride;
+  // state
+  Scalar* gradient;      // F x Dim: G
+  Scalar* extrapolated;  // F x Dim: 2 G - G before
+  Scalar* tv_dual;       // F x Dim: dual of Z = G
+  Scalar* period_dual;   // P: duals of the period constraints (boundary_periods.h), whole domain
+  Scalar* facet_dual;    // E x (Dim - 1): duals of X = G S_X on the boundary, of Y = G S_Y inside
+  // data
+  const Scalar* radius;               // F: phi A / mu
+  const Scalar* boundary_slope;       // #boundary facets x (Dim - 1): h, tangential derivatives
+  const Scalar* tangents;             // E x (Dim - 1) x Dim, orthonormal, no control points
+  const std::int32_t* sides;          // E x 2 cells, second -1 on the boundary
+  const std::int32_t* boundary_slot;  // E: place among the boundary facets
+  const std::int32_t* cell_facets;    // F x (Dim + 1)
+  const Scalar* period_fields;        // P x F x Dim, no control points
+  std::size_t num_periods;            // P: boundary components - 1
+  std::size_t num_cells;              // F
+  Scalar inverse_copies;              // 1 / M of (11)
+  const Scalar* basis;                // (Dim + 1): orthonormal basis Q of [1; c]
+  const Scalar* target;  // Dim x (Dim + 1) numbers: Q^T g for every g that satisfies (8)
+  Scalar relaxation;
+};
+
+//! Sums over the elements of one call, for the residuals.
+struct Change {
+  double dual = 0;      //!< squared change of all duals (both sides of a facet count)
+  double gradient = 0;  //!< squared change of G
+  double lead = 0;      //!< squared difference of the new G from the extrapolated old one
+
+  // Always inlined, so that no instruction set's copy can be linked into code for another.
+  [[gnu::always_inline]] inline Change& operator+=(const Change& other) {
+    dual += other.dual;
+    gradient += other.gradient;
+    lead += other.lead;
+    return *this;
+  }
+};
+
+//! The loops for one instruction set. `update_facets` is the X- and Y-step with its dual step,
+//! `update_cells` the Z-step with its dual step and the G-step, for elements begin .. end-1.
+template <class Scalar, int Dim>
+struct Kernel {
+  using Loop = Change (*)(const Arrays<Scalar, Dim>&, std::int32_t begin, std::int32_t end);
+  Loop update_facets;
+  Loop update_cells;
+};
+
+//! The best kernel for this processor.
+template <class Scalar, int Dim>
+const Kernel<Scalar, Dim>& select_kernel();
+
+}  // namespace flbc::gradient

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The weight file formats, a file each. Contracts as in flbc/io/weights_io.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+#include "flbc/types.h"
+
+namespace flbc::io {
+
+class TextReader;
+
+// The binary formats hold doubles as the memory of these machines does.
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "binary weight files need a little-endian machine"
+#endif
+
+//! Parse a file's content; `path` is for messages.
+WeightMatrix read_mtx(const std::string& path, std::string content);
+WeightMatrix read_dmat(const std::string& path, std::string content);
+WeightMatrix read_npy(const std::string& path, const std::string& content);
+
+void write_mtx(std::ostream& out, const WeightMatrix& weights);
+void write_dmat(std::ostream& out, const WeightMatrix& weights);
+void write_npy(std::ostream& out, const WeightMatrix& weights);
+
+//! Reads #points x n numbers, control point by control point, up to the end of the file.
+WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls);
+
+//! A block of numbers that reaches from byte `offset` to the end of a binary file.
+struct BinaryBlock {
+  const std::string& path;
+  const std::string& content;
+  std::size_t offset;
+
+  //! An error unless exactly num_points x num_controls numbers of `bytes_each` bytes stand here.
+  void check_size(std::int64_t num_points, std::int64_t num_controls, std::size_t bytes_each) const;
+
+  //! Copies the numbers into a matrix. \param by_point whether the numbers of a point, rather than
+  //! those of a control point, follow each other \throws InputError if a number is not finite
+  template <class Scalar>
+  WeightMatrix read(std::int64_t num_points, std::int64_t num_controls, bool by_point) const;
+
+  //! Throws the InputError that names file and byte.
+  [[noreturn]] void fail(std::size_t byte, const std::string& message) const;
+};
+
+}  // namespace flbc::io

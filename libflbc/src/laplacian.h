@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The finite-element Laplacian of a domain mesh and the Poisson problem with boundary values.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "flbc/boundary_values.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/types.h"
+#include "spd_solver.h"
+
+namespace flbc {
+
+//! Stiffness matrix, V x V: K(v, w) = sum over cells of A grad(lambda_v) . grad(lambda_w).
+template <int Dim>
+Eigen::SparseMatrix<double> stiffness_matrix(const DomainMesh<Dim>& mesh);
+
+//! Lumped mass per vertex: its share of the measure of the cells around it.
+template <int Dim>
+Eigen::VectorXd lumped_mass(const DomainMesh<Dim>& mesh);
+
+//! The coordinates known on the boundary as a matrix, B x n.
+template <int Dim>
+Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n);
+
+//! The Poisson problem on the interior vertices for many functions at once, each with its values on
+//! the boundary. Factored once.
+template <int Dim>
+class DirichletProblem {
+ public:
+  DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary);
+
+  //! Minimises sum_s A_s |grad w_i - g_i|^2 for every i.
+  //! \param boundary_values  B x k, the values known, a column per function
+  //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty stands
+  //! for zero and gives harmonic functions
+  //! \return k x V, boundary values included
+  WeightMatrix solve(const Eigen::MatrixXd& boundary_values,
+                     const Eigen::MatrixXd& divergence = {}) const;
+
+ private:
+  std::vector<Index> interior_;           // interior vertices, ascending
+  std::vector<Index> boundary_;           // boundary vertices, ascending
+  Eigen::SparseMatrix<double> coupling_;  // interior x boundary part of K
+  std::unique_ptr<SpdSolver> solver_;  // interior x interior part, none without interior vertices
+};
+
+}  // namespace flbc

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/lbc_problem.h"
+
+#include <utility>
+
+namespace flbc {
+namespace {
+
+constexpr double kRadius = 250;
+
+template <int Dim>
+double scale_to_radius(Cage<Dim>& cage, DomainMesh<Dim>& mesh) {
+  const Vector<Dim> center =
+      (mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2;
+  const double scale = kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
+  mesh.points = scale * (mesh.points.colwise() - center);
+  cage.points = scale * (cage.points.colwise() - center);
+  return scale;
+}
+
+}  // namespace
+
+template <int Dim>
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
+  const double scale = scale_to_radius(cage, mesh);
+  LbcProblem<Dim> problem{std::move(cage), std::move(mesh), {}, {}, {}, scale};
+  problem.topology = build_topology(problem.mesh);
+  problem.boundary = boundary_values(problem.cage, problem.mesh, problem.topology);
+  Eigen::MatrixXd distances;
+  if (scheme != DistanceScheme::kConstant) {
+    distances = geodesic_distances(problem.mesh, problem.boundary.control_vertices);
+  }
+  problem.phi = distance_weights(scheme, distances, problem.mesh, problem.num_control_points());
+  return problem;
+}
+
+template LbcProblem<2> make_problem(Cage<2>, DomainMesh<2>, DistanceScheme);
+template LbcProblem<3> make_problem(Cage<3>, DomainMesh<3>, DistanceScheme);
+
+}  // namespace flbc

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/options.h"
+
+#include <cmath>
+
+#include "flbc/errors.h"
+#include "format.h"
+
+namespace flbc {
+namespace {
+
+void require(bool valid, const char* field, double value, const char* range) {
+  if (valid) return;
+  throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
+}
+
+}  // namespace
+
+void validate(const SolverOptions& options) {
+  require(std::isfinite(options.tolerance) && options.tolerance > 0, "tolerance", options.tolerance,
+          "positive");
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
+  require(std::isfinite(options.penalty) && options.penalty >= 0, "penalty", options.penalty,
+          "positive, or 0 for the method's own");
+  require(options.relaxation >= 0 && options.relaxation < 2, "relaxation", options.relaxation,
+          "in (0, 2), or 0 for the method's own");
+  require(options.check_interval >= 1, "check_interval", options.check_interval, "at least 1");
+  require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
+          "in [1, 1024], or 0 for all");
+}
+
+SolverOptions resolve(SolverOptions options, int dim) {
+  if (options.method == Method::kAuto) options.method = Method::kGradient;
+  const bool paper = options.method == Method::kPaper;
+  if (options.recovery == Recovery::kAuto) {
+    options.recovery = paper ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
+  }
+  if (options.penalty == 0) {
+    // The paper's values (section 5), and those that served best on all models in docs/results.md.
+    options.penalty = paper ? (dim == 2 ? 100 : 10000) : (dim == 2 ? 1000 : 3000);
+  }
+  if (options.relaxation == 0) options.relaxation = paper ? 1 : 1.8;
+  return options;
+}
+
+}  // namespace flbc

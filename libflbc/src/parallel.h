@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! OpenMP in one place: the number of threads, and sums that do not depend on it.
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Sets the number of threads for parallel regions entered by this thread, until it goes out of
+//! scope.
+class ThreadScope {
+ public:
+  explicit ThreadScope(int threads) : before_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~ThreadScope() { omp_set_num_threads(before_); }
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int before_;
+};
+
+//! Calls `body(begin, end)` for blocks of [0, count) in parallel and adds up what it returns. The
+//! blocks and the order of the sum are fixed, so the result is the same for any number of threads.
+template <class Sum, class Body>
+Sum parallel_sum(Index count, Sum zero, const Body& body) {
+  constexpr Index kBlock = 64;
+  const Index num_blocks = (count + kBlock - 1) / kBlock;
+  std::vector<Sum> partial(num_blocks, zero);
+#pragma omp parallel for schedule(static)
+  for (Index block = 0; block < num_blocks; ++block) {
+    partial[block] = body(block * kBlock, std::min(count, (block + 1) * kBlock));
+  }
+  Sum sum = zero;
+  for (const Sum& part : partial) sum += part;
+  return sum;
+}
+
+}  // namespace flbc

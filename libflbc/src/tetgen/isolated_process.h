@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs code that may crash or hang in a process of its own.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace flbc {
+
+//! Writes bytes from the child to the parent. It does not return if the parent has gone.
+using ByteSink = std::function<void(const void* data, std::size_t size)>;
+
+enum class ProcessEnd {
+  kFinished,  //!< `work` returned
+  kThrew,     //!< `work` threw an exception
+  kCrashed,   //!< a signal ended the process
+  kTimedOut   //!< it was stopped at the time limit
+};
+
+struct ProcessOutcome {
+  ProcessEnd end = ProcessEnd::kFinished;
+  int signal = 0;            //!< for kCrashed
+  std::vector<char> output;  //!< what came through the sink, perhaps incomplete unless kFinished
+};
+
+//! Runs `work` in a forked child that sees the parent's memory as it is now and changes nothing in
+//! it. What it prints is discarded, and it dumps no core. No process and no file descriptor is left
+//! behind, whatever happens. \param time_limit  in seconds, > 0 \throws Error if the system refuses
+//! a process or a pipe
+ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit);
+
+//! "signal 11 (Segmentation fault)".
+std::string describe_signal(int signal);
+
+}  // namespace flbc

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "openmesh_bindings/mesh_io.h"
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/IO/importer/ImporterT.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <fstream>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+
+namespace flbc::openmesh {
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+};
+using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+
+// Takes vertices and faces as they come from a reader. The half-edge mesh behind it only holds what
+// OpenMesh wants to know about points and attributes; faces never enter it, because it would refuse
+// non-manifold ones with a message on standard error and go on.
+class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
+ public:
+  using Base = OpenMesh::IO::ImporterT<Mesh>;
+  using Base::add_face;
+
+  SoupImporter(Mesh& mesh, std::vector<std::vector<Index>>& polygons)
+      : Base(mesh), polygons_(polygons) {}
+
+  OpenMesh::FaceHandle add_face(const VHandles& corners) override {
+    std::vector<Index> polygon;
+    for (const auto corner : corners) polygon.push_back(corner.idx());
+    polygons_.push_back(std::move(polygon));
+    return OpenMesh::FaceHandle(static_cast<int>(polygons_.size()) - 1);
+  }
+  void finish() override {}
+
+ private:
+  std::vector<std::vector<Index>>& polygons_;
+};
+
+// OpenMesh explains its refusals on its own error stream; the library must not print.
+class SilencedOpenMesh {
+ public:
+  SilencedOpenMesh() {
+    omerr().disable();
+    omlog().disable();
+  }
+  ~SilencedOpenMesh() {
+    omerr().enable();
+    omlog().enable();
+  }
+};
+
+}  // namespace
+
+io::PolygonSoup read_polygons(const std::string& path) {
+  if (!std::ifstream(path)) io::read_file(path);  // throws with the system's reason
+  io::PolygonSoup soup;
+  Mesh mesh;
+  OpenMesh::IO::Options options;
+  const SilencedOpenMesh silence;
+  bool read = false;
+  if (io::extension_of(path) == "om") {
+    // .om stores connectivity, not faces, so it can only be read into a mesh.
+    read = OpenMesh::IO::read_mesh(mesh, path, options);
+    for (const auto face : mesh.faces()) {
+      soup.polygons.emplace_back();
+      for (const auto corner : face.vertices()) soup.polygons.back().push_back(corner.idx());
+    }
+  } else {
+    SoupImporter importer(mesh, soup.polygons);
+    read = OpenMesh::IO::IOManager().read(path, importer, options);
+  }
+  if (!read) throw InputError(path + ": OpenMesh cannot read this file");
+  for (const auto vertex : mesh.vertices()) {
+    const auto& point = mesh.point(vertex);
+    soup.points.emplace_back(point[0], point[1], point[2]);
+    if (!soup.points.back().allFinite()) {
+      throw InputError(path + ": vertex " + std::to_string(vertex.idx()) + " is not finite");
+    }
+  }
+  return soup;
+}
+
+}  // namespace flbc::openmesh

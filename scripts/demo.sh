@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and computes coordinates of a 2D and a 3D sample: weights at the
+# mesh and at the model, reports and pictures under out/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_dependencies.sh
+cmake --preset release -DFLBC_BUILD_TESTS=OFF -DFLBC_BUILD_BENCHMARKS=OFF -B build/demo >/dev/null
+cmake --build build/demo
+mkdir -p out
+flbc=build/demo/flbc
+
+# solve_and_draw DIM NAME DOMAIN_EXTENSION CONTROL_POINT
+solve_and_draw() {
+  local cage=meshes/$1/$2_cage.obj out=out/$2
+  "$flbc" solve "$cage" -o "$out"_weights.npy --save-domain "$out"_domain."$3" \
+    --report "$out"_report.json
+  "$flbc" solve "$cage" -o "$out"_model_weights.mtx --domain "$out"_domain."$3" \
+    --model meshes/"$1"/"$2"_model.obj
+  "$flbc" draw "$out"_domain."$3" --weights "$out"_weights.npy --cage "$cage" \
+    --control-point "$4" -o "$out".png
+}
+solve_and_draw 2d figure obj 8
+solve_and_draw 3d limb mesh 30
+
+echo
+echo "Weights, reports and pictures are in out/; look at out/figure.png and out/limb.png."

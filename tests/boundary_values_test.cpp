@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/boundary_values.h"
+
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class BoundaryValuesTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(BoundaryValuesTest, Dimensions);
+
+template <int Dim>
+BoundaryValues<Dim> values_of(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
+  return boundary_values(cage, mesh, build_topology(mesh));
+}
+
+TYPED_TEST(BoundaryValuesTest, EqualTheJudgesBarycentricCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto boundary = values_of(sample.cage, sample.mesh);
+    const auto expected = demanded_boundary_weights(sample.cage, sample.mesh);
+    for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(sample.cage.size());
+      boundary.scatter(static_cast<Index>(b), row);
+      EXPECT_LT((row - expected.col(boundary.vertices[b])).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_NEAR(row.sum(), 1, 1e-15);
+      EXPECT_EQ(boundary.slot[boundary.vertices[b]], static_cast<Index>(b));
+    }
+    for (Index i = 0; i < sample.cage.size(); ++i) {
+      EXPECT_TRUE(sample.mesh.points.col(boundary.control_vertices[i])
+                      .isApprox(sample.cage.points.col(i), 1e-14));
+    }
+  }
+}
+
+// Points on an edge of the cage belong to the edge: exactly two control points in 3D too.
+TYPED_TEST(BoundaryValuesTest, PointsOnCageEdgesHaveExactZerosElsewhere) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 3);
+  const auto boundary = values_of(sample.cage, sample.mesh);
+  int on_edges = 0;
+  for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
+    const Vector<kDim> point = sample.mesh.points.col(boundary.vertices[b]);
+    int inner_axes = 0;  // of the unit box
+    for (const double x : point) inner_axes += x > 1e-9 && x < 1 - 1e-9 ? 1 : 0;
+    if (inner_axes != 1) continue;
+    ++on_edges;
+    EXPECT_EQ((boundary.values.col(b).array() > 0).count(), 2);
+  }
+  EXPECT_EQ(on_edges, kDim == 2 ? 8 : 24);
+}
+
+TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 2);
+  auto bigger = sample.cage;
+  bigger.points *= 1.01;
+  EXPECT_THROW(values_of(bigger, sample.mesh), InputError);
+
+  // A control point in the middle of a facet's edge, where the mesh has no vertex.
+  const auto coarse = make_sample<kDim>(Shape::kBox, 1);
+  auto refined = make_sample<kDim>(Shape::kBox, 1).cage;
+  refined.points.conservativeResize(kDim, refined.points.cols() + 1);
+  const auto added = static_cast<Index>(refined.points.cols() - 1);
+  const Index a = refined.facets(0, 0);
+  const Index b = refined.facets(1, 0);
+  refined.points.col(added) = (refined.points.col(a) + refined.points.col(b)) / 2;
+  const auto old = refined.facets;
+  refined.facets.resize(kDim, old.cols() * 2);
+  Index count = 0;
+  for (Index f = 0; f < old.cols(); ++f) {  // split every facet with the edge a b
+    const bool has_edge = (old.col(f).array() == a).any() && (old.col(f).array() == b).any();
+    refined.facets.col(count) = old.col(f);
+    if (has_edge) {
+      for (Index& v : refined.facets.col(count).reshaped()) v = v == a ? added : v;
+      refined.facets.col(++count) = old.col(f);
+      for (Index& v : refined.facets.col(count).reshaped()) v = v == b ? added : v;
+    }
+    ++count;
+  }
+  refined.facets.conservativeResize(kDim, count);
+  try {
+    values_of(refined, coarse.mesh);
+    FAIL() << "accepted a mesh without vertex at a control point";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is no vertex of the domain mesh"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

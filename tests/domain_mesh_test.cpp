@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/domain_mesh.h"
+
+#include <limits>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class DomainMeshTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(DomainMeshTest, Dimensions);
+
+template <int Dim>
+void expect_refused(DomainMesh<Dim> mesh, const std::string& words) {
+  try {
+    normalize_and_validate(mesh);
+    FAIL() << "accepted, expected: " << words;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TYPED_TEST(DomainMeshTest, TopologyIsConsistent) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto& mesh = sample.mesh;
+    const auto topology = build_topology(mesh);
+    std::vector<int> visits(topology.num_facets(), 0);
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      for (int k = 0; k <= kDim; ++k) {
+        const Index f = topology.cell_facets(k, s);
+        ++visits[f];
+        EXPECT_TRUE(topology.sides(0, f) == s || topology.sides(1, f) == s);
+        for (const Index v : topology.facets.col(f)) {
+          EXPECT_NE(v, mesh.cells(k, s));
+          EXPECT_TRUE((mesh.cells.col(s).array() == v).any());
+        }
+      }
+    }
+    for (Index f = 0; f < topology.num_facets(); ++f) {
+      EXPECT_EQ(visits[f], topology.is_boundary(f) ? 1 : 2);
+    }
+  }
+}
+
+TYPED_TEST(DomainMeshTest, TurnsCellsRound) {
+  constexpr int kDim = TypeParam::value;
+  auto mesh = make_sample<kDim>(Shape::kBox, 2).mesh;
+  std::swap(mesh.cells(0, 1), mesh.cells(1, 1));
+  ASSERT_LT(signed_measure(mesh, 1), 0);
+  normalize_and_validate(mesh);
+  EXPECT_GT(signed_measure(mesh, 1), 0);
+}
+
+TYPED_TEST(DomainMeshTest, NamesDefects) {
+  constexpr int kDim = TypeParam::value;
+  const auto sound = make_sample<kDim>(Shape::kBox, 2).mesh;
+  expect_refused(DomainMesh<kDim>{}, "no cells");
+
+  auto mesh = sound;
+  mesh.points(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(mesh, "vertex 1 of the domain mesh is not finite");
+
+  mesh = sound;
+  mesh.cells(0, 3) = 1000;
+  expect_refused(mesh, "cell 3 of the domain mesh refers to vertex 1000");
+
+  mesh = sound;
+  mesh.cells(0, 3) = mesh.cells(1, 3);
+  expect_refused(mesh, "cell 3 of the domain mesh is degenerate");
+
+  mesh = sound;
+  mesh.points.conservativeResize(kDim, mesh.points.cols() + 1);
+  mesh.points.rightCols(1).setConstant(0.5);
+  expect_refused(mesh, "belongs to no cell");
+
+  mesh = sound;  // one cell thrice
+  mesh.cells.conservativeResize(kDim + 1, mesh.cells.cols() + 2);
+  mesh.cells.rightCols(2).colwise() = sound.cells.col(0);
+  expect_refused(mesh, "share one facet");
+
+  mesh = sound;  // a second copy beside the first
+  mesh.points.conservativeResize(kDim, 2 * sound.points.cols());
+  mesh.points.rightCols(sound.points.cols()) = sound.points.array() + 10;
+  mesh.cells.conservativeResize(kDim + 1, 2 * sound.cells.cols());
+  mesh.cells.rightCols(sound.cells.cols()) = sound.cells.array() + sound.num_vertices();
+  expect_refused(mesh, "not connected");
+}
+
+}  // namespace
+}  // namespace flbc::testing

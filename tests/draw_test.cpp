@@ -1,0 +1,652 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "draw/canvas.h"
+#include "draw/colormap.h"
+#include "draw/isolines.h"
+#include "draw/layout.h"
+#include "draw/oblique_view.h"
+#include "draw/png_writer.h"
+#include "draw/slice.h"
+#include "draw/slice_picture.h"
+#include "draw/stroke_font.h"
+#include "draw/weight_picture.h"
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+namespace {
+
+constexpr Color kPaper{1, 1, 1};
+constexpr Color kBlack{0, 0, 0};
+constexpr double kPi = 3.14159265358979323846;
+
+double difference(Color a, Color b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+// The area covered by black on white, in pixels.
+double darkness(const Image& image) {
+  double sum = 0;
+  for (const Color& pixel : image.pixels) sum += 1 - pixel.g;
+  return sum;
+}
+
+// Pure red is on no scale of weights.
+bool is_highlight(Color color) {
+  return color.r > 0.85 && color.g < 0.15 && color.b < 0.15;
+}
+
+template <int Dim>
+struct Sample {
+  Cage<Dim> cage;
+  DomainMesh<Dim> mesh;
+};
+
+// The rectangle [0, width] x [0, 1] in nx * ny * 2 triangles.
+Sample<2> rectangle(double width, int nx, int ny) {
+  Sample<2> s;
+  s.cage.points.resize(2, 4);
+  s.cage.points << 0, width, width, 0, 0, 0, 1, 1;
+  s.cage.facets.resize(2, 4);
+  s.cage.facets << 0, 1, 2, 3, 1, 2, 3, 0;
+  s.mesh.points.resize(2, (nx + 1) * (ny + 1));
+  s.mesh.cells.resize(3, 2 * nx * ny);
+  const auto id = [nx](int i, int j) { return j * (nx + 1) + i; };
+  for (int j = 0; j <= ny; ++j) {
+    for (int i = 0; i <= nx; ++i) s.mesh.points.col(id(i, j)) << width * i / nx, 1.0 * j / ny;
+  }
+  for (int j = 0, cell = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      s.mesh.cells.col(cell++) << id(i, j), id(i + 1, j), id(i + 1, j + 1);
+      s.mesh.cells.col(cell++) << id(i, j), id(i + 1, j + 1), id(i, j + 1);
+    }
+  }
+  return s;
+}
+
+// The box [0, size] in n^3 cubes of six Kuhn tetrahedra each; its cage has 12 triangles.
+Sample<3> box(const Vector<3>& size, int n) {
+  Sample<3> s;
+  s.cage.points.resize(3, 8);
+  for (int k = 0; k < 8; ++k) s.cage.points.col(k) << (k & 1), ((k >> 1) & 1), ((k >> 2) & 1);
+  s.cage.points = size.asDiagonal() * s.cage.points;
+  s.cage.facets.resize(3, 12);
+  s.cage.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      3, 2, 5, 7, 1, 5, 7, 6, 4, 6, 3, 7,               //
+      1, 3, 7, 6, 5, 4, 3, 7, 6, 2, 7, 5;
+  const auto id = [n](const std::array<int, 3>& i) {
+    return (i[2] * (n + 1) + i[1]) * (n + 1) + i[0];
+  };
+  s.mesh.points.resize(3, (n + 1) * (n + 1) * (n + 1));
+  s.mesh.cells.resize(4, 6 * n * n * n);
+  int cell = 0;
+  for (int v = 0; v < s.mesh.num_vertices(); ++v) {
+    const std::array<int, 3> corner{v % (n + 1), v / (n + 1) % (n + 1), v / (n + 1) / (n + 1)};
+    s.mesh.points.col(v) =
+        size.cwiseProduct(Vector<3>(corner[0], corner[1], corner[2])) / static_cast<double>(n);
+    if (*std::max_element(corner.begin(), corner.end()) == n) continue;
+    std::array<int, 3> order{0, 1, 2};
+    do {
+      std::array<int, 3> at = corner;
+      s.mesh.cells(0, cell) = id(at);
+      for (int k = 0; k < 3; ++k) {
+        ++at[order[k]];
+        s.mesh.cells(k + 1, cell) = id(at);
+      }
+      ++cell;
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+  return s;
+}
+
+template <int Dim>
+Eigen::VectorXd evaluate(const DomainMesh<Dim>& mesh,
+                         const std::function<double(const Vector<Dim>&)>& function) {
+  Eigen::VectorXd values(mesh.num_vertices());
+  for (Index v = 0; v < mesh.num_vertices(); ++v) values[v] = function(mesh.points.col(v));
+  return values;
+}
+
+double area(const Slice& slice) {
+  double sum = 0;
+  for (Index s = 0; s < slice.mesh.num_cells(); ++s) {
+    const Vector<2> a = slice.mesh.points.col(slice.mesh.cells(0, s));
+    const Vector<2> u = slice.mesh.points.col(slice.mesh.cells(1, s)) - a;
+    const Vector<2> v = slice.mesh.points.col(slice.mesh.cells(2, s)) - a;
+    const double part = (u.x() * v.y() - u.y() * v.x()) / 2;
+    EXPECT_GE(part, -1e-15) << "triangle " << s;
+    sum += part;
+  }
+  return sum;
+}
+
+double length(const std::vector<Segment>& segments) {
+  double sum = 0;
+  for (const Segment& segment : segments) sum += (segment.b - segment.a).norm();
+  return sum;
+}
+
+WeightPictureOptions without_lines() {
+  WeightPictureOptions options;
+  options.width = 400;
+  options.isolines = 0;
+  options.support_level = 0;
+  options.color_bar = false;
+  return options;
+}
+
+// ---------------------------------------------------------------------------------------- Canvas
+
+TEST(TriangleRaster, TrianglesOfAMeshVisitEachSampleOnce) {
+  // Corners at halves lie exactly on samples or on rows of samples: the difficult cases.
+  std::mt19937 random(7);
+  constexpr int kCells = 8;
+  constexpr int kSize = 40;
+  std::vector<Vector<2>> points;
+  for (int j = 0; j <= kCells; ++j) {
+    for (int i = 0; i <= kCells; ++i) {
+      const bool inner = i > 0 && j > 0 && i < kCells && j < kCells;
+      const auto shift = [&] { return inner ? static_cast<double>(random() % 5) / 2 - 1 : 0.0; };
+      const double dx = shift();
+      points.emplace_back(i * kSize / kCells + dx, j * kSize / kCells + shift());
+    }
+  }
+  std::vector<int> visits(kSize * kSize, 0);
+  const auto visit = [&](int x, int y, double, double) { ++visits[y * kSize + x]; };
+  for (int j = 0; j < kCells; ++j) {
+    for (int i = 0; i < kCells; ++i) {
+      const int a = j * (kCells + 1) + i;
+      const int c = a + kCells + 2;
+      for_each_sample({points[a], points[a + 1], points[c]}, kSize, kSize, visit);
+      for_each_sample({points[a], points[c], points[c - 1]}, kSize, kSize, visit);
+    }
+  }
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), kSize * kSize);
+}
+
+TEST(TriangleRaster, InterpolatesInBothOrientationsAndClips) {
+  const Vector<2> a(-20, -10);
+  const Vector<2> b(50, 3);
+  const Vector<2> c(10, 60);
+  for (const Corners& corners : {Corners{a, b, c}, Corners{a, c, b}}) {
+    int visits = 0;
+    for_each_sample(corners, 20, 20, [&](int x, int y, double b1, double b2) {
+      ++visits;
+      ASSERT_TRUE(x >= 0 && x < 20 && y >= 0 && y < 20);
+      const Vector<2> p = (1 - b1 - b2) * corners[0] + b1 * corners[1] + b2 * corners[2];
+      EXPECT_NEAR(p.x(), x + 0.5, 1e-9);
+      EXPECT_NEAR(p.y(), y + 0.5, 1e-9);
+    });
+    EXPECT_GT(visits, 200);
+  }
+}
+
+TEST(Canvas, CoversTheRightAreas) {
+  Canvas triangle(60, 60, kPaper);
+  triangle.fill_triangle({Vector<2>(3.3, 4.1), {55.2, 12.7}, {20.9, 51.4}}, kBlack);
+  const double exact = 0.5 * ((55.2 - 3.3) * (51.4 - 4.1) - (12.7 - 4.1) * (20.9 - 3.3));
+  EXPECT_NEAR(darkness(triangle.resolve()), exact, 0.005 * exact);
+
+  Canvas disc(60, 60, kPaper);
+  disc.fill_disc({30.2, 29.7}, 20.5, kBlack);
+  EXPECT_NEAR(darkness(disc.resolve()), kPi * 20.5 * 20.5, 0.002 * kPi * 20.5 * 20.5);
+
+  Canvas circle(60, 60, kPaper);
+  circle.draw_circle({30.2, 29.7}, 20.5, 2, kBlack);
+  EXPECT_NEAR(darkness(circle.resolve()), 2 * kPi * 20.5 * 2, 0.005 * 2 * kPi * 20.5 * 2);
+
+  for (const Vector<2>& end : {Vector<2>(50, 10), {50, 50}, {10, 50}, {17, 48}}) {
+    Canvas line(60, 60, kPaper);
+    line.draw_segments({{{10, 10}, end}}, 3, kBlack);
+    const double capsule = 3 * (end - Vector<2>(10, 10)).norm() + kPi * 1.5 * 1.5;
+    EXPECT_NEAR(darkness(line.resolve()), capsule, 0.01 * capsule) << end.transpose();
+  }
+}
+
+TEST(Canvas, JoinedAndCrossingSegmentsAreNoDarker) {
+  Canvas canvas(40, 40, kPaper);
+  canvas.draw_segments({{{5, 20}, {20, 20}}, {{20, 20}, {35, 20}}, {{20, 5}, {20, 35}}}, 4, kBlack,
+                       0.5F);
+  const Image image = canvas.resolve();
+  EXPECT_NEAR(image.at(20, 20).g, 0.5, 0.01);
+  EXPECT_NEAR(image.at(10, 20).g, 0.5, 0.01);
+  // The next drawing must start afresh.
+  canvas.draw_segments({{{5, 5}, {6, 5}}}, 1, kBlack);
+  EXPECT_EQ(canvas.resolve().at(20, 20).g, image.at(20, 20).g);
+}
+
+TEST(Canvas, CutsOffWhatLiesOutside) {
+  Canvas canvas(20, 10, kPaper);
+  canvas.draw_segments({{{-1e5, 5}, {1e5, 5}}}, 2, kBlack);
+  canvas.draw_segments({{{-50, -50}, {-40, -50}}, {{1e9, 3}, {2e9, 3}}}, 2, kBlack);
+  canvas.fill_disc({-100, 5}, 10, kBlack);
+  canvas.fill_triangle({Vector<2>(1e12, 0), {0, 1e12}, {0, 0}}, kBlack);
+  EXPECT_NEAR(darkness(canvas.resolve()), 2 * 20, 0.4);
+}
+
+TEST(Canvas, RefusesImpossibleSizes) {
+  EXPECT_THROW(Canvas(0, 5, kPaper), OptionError);
+  EXPECT_THROW(Canvas(90000, 90000, kPaper), OptionError);
+}
+
+TEST(StrokeFont, StaysWithinItsBox) {
+  for (const std::string text : {"0123456789", "w", "<0", ">1", "-0.5"}) {
+    const double width = text_width(text, 18);
+    Canvas canvas(static_cast<int>(width) + 20, 38, kPaper);
+    draw_text(canvas, {10, 28}, text, 18, kBlack);
+    const Image image = canvas.resolve();
+    double inside = 0;
+    for (int y = 7; y < 31; ++y) {
+      for (int x = 7; x < static_cast<int>(10 + width) + 3; ++x) inside += 1 - image.at(x, y).g;
+    }
+    EXPECT_GT(inside, 20) << text;
+    EXPECT_NEAR(inside, darkness(image), 1e-6) << text;
+  }
+  EXPECT_EQ(text_width("", 18), 0);
+  EXPECT_DOUBLE_EQ(text_width("00", 36), 2 * text_width("00", 18));
+}
+
+// -------------------------------------------------------------------------------------- Colormap
+
+double lightness(Color color) {
+  const auto linear = [](double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.r) + 0.7152 * linear(color.g) + 0.0722 * linear(color.b);
+}
+
+TEST(Colormap, DarkensAllTheWayWithoutSteps) {
+  constexpr int kSteps = 500;
+  for (int k = 0; k < kSteps; ++k) {
+    const Color here = weight_color(1.0 * k / kSteps);
+    const Color next = weight_color((k + 1.0) / kSteps);
+    EXPECT_GT(lightness(here), lightness(next)) << k;
+    EXPECT_LT(difference(here, next), 0.02) << k;
+  }
+  EXPECT_GT(lightness(weight_color(0)), 0.9);
+}
+
+TEST(Colormap, DefectsLookLikeNoWeight) {
+  for (const double weight : {-0.0011, -0.01, -0.1, -5.0, 1.0011, 1.01, 1.1, 7.0}) {
+    for (int k = 0; k <= 1000; ++k) {
+      EXPECT_GT(difference(weight_color(weight), weight_color(k / 1000.0)), 0.1) << weight;
+    }
+  }
+  EXPECT_EQ(difference(weight_color(-0.0009), weight_color(0)), 0);
+  EXPECT_EQ(difference(weight_color(1.0009), weight_color(1)), 0);
+}
+
+// ------------------------------------------------------------------------------------------- PNG
+
+TEST(PngWriter, IsReadBackByLibpng) {
+  Image image{3, 2, {}};
+  image.pixels = {{0, 0, 0}, {1, 1, 1}, {1, 0, 0}, {0, 0.5F, 0}, {0, 0, 0.2F}, {-3, 4, 1}};
+  const std::string bytes = encode_png(image);
+  EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
+
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()), 0);
+  EXPECT_EQ(header.width, 3U);
+  EXPECT_EQ(header.height, 2U);
+  header.format = PNG_FORMAT_RGB;
+  std::vector<png_byte> decoded(PNG_IMAGE_SIZE(header));
+  ASSERT_NE(png_image_finish_read(&header, nullptr, decoded.data(), 0, nullptr), 0);
+  const std::vector<png_byte> expected{0, 0,   0, 255, 255, 255, 255, 0,   0,
+                                       0, 128, 0, 0,   0,   51,  0,   255, 255};
+  EXPECT_EQ(decoded, expected);
+}
+
+TEST(PngWriter, RefusesAnEmptyPicture) {
+  EXPECT_THROW(encode_png(Image{}), IoError);
+}
+
+// -------------------------------------------------------------------------------------- Isolines
+
+TEST(Isolines, OfALinearFunctionAreStraightAndComplete) {
+  // With 8 columns the level 0.5 runs through vertices, the others do not.
+  const auto s = rectangle(1, 8, 5);
+  const auto values = evaluate<2>(s.mesh, [](const Vector<2>& p) { return p.x(); });
+  for (const double level : {0.1, 0.5, 0.9}) {
+    const auto segments = trace_isolines(s.mesh.points, s.mesh.cells, values, {level});
+    EXPECT_NEAR(length(segments), 1, 1e-12) << level;
+    for (const Segment& segment : segments) {
+      EXPECT_NEAR(segment.a.x(), level, 1e-12);
+      EXPECT_NEAR(segment.b.x(), level, 1e-12);
+    }
+  }
+  const auto all = trace_isolines(s.mesh.points, s.mesh.cells, values, isoline_levels(10));
+  EXPECT_NEAR(length(all), 9, 1e-11);
+}
+
+TEST(Isolines, AreAbsentOnPlateaus) {
+  const auto s = rectangle(1, 6, 6);
+  for (const double value : {0.0, 0.5, 1.0}) {
+    const Eigen::VectorXd values = Eigen::VectorXd::Constant(s.mesh.num_vertices(), value);
+    EXPECT_TRUE(
+        trace_isolines(s.mesh.points, s.mesh.cells, values, {0.0, 0.001, 0.5, 1.0}).empty());
+  }
+  // Rounding errors do not make a plateau a hilly land.
+  Eigen::VectorXd noise(s.mesh.num_vertices());
+  for (Index v = 0; v < noise.size(); ++v) noise[v] = 0.5 + (v % 3 - 1) * 1e-9;
+  EXPECT_TRUE(trace_isolines(s.mesh.points, s.mesh.cells, noise, {0.5}).empty());
+  EXPECT_TRUE(isoline_levels(1).empty());
+  EXPECT_TRUE(isoline_levels(0).empty());
+}
+
+// -------------------------------------------------------------------------------- Plane pictures
+
+// A place in the domain, as a pixel of the picture.
+Vector<2> pixel_of(const Cage<2>& cage, const Vector<2>& p, const WeightPictureOptions& options) {
+  const Box content = bounding_box(cage.points);
+  return PixelMap(content, plan_picture(content, options).frame)(p);
+}
+
+TEST(WeightPicture, ShowsTheColorsOfInterpolatedValues) {
+  const auto s = rectangle(1.5, 3, 2);
+  const auto f = [](const Vector<2>& p) { return 0.1 + 0.3 * p.x() + 0.4 * p.y(); };
+  const auto options = without_lines();
+  const Image image = draw_weights(s.cage, s.mesh, evaluate<2>(s.mesh, f), 2, options);
+  ASSERT_EQ(image.width, 400);
+  for (double x = 0.1; x < 1.45; x += 0.1) {
+    for (double y = 0.1; y < 0.95; y += 0.1) {
+      const Vector<2> at = pixel_of(s.cage, {x, y}, options);
+      const Color seen = image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+      EXPECT_LT(difference(seen, weight_color(f({x, y}))), 0.015) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(WeightPicture, IsWhiteOutsideAndRedAtTheControlPoint) {
+  // An L: the notch is within the bounding box but outside the cage.
+  Sample<2> s;
+  s.cage.points.resize(2, 6);
+  s.cage.points << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2;
+  s.cage.facets.resize(2, 6);
+  s.cage.facets << 0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 0;
+  s.mesh.points = s.cage.points;
+  s.mesh.cells.resize(3, 4);
+  s.mesh.cells << 0, 1, 0, 0, 1, 2, 3, 4, 3, 3, 4, 5;
+  const auto options = without_lines();
+  const Image image = draw_weights(s.cage, s.mesh, Eigen::VectorXd::Unit(6, 4), 4, options);
+  const auto color_at = [&](const Vector<2>& p) {
+    const Vector<2> at = pixel_of(s.cage, p, options);
+    return image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  };
+  EXPECT_EQ(difference(color_at({1.6, 1.6}), kPaper), 0);
+  EXPECT_GT(difference(color_at({0.6, 1.4}), kPaper), 0.02);
+  EXPECT_TRUE(is_highlight(color_at({1, 2})));
+  EXPECT_FALSE(is_highlight(color_at({1, 1})));
+  for (int x = 0; x < image.width; ++x) {
+    EXPECT_EQ(difference(image.at(x, 0), kPaper), 0);
+    EXPECT_EQ(difference(image.at(x, image.height - 1), kPaper), 0);
+  }
+}
+
+TEST(WeightPicture, ZeroFunctionHasNoIsolines) {
+  const auto s = rectangle(1, 20, 20);
+  WeightPictureOptions options = without_lines();
+  options.isolines = 10;
+  options.support_level = 1e-3;
+  const Image image =
+      draw_weights(s.cage, s.mesh, Eigen::VectorXd::Zero(s.mesh.num_vertices()), 0, options);
+  const Vector<2> low = pixel_of(s.cage, {0.1, 0.9}, options);
+  const Vector<2> high = pixel_of(s.cage, {0.9, 0.1}, options);
+  for (int y = static_cast<int>(low.y()); y < static_cast<int>(high.y()); ++y) {
+    for (int x = static_cast<int>(low.x()); x < static_cast<int>(high.x()); ++x) {
+      ASSERT_LT(difference(image.at(x, y), weight_color(0)), 1e-4) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(WeightPicture, IsolinesAreEquallyWideInSteepAndFlatAreas) {
+  // 0.4 to 0.9 on the first tenth, then slowly down: level 0.5 is crossed steeply and flatly.
+  const auto s = rectangle(1, 20, 4);
+  const auto f = [](const Vector<2>& p) {
+    return p.x() < 0.1 ? 0.4 + 5 * p.x() : 0.9 - 0.6 * (p.x() - 0.1);
+  };
+  WeightPictureOptions options = without_lines();
+  options.width = 1200;
+  const auto values = evaluate<2>(s.mesh, f);
+  const Image plain = draw_weights(s.cage, s.mesh, values, 0, options);
+  options.isolines = 2;
+  const Image lined = draw_weights(s.cage, s.mesh, values, 0, options);
+  // Ink per row round a crossing, relative to what a full pixel of ink would change.
+  const auto ink = [&](double x) {
+    const Vector<2> at = pixel_of(s.cage, {x, 0.53}, options);
+    const int row = static_cast<int>(at.y());
+    double sum = 0;
+    for (int column = static_cast<int>(at.x()) - 6; column <= static_cast<int>(at.x()) + 6;
+         ++column) {
+      sum += difference(plain.at(column, row), lined.at(column, row));
+    }
+    return sum / weight_color(0.5).g;
+  };
+  const double steep = ink(0.02);
+  const double flat = ink(0.1 + 0.4 / 0.6);
+  EXPECT_GT(flat, 0.5);
+  EXPECT_NEAR(steep, flat, 0.1 * flat);
+}
+
+TEST(WeightPicture, ShowsDefects) {
+  const auto s = rectangle(1, 4, 4);
+  const auto options = without_lines();
+  const Image image = draw_weights(
+      s.cage, s.mesh, Eigen::VectorXd::Constant(s.mesh.num_vertices(), -0.05), 0, options);
+  EXPECT_LT(difference(image.at(200, image.height / 2), weight_color(-0.05)), 1e-4);
+}
+
+TEST(WeightPicture, NamesWhatIsWrong) {
+  const auto s = rectangle(1, 2, 2);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(9);
+  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 4), OptionError);
+  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, -1), OptionError);
+  EXPECT_THROW(draw_weights(s.cage, s.mesh, values.head(8), 0), InputError);
+  WeightPictureOptions options;
+  options.width = 10;
+  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 0, options), OptionError);
+  values[7] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    draw_weights(s.cage, s.mesh, values, 0);
+    FAIL() << "a value that is not finite must be refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("vertex 7"), std::string::npos) << error.what();
+  }
+}
+
+TEST(WeightPicture, SheetHasOnePanelPerControlPoint) {
+  const auto s = rectangle(1, 4, 4);
+  const WeightMatrix weights = WeightMatrix::Zero(4, s.mesh.num_vertices());
+  WeightPictureOptions options;
+  options.width = 600;
+  const auto red_pixels = [&](const std::vector<Index>& control_points) {
+    // The dots are equally large, however many panels there are.
+    const Image image = draw_all(s.cage, s.mesh, weights, control_points, options);
+    return std::count_if(image.pixels.begin(), image.pixels.end(), is_highlight);
+  };
+  const auto two = red_pixels({3, 1});
+  EXPECT_GT(two, 20);
+  EXPECT_NEAR(static_cast<double>(red_pixels({0, 1, 2, 3})), 2.0 * static_cast<double>(two),
+              0.2 * static_cast<double>(two));
+  EXPECT_THROW(draw_all(s.cage, s.mesh, weights, {}), OptionError);
+  EXPECT_THROW(draw_all(s.cage, s.mesh, weights, {0, 4}), OptionError);
+}
+
+// ---------------------------------------------------------------------------------------- Slices
+
+TEST(Slice, OfACubeHasTheAreaAndOutlineOfTheSection) {
+  const auto s = box({1, 1, 1}, 4);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(s.mesh.num_vertices());
+  struct Case {
+    Vector<3> origin, normal;
+    double area, perimeter;
+  };
+  const double hexagon_side = std::sqrt(0.5);
+  const std::vector<Case> cases{
+      {{0, 0, 0.3}, {0, 0, 1}, 1, 4},
+      {{0, 0, 0.5}, {0, 0, -2}, 1, 4},  // along faces of the mesh
+      {{0.77, 0, 0}, {1, 0, 0}, 1, 4},
+      {{0.5, 0.5, 0}, {1, -1, 0}, std::sqrt(2), 2 + 2 * std::sqrt(2)},  // through cells' edges
+      {{0.5, 0.5, 0.5}, {1, 1, 1}, 1.5 * std::sqrt(3) * 0.5, 6 * hexagon_side},
+      {{0, 0, 2}, {0, 0, 1}, 0, 0}};
+  for (const Case& c : cases) {
+    const Slice slice = cut(s.cage, s.mesh, zero, plane_through(c.origin, c.normal));
+    EXPECT_NEAR(area(slice), c.area, 1e-12) << c.normal.transpose();
+    EXPECT_NEAR(length(slice.outline), c.perimeter, 1e-12) << c.normal.transpose();
+  }
+}
+
+TEST(Slice, InterpolatesLinearFunctionsExactly) {
+  const auto s = box({1, 2, 3}, 3);
+  const auto f = [](const Vector<3>& p) { return 0.2 + 0.3 * p.x() - 0.1 * p.y() + 0.05 * p.z(); };
+  const Plane plane = plane_through({0.4, 0.9, 1.3}, {1, 2, -0.7});
+  const Slice slice = cut(s.cage, s.mesh, evaluate<3>(s.mesh, f), plane);
+  ASSERT_GT(slice.mesh.num_cells(), 0);
+  for (Index v = 0; v < slice.mesh.num_vertices(); ++v) {
+    const Vector<3> p = plane.to_space(slice.mesh.points.col(v));
+    EXPECT_NEAR(plane.distance(p), 0, 1e-12);
+    EXPECT_NEAR(slice.values[v], f(p), 1e-12);
+  }
+}
+
+TEST(Slice, PlanesHaveRightHandedAxes) {
+  for (const Vector<3>& normal : {Vector<3>(0, 0, 3), {1, 0, 0}, {0, -1, 0}, {1, 2, -3}}) {
+    const Plane plane = plane_through({1, 2, 3}, normal);
+    EXPECT_LT((plane.u.cross(plane.v) - normal.normalized()).norm(), 1e-14);
+    EXPECT_NEAR(plane.u.norm(), 1, 1e-14);
+    EXPECT_NEAR(plane.u.dot(plane.v), 0, 1e-14);
+  }
+  EXPECT_THROW(plane_through({0, 0, 0}, {0, 0, 0}), OptionError);
+}
+
+TEST(Slice, PlanesAreSpreadAndOneMeetsTheControlPoint) {
+  auto s = box({1, 1, 4}, 4);
+  // A control point in the middle of an edge would be anywhere else on the axis.
+  s.cage.points.conservativeResize(3, 9);
+  s.cage.points.col(8) << 1, 1, 1.7;
+  const auto bump = evaluate<3>(
+      s.mesh, [](const Vector<3>& p) { return std::max(0.0, 1 - std::abs(p.z() - 1.7)); });
+  for (const int count : {1, 2, 3, 7}) {
+    const auto planes = choose_planes(s.cage, s.mesh, bump, 8, count);
+    ASSERT_EQ(static_cast<int>(planes.size()), count);
+    double nearest = 1e9;
+    for (const Plane& plane : planes) {
+      EXPECT_EQ(plane.normal, Vector<3>(0, 0, 1));
+      EXPECT_GT(plane.origin.z(), 0);
+      EXPECT_LT(plane.origin.z(), 4);
+      nearest = std::min(nearest, std::abs(plane.distance({1, 1, 1.7})));
+    }
+    EXPECT_LT(nearest, 0.11 * 2 / count) << count;
+    for (int k = 0; k + 1 < count; ++k) {
+      EXPECT_GT(planes[k + 1].origin.z() - planes[k].origin.z(), 0.2 / count);
+    }
+  }
+  // At the end of the cage the slices stay within it.
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(s.mesh.num_vertices());
+  const auto planes = choose_planes(s.cage, s.mesh, all, 0, 3);
+  EXPECT_GT(planes.front().origin.z(), 0.01);
+  EXPECT_GT(planes.back().origin.z(), 3);
+  // Even a function without support gets a range that can be seen, on the side of its point.
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(s.mesh.num_vertices());
+  const auto low = choose_planes(s.cage, s.mesh, none, 0, 3);
+  EXPECT_GT(low.front().origin.z(), 0.01);
+  EXPECT_GT(low.back().origin.z(), 1);
+  EXPECT_LT(low.back().origin.z(), 2);
+  const auto high = choose_planes(s.cage, s.mesh, none, 7, 3);
+  EXPECT_LT(high.back().origin.z(), 3.99);
+  EXPECT_LT(high.front().origin.z(), 3);
+  EXPECT_GT(high.front().origin.z(), 2);
+  EXPECT_THROW(choose_planes(s.cage, s.mesh, all, 0, 0), OptionError);
+}
+
+// Where draw_slices() puts a point of space, for pictures without panels.
+Vector<2> pixel_of(const Cage<3>& cage, const ObliqueView& view, const Vector<3>& p,
+                   const WeightPictureOptions& options) {
+  const Box content = bounding_box(view.project(cage.points));
+  return PixelMap(content, plan_picture(content, options).frame)(view.project(p));
+}
+
+TEST(SlicePicture, NearestSliceShowsTheColorsOfTheFunction) {
+  // So short, with so many slices, that they hide each other: the order of painting matters.
+  const auto s = box({1.2, 1, 1}, 6);
+  const auto f = [](const Vector<3>& p) { return 0.2 + 0.3 * p.y() + 0.4 * p.z(); };
+  const auto values = evaluate<3>(s.mesh, f);
+  WeightPictureOptions options = without_lines();
+  options.width = 800;
+  options.slice_panels = false;
+  constexpr Index kControlPoint = 7;  // the corner with the largest coordinates
+  const Image image = draw_slices(s.cage, s.mesh, values, kControlPoint, 8, options);
+
+  const Vector<3> side = s.cage.points.col(kControlPoint) - Vector<3>(0.6, 0.5, 0.5);
+  const ObliqueView view = view_of_slices(0, side);
+  ASSERT_GT(view.toward.x(), 0);
+  const auto color_at = [&](const Vector<3>& p) {
+    const Vector<2> at = pixel_of(s.cage, view, p, options);
+    return image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  };
+  const Plane nearest = choose_planes(s.cage, s.mesh, values, kControlPoint, 8).back();
+  int matches = 0;
+  int all = 0;
+  for (double y = 0.1; y < 0.95; y += 0.1) {
+    for (double z = 0.1; z < 0.95; z += 0.1) {
+      const Vector<3> p(nearest.origin.x(), y, z);
+      ++all;
+      if (difference(color_at(p), weight_color(f(p))) < 0.02) ++matches;
+    }
+  }
+  // A few places are crossed by the cage's edges.
+  EXPECT_GT(matches, 0.85 * all);
+  EXPECT_TRUE(is_highlight(color_at(s.cage.points.col(kControlPoint))));
+  EXPECT_EQ(difference(image.at(2, 2), kPaper), 0);
+}
+
+TEST(SlicePicture, DoesNotDependOnTheOrientationOfTheCage) {
+  const auto s = box({1, 1, 1}, 3);
+  const auto values = evaluate<3>(s.mesh, [](const Vector<3>& p) { return p.prod(); });
+  Cage<3> reversed = s.cage;
+  reversed.facets.row(0).swap(reversed.facets.row(1));
+  WeightPictureOptions options;
+  options.width = 300;
+  EXPECT_EQ(encode_png(draw_slices(s.cage, s.mesh, values, 7, 3, options)),
+            encode_png(draw_slices(reversed, s.mesh, values, 7, 3, options)));
+}
+
+TEST(SlicePicture, PanelsShowEachSlice) {
+  const auto s = box({3, 1, 1}, 6);
+  const Eigen::VectorXd values = Eigen::VectorXd::Constant(s.mesh.num_vertices(), 0.8);
+  WeightPictureOptions options = without_lines();
+  const auto colored = [&](const Image& image) {
+    return std::count_if(image.pixels.begin(), image.pixels.end(),
+                         [](Color pixel) { return difference(pixel, weight_color(0.8)) < 0.02; });
+  };
+  const auto with_panels = draw_slices(s.cage, s.mesh, values, 0, 3, options);
+  options.slice_panels = false;
+  const auto without_panels = draw_slices(s.cage, s.mesh, values, 0, 3, options);
+  EXPECT_GT(with_panels.height, without_panels.height);
+  // The panels are larger than the slices in the oblique view.
+  EXPECT_GT(colored(with_panels), 2 * colored(without_panels));
+  EXPECT_GT(colored(without_panels), 1000);
+}
+
+TEST(SlicePicture, NamesWhatIsWrong) {
+  const auto s = box({1, 1, 1}, 2);
+  const Eigen::VectorXd values = Eigen::VectorXd::Zero(s.mesh.num_vertices());
+  EXPECT_THROW(draw_slices(s.cage, s.mesh, values, 8, 3), OptionError);
+  EXPECT_THROW(draw_slices(s.cage, s.mesh, values, 0, 0), OptionError);
+  EXPECT_THROW(draw_slices(s.cage, s.mesh, values.head(5), 0, 3), InputError);
+}
+
+}  // namespace
+}  // namespace flbc::draw

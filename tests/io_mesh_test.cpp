@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/mesh_io.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "flbc/errors.h"
+#include "support/io_files.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::io {
+namespace {
+
+using flbc::testing::bit_equal;
+using flbc::testing::expect_error;
+using flbc::testing::FolderTest;
+using Names = std::vector<std::string>;
+
+template <int Dim>
+std::vector<std::string> readable_extensions() {
+  if constexpr (Dim == 2) return {"obj", "off", "OBJ"};
+  return {"mesh", "node", "ele", "msh", "MSH"};
+}
+
+// A file and what the message about it must say: "FILE" + place, and the message.
+struct Malformed {
+  std::string content;
+  std::string place;
+  std::string message;
+};
+
+class MeshFile : public FolderTest {
+ protected:
+  void expect_malformed(const std::string& name, const std::vector<Malformed>& cases) {
+    for (const Malformed& malformed : cases) {
+      SCOPED_TRACE(malformed.content.substr(0, 300));
+      const std::string file = make(name, malformed.content);
+      expect_error<InputError>([&] { read_domain<3>(file); },
+                               {file + malformed.place, malformed.message});
+    }
+  }
+};
+
+template <class Dimension>
+class DomainFile : public FolderTest {
+ protected:
+  // Coordinates with all their digits.
+  static DomainMesh<Dimension::value> awkward_mesh() {
+    constexpr int Dim = Dimension::value;
+    DomainMesh<Dim> mesh = flbc::testing::samples<Dim>().front().mesh;
+    for (Index v = 0; v < mesh.num_vertices(); ++v) {
+      mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<Dim>::Constant(1e-9 * v);
+    }
+    mesh.points.col(0)[0] = mesh.points.col(0)[0] * (1 + 1e-15);
+    return mesh;
+  }
+};
+
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(DomainFile, Dimensions);
+
+TYPED_TEST(DomainFile, RoundTripIsBitEqual) {
+  constexpr int Dim = TypeParam::value;
+  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    const std::string file = this->path("domain." + extension);
+    write_domain(file, mesh);
+    const DomainMesh<Dim> read = read_domain<Dim>(file);
+    EXPECT_TRUE(bit_equal(read.points, mesh.points)) << extension;
+    EXPECT_EQ(read.cells, mesh.cells) << extension;
+  }
+}
+
+TYPED_TEST(DomainFile, TinyAndHugeCoordinatesSurvive) {
+  constexpr int Dim = TypeParam::value;
+  for (const double size : {1e-70, 1.0 / 3.0, 1e70}) {
+    DomainMesh<Dim> mesh;
+    mesh.points.resize(Dim, Dim + 1);
+    mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim) * size;
+    mesh.points(0, 2) = -4.9406564584124654e-324;
+    mesh.cells = CellList<Dim>::Zero(Dim + 1, 1);
+    for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+    for (const std::string& extension : readable_extensions<Dim>()) {
+      const std::string file = this->path("domain." + extension);
+      write_domain(file, mesh);
+      EXPECT_TRUE(bit_equal(read_domain<Dim>(file).points, mesh.points)) << extension;
+    }
+  }
+}
+
+TYPED_TEST(DomainFile, CellsAreTurnedRound) {
+  constexpr int Dim = TypeParam::value;
+  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  DomainMesh<Dim> inverted = mesh;
+  for (Index s = 0; s < mesh.num_cells(); s += 2) {
+    std::swap(inverted.cells(0, s), inverted.cells(1, s));
+  }
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    const std::string file = this->path("domain." + extension);
+    write_domain(file, inverted);
+    const DomainMesh<Dim> read = read_domain<Dim>(file);
+    for (Index s = 0; s < read.num_cells(); ++s) ASSERT_GT(signed_measure(read, s), 0);
+  }
+}
+
+TYPED_TEST(DomainFile, InvalidMeshesAreReportedWithTheFile) {
+  constexpr int Dim = TypeParam::value;
+  DomainMesh<Dim> mesh = this->awkward_mesh();
+  mesh.points.conservativeResize(Dim, mesh.points.cols() + 1);
+  mesh.points.col(mesh.points.cols() - 1).setConstant(9);
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    const std::string file = this->path("domain." + extension);
+    write_domain(file, mesh);
+    expect_error<InputError>(
+        [&] { read_domain<Dim>(file); },
+        {file + ": ", "vertex " + std::to_string(mesh.num_vertices() - 1), "belongs to no cell"});
+  }
+}
+
+TYPED_TEST(DomainFile, CutAnywhereIsAnErrorOrTheWholeMesh) {
+  constexpr int Dim = TypeParam::value;
+  DomainMesh<Dim> mesh;
+  mesh.points.resize(Dim, Dim + 1);
+  mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim);
+  mesh.cells.resize(Dim + 1, 1);
+  for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    const std::string file = this->path("domain." + extension);
+    write_domain(file, mesh);
+    const std::string whole = this->content("domain." + extension);
+    int errors = 0;
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+      this->make("domain." + extension, whole.substr(0, length));
+      try {
+        const DomainMesh<Dim> read = read_domain<Dim>(file);
+        EXPECT_EQ(read.cells, mesh.cells) << extension << ", cut at " << length;
+      } catch (const InputError& error) {
+        // TetGen's other file may be the one that is too short for the number of nodes.
+        const std::string stem = file.substr(0, file.size() - extension.size());
+        EXPECT_EQ(std::string(error.what()).rfind(stem, 0), 0u) << error.what();
+        ++errors;
+      }
+    }
+    EXPECT_GT(errors, static_cast<int>(whole.size()) / 2) << extension;
+  }
+}
+
+TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
+  constexpr int Dim = TypeParam::value;
+  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const std::string wrong = this->path(Dim == 2 ? "domain.mesh" : "domain.obj");
+  const std::string listed = Dim == 2 ? ".obj" : ".mesh";
+  for (const std::string& file : {wrong, this->path("domain.xyz"), this->path("domain")}) {
+    expect_error<OptionError>([&] { read_domain<Dim>(file); }, {file, listed});
+    expect_error<OptionError>([&] { write_domain(file, mesh); }, {file, listed, ".vtu"});
+  }
+  expect_error<OptionError>([&] { read_domain<Dim>("a.vtu"); }, {"cannot read", "a.vtu"});
+  EXPECT_TRUE(this->names().empty());
+}
+
+TYPED_TEST(DomainFile, FilesThatCannotBeOpened) {
+  constexpr int Dim = TypeParam::value;
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    expect_error<IoError>([&] { read_domain<Dim>(this->path("missing." + extension)); },
+                          {this->path("missing."), "No such file"});
+    const std::string nowhere = this->path("missing/domain." + extension);
+    expect_error<IoError>([&] { write_domain(nowhere, this->awkward_mesh()); },
+                          {this->path("missing/domain."), "No such file"});
+  }
+  EXPECT_TRUE(this->names().empty());
+}
+
+TYPED_TEST(DomainFile, CoordinatesThatAreNotFiniteAreNotWritten) {
+  constexpr int Dim = TypeParam::value;
+  DomainMesh<Dim> mesh = this->awkward_mesh();
+  mesh.points(1, 3) = 0.0 / 0.0;
+  for (const std::string& extension : readable_extensions<Dim>()) {
+    expect_error<InputError>([&] { write_domain(this->path("d." + extension), mesh); },
+                             {"not finite"});
+  }
+  EXPECT_TRUE(this->names().empty());
+}
+
+// All numbers between the tags of the data array with this name.
+std::vector<double> vtu_array(const std::string& file, const std::string& name) {
+  const std::size_t tag = file.find("Name=\"" + name + "\"");
+  EXPECT_NE(tag, std::string::npos) << name;
+  if (tag == std::string::npos) return {};
+  const std::size_t begin = file.find('>', tag) + 1;
+  std::istringstream numbers(file.substr(begin, file.find('<', begin) - begin));
+  std::vector<double> result;
+  for (std::string word; numbers >> word;) result.push_back(std::stod(word));
+  return result;
+}
+
+TYPED_TEST(DomainFile, VtuHasMeshAndFields) {
+  constexpr int Dim = TypeParam::value;
+  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const Eigen::VectorXd values = mesh.points.row(1).transpose() / 7.0;
+  write_domain(this->path("d.vtu"), mesh, {{"weight 0", values}, {"a<&>\"b", -values}});
+  const std::string file = this->content("d.vtu");
+  EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(mesh.num_vertices()) + "\""),
+            std::string::npos);
+  EXPECT_NE(file.find("NumberOfCells=\"" + std::to_string(mesh.num_cells()) + "\""),
+            std::string::npos);
+
+  const std::vector<double> points = vtu_array(file, "Points");
+  ASSERT_EQ(points.size(), 3u * mesh.num_vertices());
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(points[3 * v + k], k < Dim ? mesh.points(k, v) : 0.0);
+    }
+  }
+  const std::vector<double> connectivity = vtu_array(file, "connectivity");
+  ASSERT_EQ(connectivity.size(), static_cast<std::size_t>(mesh.cells.size()));
+  for (std::size_t k = 0; k < connectivity.size(); ++k) {
+    EXPECT_EQ(connectivity[k], mesh.cells.data()[k]);
+  }
+  const std::vector<double> offsets = vtu_array(file, "offsets");
+  ASSERT_EQ(offsets.size(), static_cast<std::size_t>(mesh.num_cells()));
+  EXPECT_EQ(offsets.front(), Dim + 1);
+  EXPECT_EQ(offsets.back(), connectivity.size());
+  // VTK_TRIANGLE and VTK_TETRA
+  EXPECT_EQ(vtu_array(file, "types"), std::vector<double>(mesh.num_cells(), Dim == 2 ? 5 : 10));
+  const std::vector<double> field = vtu_array(file, "weight 0");
+  const std::vector<double> negated = vtu_array(file, "a&lt;&amp;&gt;&quot;b");
+  ASSERT_EQ(field.size(), static_cast<std::size_t>(values.size()));
+  ASSERT_EQ(negated.size(), field.size());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    EXPECT_EQ(field[v], values[v]);
+    EXPECT_EQ(negated[v], -values[v]);
+  }
+}
+
+TYPED_TEST(DomainFile, VtuFieldsMustHaveAValuePerVertex) {
+  const auto mesh = this->awkward_mesh();
+  expect_error<InputError>(
+      [&] {
+        write_domain(this->path("d.vtu"), mesh, {{"short", Eigen::VectorXd::Zero(3)}});
+      },
+      {"\"short\"", "3 values", std::to_string(mesh.num_vertices())});
+  EXPECT_TRUE(this->names().empty());
+}
+
+TEST_F(MeshFile, PlanarMeshesMustBeTrianglesInThePlane) {
+  const std::string quad = make("quad.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3\nf 1 2 3 4\n");
+  expect_error<InputError>([&] { read_domain<2>(quad); }, {quad, "face 1 has 4 vertices"});
+  const std::string tilted = make("tilted.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n");
+  expect_error<InputError>([&] { read_domain<2>(tilted); },
+                           {tilted, "vertex 2 at (0, 1, 0.5)", "z = 0"});
+  const std::string flat = make("flat.off", "OFF 3 1 0\n0 0 -0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(read_domain<2>(flat).num_cells(), 1);
+}
+
+// The reference tetrahedron, possibly with more text around it.
+void expect_reference_tetrahedron(const std::string& file) {
+  SCOPED_TRACE(file);
+  const DomainMesh<3> mesh = read_domain<3>(file);
+  ASSERT_EQ(mesh.num_vertices(), 4);
+  ASSERT_EQ(mesh.num_cells(), 1);
+  EXPECT_TRUE(bit_equal(mesh.points.col(0), Vector<3>::Zero()));
+  EXPECT_TRUE(bit_equal(mesh.points.rightCols<3>(), Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(signed_measure(mesh, 0), 1.0 / 6.0);
+}
+
+TEST_F(MeshFile, MeditVariants) {
+  const std::string points = "0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 2\n";
+  const std::vector<std::string> variants = {
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n" + points +
+          "Tetrahedra\n1\n1 2 3 4 1\nEnd\n",
+      "MeshVersionFormatted\n1\n\nDimension\n3\n# made by hand\nVertices 4\n" + points +
+          "\nEdges 1\n1 2 0\nTriangles\n2\n1 2 3 1\n2 3 4 1\nCorners 1\n1\nHexahedra\n0\n"
+          "Tetrahedra 1\n1 2 3 4 1\nRidges 0\n\nEnd\n\x01garbage",
+      "MeshVersionFormatted 2\r\nDimension 3\r\nVertices\r\n4\r\n0 0 0 1 1 0 0 1\r\n"
+      "0 1 0 1 0 0 1 2\r\nTetrahedra\r\n1\r\n1 2 4 3 1",
+  };
+  for (const std::string& variant : variants) {
+    expect_reference_tetrahedron(make("variant.mesh", variant));
+  }
+}
+
+TEST_F(MeshFile, MalformedMedit) {
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+  const std::string points = "Vertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 2\n";  // lines 3 to 8
+  expect_malformed(
+      "d.mesh",
+      {{"", ":1: ", "MeshVersionFormatted"},
+       {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a MEDIT text file"},
+       {"MeshVersionFormatted", ":1: ", "the file ends where the version was expected"},
+       {"MeshVersionFormatted 2\nDimension 2\n", ":2: ", "the dimension is 2, not 3"},
+       {head, ":2: ", "no section Vertices"},
+       {head + "Vertices", ":3: ", "expected an integer, found the end of the file"},
+       {head + points, ":8: ", "no section Tetrahedra"},
+       {head + "Tetrahedra\n1\n1 2 3 4 1\n" + points, ":3: ", "before Vertices"},
+       {head + points + points, ":9: ", "a second section Vertices"},
+       {head + "Vertices\n2000000000\n0 0 0 1\n", ":4: ", "2000000000 vertices are declared, but"},
+       {head + "Vertices\n3\n0 0 0 100000\n1 0 0 100000\n", ":6: ", "after 2 of 3 vertices"},
+       {head + "Vertices\n2\n0 0 0 1\n1 0 zero 1\n", ":6: ", "expected a number, found \"zero\""},
+       {head + "Vertices\n2\n0 0 0 1\n1 0 nan 1\n", ":6: ", "expected a finite number"},
+       {head + points + "Tetrahedra\n1000000000\n1 2 3 4 1\n", ":10: ", "tetrahedra are declared"},
+       {head + points + "Tetrahedra\n1\n1 2 3 5 1\n", ":11: ", "numbered 1 to 4"},
+       {head + points + "Tetrahedra\n1\n0 1 2 3 1\n", ":11: ", "the index 0 is out of range"},
+       {head + points + "Tetrahedra\n1\n1 2 3 3 1\n", ": ", "cell 0 of the domain mesh"},
+       {head + points + "Hexahedra\n1\n1 2 3 4 1 2 3 4 0\n", ":10: ", "Hexahedra"},
+       {head + points + "Tetrahedra\n1\n1 2 3 4 1\n7 7\n", ":12: ", "expected a keyword"}});
+}
+
+TEST_F(MeshFile, TetgenVariants) {
+  make("zero.node",
+       "# made by hand\n4 3 1 1\n0 0 0 0 5 1\n1 1 0 0 5 1\n\n2 0 1 0 5 1\n3 0 0 1 5 1\n");
+  make("zero.ele", "1 4 1\n0 0 1 2 3 17 # end\n");
+  make("one.node", "4 3 0 0\r\n1 0 0 0\r\n2 1 0 0\r\n3 0 1 0\r\n4 0 0 1");
+  make("one.ele", "1 4 0\r\n1 1 2 3 4");
+  for (const char* name : {"zero.node", "zero.ele", "one.node", "one.ele"}) {
+    expect_reference_tetrahedron(path(name));
+  }
+}
+
+TEST_F(MeshFile, TetgenWritesBothFilesOrNone) {
+  const DomainMesh<3> mesh = flbc::testing::samples<3>().front().mesh;
+  write_domain(path("a.node"), mesh);
+  write_domain(path("b.ele"), mesh);
+  EXPECT_EQ(names(), (Names{"a.ele", "a.node", "b.ele", "b.node"}));
+  EXPECT_EQ(content("a.ele"), content("b.ele"));
+  EXPECT_EQ(content("a.node"), content("b.node"));
+
+  std::filesystem::create_directory(path("c.ele"));
+  expect_error<IoError>([&] { write_domain(path("c.node"), mesh); },
+                        {path("c.ele"), "Is a directory"});
+  std::filesystem::create_directory(path("d.node"));
+  expect_error<IoError>([&] { write_domain(path("d.ele"), mesh); },
+                        {path("d.node"), "Is a directory"});
+  EXPECT_EQ(names(), (Names{"a.ele", "a.node", "b.ele", "b.node", "c.ele", "d.node"}));
+}
+
+TEST_F(MeshFile, MalformedTetgenNodes) {
+  make("d.ele", "1 4 0\n0 0 1 2 3\n");
+  expect_malformed(
+      "d.node",
+      {{"", ":1: ", "the file ends before the number of nodes"},
+       {std::string("\0\0\x01\xff garbage", 12), ":1: ", "expected an integer, found \"????\""},
+       {"4 2 0 0\n0 0 0\n1 1 0\n2 0 1\n3 1 1     \n", ":1: ", "2 coordinates, not 3"},
+       {"2000000000 3 0 0\n0 0 0 0\n", ":1: ", "too short"},
+       {"4 3 0 0\n0 0 0 0       \n1 1 0 0         \n", ":3: ", "after 2 of 4 nodes"},
+       {"2 3 0 0\n5 0 0 0\n6 1 0 0\n", ":2: ", "expected node 0, found 5"},
+       {"2 3 0 0\n1 0 0 0\n1 1 0 0\n", ":3: ", "expected node 2, found 1"},
+       {"2 3 0 0\n0 0 0 0\n1 1 0\n", ":3: ", "expected a number, found the end of the line"},
+       {"2 3 0 0\n0 0 0 0\n1 1 0 inf\n", ":3: ", "expected a finite number"},
+       {"1 3 0 0\n0 0 0 0\n1 1 0 0\n", ":3: ", "expected the end of the file"}});
+}
+
+TEST_F(MeshFile, MalformedTetgenElements) {
+  make("d.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  expect_malformed(
+      "d.ele", {{"", ":1: ", "the file ends before the number of tetrahedra"},
+                {"1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n", ":1: ", "have 10 nodes"},
+                {"1000000000 4 0\n0 0 1 2 3\n", ":1: ", "too short"},
+                {"2 4 0\n0 0 1 2 3 # long enough\n", ":2: ", "after 1 of 2 tetrahedra"},
+                {"1 4 0\n1 0 1 2 3\n", ":2: ", "expected tetrahedron 0, found 1"},
+                {"1 4 0\n0 0 1 2 4\n", ":2: ", "nodes are numbered 0 to 3"},
+                {"1 4 0\n0 0 1 2\n   ", ":2: ", "expected an integer, found the end of the line"},
+                {"1 4 0\n0 0 1 2 3\n1 0 1 2 3\n", ":3: ", "expected the end of the file"}});
+}
+
+const char* const kFormat2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";  // 3 lines
+const char* const kNodes2 =
+    "$Nodes\n4\n7 0 0 0\n9 1 0 0\n3 0 1 0\n5 0 0 1\n$EndNodes\n";  // 7 lines
+const char* const kFormat4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+// Two blocks; the second one has a parameter with its point. 13 lines
+const char* const kNodes4 =
+    "$Nodes\n2 4 3 9\n3 1 0 3\n7\n9\n3\n0 0 0\n1 0 0\n0 1 0\n0 1 1 1\n5\n0 0 1 0.5\n$EndNodes\n";
+
+TEST_F(MeshFile, GmshVariants) {
+  const std::vector<std::string> variants = {
+      std::string(kFormat2) + kNodes2 + "$Elements\n1\n1 4 2 1 1 7 9 3 5\n$EndElements\n",
+      std::string(kFormat2) + "$PhysicalNames\n1\n3 1 \"inside $Nodes\"\n$EndPhysicalNames\n" +
+          kNodes2 +
+          "$Elements\n5\n1 15 2 0 1 7\n2 1 2 0 1 7 9\n3 2 2 0 1 7 9 3\n4 4 0 7 3 9 5\n"
+          "5 3 2 0 1 7 9 3 5\n$EndElements\n$NodeData\nnan\n$EndNodeData\n",
+      std::string(kFormat4) + "$Entities\n0 0 0 0\n$EndEntities\n" + kNodes4 +
+          "$Elements\n2 2 1 2\n2 1 2 1\n1 7 9 3\n3 1 4 1\n2 7 9 3 5\n$EndElements\n",
+  };
+  for (const std::string& variant : variants) {
+    expect_reference_tetrahedron(make("variant.msh", variant));
+    std::string dos;
+    for (const char c : variant) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    expect_reference_tetrahedron(make("dos.msh", dos));
+  }
+}
+
+TEST_F(MeshFile, MalformedGmsh) {
+  const std::string format = kFormat2;
+  const std::string nodes = kNodes2;
+  const std::string elements = format + nodes + "$Elements\n";  // 11 lines
+  expect_malformed(
+      "d.msh",
+      {{"", ":1: ", "not a Gmsh file"},
+       {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a Gmsh file"},
+       {"$MeshFormat\n", ":1: ", "the file ends before its version"},
+       {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: ", "version \"4\" is not supported"},
+       {"$MeshFormat\n1.0 0 8\n$EndMeshFormat\n", ":2: ", "version \"1.0\" is not supported"},
+       {"$MeshFormat\n2.2 1 8\n\x01\0\0\n", ":2: ", "binary"},
+       {"$MeshFormat\n2.2 0 8\n", ":2: ", "the file ends before \"$EndMeshFormat\""},
+       {format, ":3: ", "no nodes"},
+       {format + nodes, ":10: ", "no tetrahedra"},
+       {format + "Nodes\n", ":4: ", "expected the start of a section, found \"Nodes\""},
+       {format + "$Physical\n1\n", ":5: ", "the file ends before \"$EndPhysical\""},
+       {format + "$Nodes\n", ":4: ", "the file ends inside a section"},
+       {format + "$Nodes\n2000000000\n1 0 0 0\n", ":5: ", "too short"},
+       {format + "$Nodes\n3\n1 0 0 0000000\n2 0 0 0000000\n", ":7: ", "after 2 of 3 nodes"},
+       {format + "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", ":7: ", "node 1 occurs twice"},
+       {format + "$Nodes\n1\n1 0 0 nan\n$EndNodes\n", ":6: ", "expected a finite number"},
+       {format + "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", ":7: ", "expected \"$EndNodes\""},
+       {format + nodes + nodes, ":11: ", "a second section $Nodes"},
+       {elements + "1\n1 4 2 1 1 7 9 3 6\n$EndElements\n", ":13: ", "node 6, which does not exist"},
+       {elements + "1\n1 4 2 1 1 7 9 3\n$EndElements\n", ":13: ", "expected an integer, found"},
+       {elements + "1\n1 5 0 7 9 3 5 7 9 3 5\n$EndElements\n", ":13: ", "type 5 are not supported"},
+       {elements + "1\n1 11 0 7 9 3 5 7 9 3 5\n$EndElements\n", ":13: ", "type 11"},
+       {elements + "1\n1 4 99999 1 1 7 9 3 5\n$EndElements\n", ":13: ", "99999 tags are declared"},
+       {elements + "900000000\n1 4 0 7 9 3 5\n$EndElements\n", ":12: ", "too short"},
+       {elements + "1\n1 2 0 7 9 3\n$EndElements\n", ":14: ", "no tetrahedra"},
+       {std::string(kFormat4) + "$Nodes\n900000 4 1 4\n", ":5: ", "blocks are declared"},
+       {std::string(kFormat4) + "$Nodes\n1 4 1 4\n3 1 0 900000000\n1\n", ":6: ", "too short"},
+       {std::string(kFormat4) + "$Nodes\n1 1 1 1\n3 1 0 1\n1\n0 0 x\n$EndNodes\n",
+        ":8: ", "expected a number, found \"x\""},
+       {std::string(kFormat4) + kNodes4 + "$Elements\n1 1 1 1\n3 1 4 1\n2 7 9 3 8\n",
+        ":20: ", "node 8, which does not exist"}});
+}
+
+}  // namespace
+}  // namespace flbc::io

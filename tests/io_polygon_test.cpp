@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/polygon_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "flbc/errors.h"
+#include "support/io_files.h"
+
+namespace flbc::io {
+namespace {
+
+using flbc::testing::awkward_numbers;
+using flbc::testing::bits_of;
+using flbc::testing::expect_error;
+using flbc::testing::FolderTest;
+using Corners = std::vector<Index>;
+
+// A file and what the message about it must say: "FILE" + place, and the message.
+struct Malformed {
+  std::string content;
+  std::string place;
+  std::string message;
+};
+
+class PolygonFile : public FolderTest {
+ protected:
+  PolygonSoup obj(const std::string& content) { return read_obj(make("soup.obj", content)); }
+  PolygonSoup off(const std::string& content) { return read_off(make("soup.off", content)); }
+};
+
+// Three points per awkward number.
+PolygonSoup awkward_soup() {
+  PolygonSoup soup;
+  for (const double number : awkward_numbers()) {
+    soup.points.emplace_back(number, 1, -7);
+    soup.points.emplace_back(0.25, number, 1e-5);
+    soup.points.emplace_back(-1, 3, number);
+  }
+  soup.polygons = {{0, 1, 2}, {5, 4, 3, 0}, {6, 7, 8, 9, 10}};
+  return soup;
+}
+
+void expect_same_points(const PolygonSoup& a, const PolygonSoup& b) {
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t v = 0; v < a.points.size(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(bits_of(a.points[v][k]), bits_of(b.points[v][k])) << v << ", " << k;
+    }
+  }
+}
+
+const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";  // 3 lines
+
+TEST_F(PolygonFile, ObjRoundTripIsBitEqual) {
+  PolygonSoup soup = awkward_soup();
+  soup.polylines = {{0, 1}, {3, 2, 1, 3}};
+  write_obj(path("soup.obj"), soup);
+  const PolygonSoup read = read_obj(path("soup.obj"));
+  expect_same_points(read, soup);
+  EXPECT_EQ(read.polygons, soup.polygons);
+  EXPECT_EQ(read.polylines, soup.polylines);
+}
+
+TEST_F(PolygonFile, OffRoundTripIsBitEqual) {
+  const PolygonSoup soup = awkward_soup();
+  write_off(path("soup.off"), soup);
+  const PolygonSoup read = read_off(path("soup.off"));
+  expect_same_points(read, soup);
+  EXPECT_EQ(read.polygons, soup.polygons);
+  EXPECT_TRUE(read.polylines.empty());
+}
+
+TEST_F(PolygonFile, ObjCorners) {
+  const PolygonSoup soup = obj(std::string(kTriangle) +
+                               "f 1 2 3\nf 1/1 2/2 3/3\nf 1/1/1 2/2/2 3/3/3\nf 1//4 2//4 3//4\n"
+                               "f -3 -2 -1\nv 5 5 5\nf -1/-1/-1 -2//-1 -4/-2\nl 1/1 -1 2\n");
+  EXPECT_EQ(soup.polygons, (std::vector<Corners>{
+                               {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {3, 2, 0}}));
+  EXPECT_EQ(soup.polylines, (std::vector<Corners>{{0, 3, 1}}));
+}
+
+TEST_F(PolygonFile, ObjVertices) {
+  const PolygonSoup soup =
+      obj("v 1 2\nv 1 2 3\nv 1 2 3 1.0\nv 1 2 3 0.5 0.5 0.5\n\tv  +1\t2. \t3e0 # comment\n"
+          "v 1e-400 -1e-99999999999999999999 0.0e999\n");
+  ASSERT_EQ(soup.points.size(), 6u);
+  EXPECT_EQ(soup.points[0], Vector<3>(1, 2, 0));
+  for (std::size_t v = 1; v < 5; ++v) EXPECT_EQ(soup.points[v], Vector<3>(1, 2, 3)) << v;
+  EXPECT_EQ(soup.points[5], Vector<3>(0, 0, 0));
+}
+
+TEST_F(PolygonFile, ObjIgnoresOtherLines) {
+  const PolygonSoup soup =
+      obj(std::string("\xEF\xBB\xBF# caf\xC3\xA9\nmtllib a b.mtl\no name\n") + kTriangle +
+          "vn nan 0 1\nvt 0 0\nvp 1\ns off\nusemtl x\ng\np 1\n" + "f 1 2 3\ncurv2 1 2\n");
+  EXPECT_EQ(soup.points.size(), 3u);
+  EXPECT_EQ(soup.polygons.size(), 1u);
+}
+
+TEST_F(PolygonFile, ObjLinesMayEndInCrlfOrGoOn) {
+  const PolygonSoup soup =
+      obj("v 0 0 0\r\nv 1 \\\r\n0 0\r\nv 0 1\\\n 0\r\n\r\n"
+          "f 1 \\\r\n 2 \\\n 3\r\nl 1 2\\\n\nl 2 3\\");
+  EXPECT_EQ(soup.points, (std::vector<Vector<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(soup.polygons, (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(soup.polylines, (std::vector<Corners>{{0, 1}, {1, 2}}));
+}
+
+TEST_F(PolygonFile, ObjFacesMayStandBeforeTheirVertices) {
+  const PolygonSoup soup = obj(std::string("f 1 2 3\n") + kTriangle);
+  EXPECT_EQ(soup.polygons, (std::vector<Corners>{{0, 1, 2}}));
+}
+
+TEST_F(PolygonFile, NothingIsRepaired) {
+  const PolygonSoup soup = obj(std::string(kTriangle) + "v 0 0 0\nf 1 1 2\nf 1 2 3\nf 1 2 3\n");
+  EXPECT_EQ(soup.points.size(), 4u);
+  EXPECT_EQ(soup.polygons, (std::vector<Corners>{{0, 0, 1}, {0, 1, 2}, {0, 1, 2}}));
+}
+
+TEST_F(PolygonFile, MalformedObj) {
+  const std::string triangle = kTriangle;
+  const std::vector<Malformed> cases = {
+      {"", ":1: ", "without a vertex"},
+      {"# nothing\n\n", ":2: ", "without a vertex"},
+      {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 19), ":", "without a vertex"},
+      {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
+      {"v 0 0 0\nv 1\n", ":2: ", "expected a number, found the end of the line"},
+      {"v", ":1: ", "expected a number, found the end of the file"},
+      {"v 0 0 nan\n", ":1: ", "expected a finite number, found \"nan\""},
+      {"v 0 0 0\r\nv 0 -Infinity 0\r\n", ":2: ", "expected a finite number, found \"-Infinity\""},
+      {"v 0 0 1e999\n", ":1: ", "the number \"1e999\" is too large"},
+      {"v 0 0 1e99999999999999999999\n", ":1: ", "is too large"},
+      {"v 0 0 --1\n", ":1: ", "expected a number, found \"--1\""},
+      {"v 0 0 +-1\n", ":1: ", "expected a number, found \"+-1\""},
+      {"v 0 0 1.5x\n", ":1: ", "expected a number, found \"1.5x\""},
+      {"v 0 0 \x01\xff\n", ":1: ", "expected a number, found \"??\""},
+      {"v 0 0 0 red\n", ":1: ", "expected a number, found \"red\""},
+      {"v 0 0 " + std::string(100000, 'z'), ":1: ", std::string(40, 'z') + "...\""},
+      {triangle + "f 1 2\n", ":4: ", "a face needs at least 3 vertices, found 2"},
+      {triangle + "\n# c\nf\n", ":6: ", "a face needs at least 3 vertices, found 0"},
+      {triangle + "l 1\n", ":4: ", "a polyline needs at least 2 vertices, found 1"},
+      {triangle + "f 1 2 4\n", ":4: ", "the index 4 is out of range; vertices are numbered 1 to 3"},
+      {"f 1 2 3\nf 9 1 2\nf 7 1 2\n" + triangle, ":2: ", "the index 9 is out of range"},
+      {triangle + "f 0 1 2\n", ":4: ", "the index 0 is out of range"},
+      {triangle + "f 1 2 -4\n", ":4: ", "the index \"-4\" is out of range; there are 3 vertices"},
+      {triangle + "f 1 2 99999999999\n", ":4: ", "\"99999999999\" is out of range"},
+      {triangle + "f 1 2 99999999999999999999999\n", ":4: ", "is out of range"},
+      {triangle + "f 1 2 -99999999999999999999999\n", ":4: ", "is out of range"},
+      {triangle + "f 1 2 x\n", ":4: ", "expected a vertex index, found \"x\""},
+      {triangle + "f 1 2 3/x\n", ":4: ", "expected a vertex index, found \"3/x\""},
+      {triangle + "f 1 2 3/1/1/1\n", ":4: ", "expected a vertex index, found \"3/1/1/1\""},
+      {triangle + "f 1 2 /3\n", ":4: ", "expected a vertex index, found \"/3\""},
+      {triangle + "f 1 2 3.0\n", ":4: ", "expected a vertex index, found \"3.0\""},
+      {triangle + "f 1 \\\n 2 \\\n x\n", ":6: ", "expected a vertex index, found \"x\""},
+      {triangle + "f 1 \\\n 2 \\\n\nf 1 2 3 4\n", ":4: ", "at least 3 vertices, found 2"},
+  };
+  for (const Malformed& malformed : cases) {
+    SCOPED_TRACE(malformed.content.substr(0, 200));
+    expect_error<InputError>([&] { obj(malformed.content); },
+                             {path("soup.obj") + malformed.place, malformed.message});
+  }
+}
+
+TEST_F(PolygonFile, OffVariants) {
+  const std::vector<Vector<3>> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<Corners> polygons = {{0, 1, 2, 3}, {2, 1, 0}};
+  const std::string faces = "4 0 1 2 3\n3 2 1 0\n";
+  const std::vector<std::string> variants = {
+      "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
+      "OFF 4 2 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3\r\n3 2 1 0",
+      "# first\n\nOFF # header\n# counts\n4 2\n\n0 0 0\n1 0 0 # second\n1 1 0\n\n0 1 0\n" + faces,
+      "COFF\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 9 9 9 9\n1 1 0 1 1 1 1\n0 1 0 0 0 0 0\n" + faces,
+      "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n" + faces,
+      "STOFF\n4 2 0\n0 0 0 .1 .2\n1 0 0 0 0\n1 1 0 0 1\n0 1 0 0 1\n" + faces,
+      "STCNOFF\n4 2 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 1 1 1\n" + faces,
+      "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0 7\n",
+  };
+  for (const std::string& variant : variants) {
+    const PolygonSoup soup = off(variant);
+    EXPECT_EQ(soup.points, points) << variant;
+    EXPECT_EQ(soup.polygons, polygons) << variant;
+  }
+}
+
+TEST_F(PolygonFile, MalformedOff) {
+  const std::string head = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";  // 5 lines
+  const std::vector<Malformed> cases = {
+      {"", ":1: ", "it is empty"},
+      {std::string("\0\xff\xfe\x01 garbage\n", 13), ":1: ", "expected OFF, found \"????\""},
+      {"3 1 0\n0 0 0\n", ":1: ", "expected OFF, found \"3\""},
+      {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},
+      {"nOFF\n", ":1: ", "\"nOFF\" is not supported"},
+      {"OFF BINARY\n1234", ":1: ", "binary OFF"},
+      {"OFF\n", ":1: ", "the file ends before the number of vertices"},
+      {"OFF\nx 1 0\n", ":2: ", "expected an integer, found \"x\""},
+      {"OFF\n3\n0 0 0\n1 0 0\n0 1 0\n", ":2: ", "expected an integer, found the end of the line"},
+      {"OFF\n-3 1 0\n", ":2: ", "-3 vertices are declared"},
+      {"OFF\n2000000000 1 0\n0 0 0\n", ":2: ", "2000000000 vertices are declared, but the file"},
+      {"OFF\n3 2000000000 0\n0 0 0\n1 0 0\n0 1 0\n", ":2: ", "2000000000 faces are declared"},
+      {"OFF\n9999999999 1 0\n0 0 0\n", ":2: ", "more than this program can handle"},
+      {"OFF\n3 1 0\n0 0 0   \n1 0 0   \n", ":4: ", "the file ends after 2 of 3 vertices"},
+      {"OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a number, found the end"},
+      {"OFF\n3 1 0\n0 0 0\n1 NaN 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a finite number"},
+      {head, ":5: ", "the file ends after 0 of 1 faces"},
+      {head + "2 0 1\n", ":6: ", "at least 3 vertices, found 2"},
+      {head + "3 0 1\n", ":6: ", "expected an integer, found the end"},
+      {head + "3 0 1 3\n", ":6: ", "the index 3 is out of range; vertices are numbered 0 to 2"},
+      {head + "3 0 1 -1\n", ":6: ", "the index -1 is out of range"},
+      {head + "3 0 1 x\n", ":6: ", "expected an integer, found \"x\""},
+      {head + "1000000000 0 1 2\n", ":6: ", "1000000000 corners are declared, but the file"},
+      {head + "3 0 1 2\n\n3 2 1 0\n", ":8: ", "expected the end of the file after the last face"},
+  };
+  for (const Malformed& malformed : cases) {
+    SCOPED_TRACE(malformed.content.substr(0, 200));
+    expect_error<InputError>([&] { off(malformed.content); },
+                             {path("soup.off") + malformed.place, malformed.message});
+  }
+}
+
+TEST_F(PolygonFile, FilesThatCannotBeOpened) {
+  expect_error<IoError>([&] { read_obj(path("missing")); }, {path("missing"), "No such file"});
+  expect_error<IoError>([&] { read_off(path("missing")); }, {path("missing"), "No such file"});
+  expect_error<IoError>([&] { read_obj(folder_.string()); }, {folder_.string(), "directory"});
+  expect_error<IoError>([&] { write_obj(path("no/file"), awkward_soup()); }, {path("no/file")});
+  expect_error<IoError>([&] { write_off(path("no/file"), awkward_soup()); }, {path("no/file")});
+}
+
+TEST_F(PolygonFile, PointsThatAreNotFiniteAreNotWritten) {
+  PolygonSoup soup = awkward_soup();
+  soup.points.back()[1] = 1.0 / 0.0;
+  expect_error<InputError>([&] { write_obj(path("soup.obj"), soup); }, {"not finite"});
+  expect_error<InputError>([&] { write_off(path("soup.off"), soup); }, {"not finite"});
+  EXPECT_TRUE(names().empty());
+}
+
+// The numbers of elements are those that the models' descriptions give.
+struct Model {
+  const char* file;
+  std::size_t points, polygons, polylines;
+};
+
+class ModelFile : public ::testing::TestWithParam<Model> {};
+
+TEST_P(ModelFile, HasItsElements) {
+  const std::string file = std::string(FLBC_MODELS_DIR) + "/" + GetParam().file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const PolygonSoup soup = read_obj(file);
+  EXPECT_EQ(soup.points.size(), GetParam().points);
+  EXPECT_EQ(soup.polygons.size(), GetParam().polygons);
+  EXPECT_EQ(soup.polylines.size(), GetParam().polylines);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ModelFile,
+    ::testing::Values(Model{"3d/horse_cage.obj", 51, 98, 0}, Model{"3d/arm_cage.obj", 58, 112, 0},
+                      Model{"3d/armadillo_cage.obj", 110, 216, 0},
+                      Model{"2d/woody_model.obj", 694, 1267, 0},
+                      Model{"2d/woody-control-edgeset.obj", 26, 0, 1},
+                      Model{"2d/LBClogo-control-edgeset.obj", 6, 0, 1},
+                      Model{"defective/inconsistent_orientation_cage.obj", 8, 12, 0}));
+
+}  // namespace
+}  // namespace flbc::io

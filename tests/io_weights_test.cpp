@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/weights_io.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <limits>
+#include <locale>
+
+#include "flbc/errors.h"
+#include "support/io_files.h"
+
+namespace flbc::io {
+namespace {
+
+using flbc::testing::awkward_numbers;
+using flbc::testing::bit_equal;
+using flbc::testing::expect_error;
+using flbc::testing::FolderTest;
+
+// A file of weights and what the message about it must say besides the file's name.
+struct Malformed {
+  std::string content;
+  std::string place;
+  std::string message;
+};
+
+class WeightsFile : public FolderTest {
+ protected:
+  void expect_malformed(const std::string& name, const std::vector<Malformed>& cases) {
+    for (const Malformed& malformed : cases) {
+      SCOPED_TRACE(malformed.content.substr(0, 200));
+      const std::string file = make(name, malformed.content);
+      expect_error<InputError>([&] { read_weights(file); },
+                               {file + malformed.place, malformed.message});
+    }
+  }
+};
+
+const char* const kExtensions[] = {"mtx", "dmat", "npy"};
+
+// 3 control points, as many points as it takes.
+WeightMatrix awkward_weights() {
+  const std::vector<double> numbers = awkward_numbers();
+  WeightMatrix weights = WeightMatrix::Zero(3, static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k) weights(k % 3, k) = numbers[k];
+  return weights;
+}
+
+// 2 control points and 3 points; all numbers differ, so that no transposition goes unnoticed.
+WeightMatrix small_weights() {
+  WeightMatrix weights(2, 3);
+  weights << 1, 2, 3,  //
+      4, 5, 6;
+  return weights;
+}
+
+std::string doubles(std::initializer_list<double> values) {
+  std::string bytes;
+  for (const double value : values) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  return bytes;
+}
+
+// A header as NumPy would write it.
+std::string npy(const std::string& dictionary, char version = 1) {
+  std::string header("\x93NUMPY");
+  header += {version, '\0', static_cast<char>(dictionary.size()), '\0'};
+  if (version > 1) header += {'\0', '\0'};
+  return header + dictionary;
+}
+
+TEST_F(WeightsFile, RoundTripsAreBitEqual) {
+  const WeightMatrix weights = awkward_weights();
+  for (const std::string extension : kExtensions) {
+    const std::string file = path("weights." + extension);
+    write_weights(file, weights);
+    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
+  }
+}
+
+TEST_F(WeightsFile, RoundTripsOfRandomBits) {
+  WeightMatrix weights(7, 300);
+  std::uint64_t state = 1;
+  for (double& value : weights.reshaped()) {
+    do {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      const std::uint64_t bits = state ^ (state >> 29);
+      std::memcpy(&value, &bits, sizeof value);
+    } while (!std::isfinite(value) || value == 0);
+  }
+  for (const std::string extension : kExtensions) {
+    const std::string file = path("weights." + extension);
+    write_weights(file, weights);
+    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
+  }
+}
+
+TEST_F(WeightsFile, RoundTripsOfDegenerateSizes) {
+  for (const std::string extension : kExtensions) {
+    const std::string file = path("weights." + extension);
+    for (const auto& [controls, points] : {std::pair{1, 1}, {1, 5}, {5, 1}, {4, 0}, {0, 4}}) {
+      const WeightMatrix weights = WeightMatrix::Constant(controls, points, 0.25);
+      write_weights(file, weights);
+      EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
+    }
+  }
+}
+
+TEST_F(WeightsFile, TheCaseOfTheExtensionDoesNotMatter) {
+  write_weights(path("weights.NPY"), small_weights());
+  EXPECT_TRUE(bit_equal(read_weights(path("weights.NPY")), small_weights()));
+}
+
+TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {
+  WeightMatrix weights(2, 1);
+  weights << -0.0, 1;
+  write_weights(path("weights.mtx"), weights);
+  EXPECT_EQ(read_weights(path("weights.mtx"))(0, 0), 0);
+  EXPECT_NE(content("weights.mtx").find("\n1 2 1\n1 2 1\n"), std::string::npos);
+}
+
+TEST_F(WeightsFile, MtxHasPointsAsRows) {
+  write_weights(path("weights.mtx"), small_weights());
+  const std::string written = content("weights.mtx");
+  EXPECT_EQ(written.find("%%MatrixMarket matrix coordinate real general\n"), 0u);
+  EXPECT_NE(written.find("\n3 2 6\n"), std::string::npos);
+  EXPECT_NE(written.find("\n3 1 3\n"), std::string::npos);
+  EXPECT_NE(written.find("\n1 2 4\n"), std::string::npos);
+}
+
+TEST_F(WeightsFile, DmatIsWrittenInBinaryByControlPoint) {
+  write_weights(path("weights.dmat"), small_weights());
+  EXPECT_EQ(content("weights.dmat"), "0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6}));
+}
+
+TEST_F(WeightsFile, NpyIsWrittenByPointAndAligned) {
+  write_weights(path("weights.npy"), small_weights());
+  const std::string written = content("weights.npy");
+  const std::string numbers = doubles({1, 4, 2, 5, 3, 6});
+  ASSERT_GT(written.size(), numbers.size() + 10);
+  const std::size_t start = written.size() - numbers.size();
+  EXPECT_EQ(written.substr(start), numbers);
+  EXPECT_EQ(start % 64, 0u);
+  EXPECT_EQ(written.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+  EXPECT_EQ(static_cast<unsigned char>(written[8]) + 256 * static_cast<unsigned char>(written[9]),
+            start - 10);
+  EXPECT_EQ(written[start - 1], '\n');
+  const std::string dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }";
+  EXPECT_EQ(written.substr(10, dictionary.size()), dictionary);
+  EXPECT_EQ(written.find_first_not_of(' ', 10 + dictionary.size()), start - 1);
+}
+
+TEST_F(WeightsFile, MtxVariants) {
+  const WeightMatrix expected = small_weights();
+  const std::vector<std::string> variants = {
+      "%%MatrixMarket matrix coordinate real general\n% note\n\n3 2 6\n"
+      "3 2 6\n1 1 1\n2 1 +2e0\n%\n1 2 4.\n2 2 .5e1\n3 1 30E-1",
+      "%%matrixmarket MATRIX Coordinate INTEGER General\r\n3 2 6\r\n"
+      "1 1 1\r\n2 1 2\r\n3 1 3\r\n1 2 4\r\n2 2 5\r\n3 2 6\r\n",
+      "%%MatrixMarket matrix array real general\n% by columns\n3 2\n1\n2\n3\n4\n5\n6\n",
+      "%%MatrixMarket matrix array integer general\n3 2\n1 2 3\n4 5 6",
+  };
+  for (const std::string& variant : variants) {
+    EXPECT_TRUE(bit_equal(read_weights(make("w.mtx", variant)), expected)) << variant;
+  }
+}
+
+TEST_F(WeightsFile, DmatVariants) {
+  const WeightMatrix expected = small_weights();
+  const std::vector<std::string> variants = {
+      "2 3\n1\n2\n3\n4\n5\n6\n", "2 3\r\n1\r\n2\r\n3\r\n4\r\n5\r\n6\r\n", "2 3 1 2 3 4 5 6",
+      "\n 2 3\n1 2 3\n4 5 6\n\n", "0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6})};
+  for (const std::string& variant : variants) {
+    EXPECT_TRUE(bit_equal(read_weights(make("w.dmat", variant)), expected)) << variant;
+  }
+}
+
+TEST_F(WeightsFile, NpyVariants) {
+  const WeightMatrix expected = small_weights();
+  const std::string by_point = doubles({1, 4, 2, 5, 3, 6});
+  const std::string by_control = doubles({1, 2, 3, 4, 5, 6});
+  const float floats[] = {1, 4, 2, 5, 3, 6};
+  const std::string single(reinterpret_cast<const char*>(floats), sizeof floats);
+  const std::vector<std::string> variants = {
+      npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n") + by_point,
+      npy("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2), }   \n") + by_control,
+      npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2), }\n") + single,
+      npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n", 2) + by_point,
+      npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n", 3) + by_point,
+      npy("{\"shape\":(3L,2L),\"fortran_order\":False,\"descr\":\"<f8\"}") + by_point,
+  };
+  for (const std::string& variant : variants) {
+    EXPECT_TRUE(bit_equal(read_weights(make("w.npy", variant)), expected)) << variant;
+  }
+}
+
+TEST_F(WeightsFile, MalformedMtx) {
+  const std::string head = "%%MatrixMarket matrix coordinate real general\n";
+  const std::string array = "%%MatrixMarket matrix array real general\n";
+  expect_malformed(
+      "w.mtx",
+      {{"", ":1: ", "%%MatrixMarket"},
+       {std::string("\0\x01\xff\xfe\0\0garbage", 13), ":1: ", "%%MatrixMarket"},
+       {"3 2 6\n1 1 1\n", ":1: ", "%%MatrixMarket"},
+       {"%%MatrixMarket matrix coordinate pattern general\n", ":1: ", "field \"pattern\""},
+       {"%%MatrixMarket matrix coordinate complex general\n", ":1: ", "field \"complex\""},
+       {"%%MatrixMarket matrix coordinate real symmetric\n", ":1: ", "symmetry \"symmetric\""},
+       {"%%MatrixMarket matrix coordinate real skew-symmetric\n", ":1: ", "\"skew-symmetric\""},
+       {"%%MatrixMarket matrix coordinate real hermitian\n", ":1: ", "\"hermitian\""},
+       {"%%MatrixMarket vector coordinate real general\n", ":1: ", "object \"vector\""},
+       {"%%MatrixMarket matrix\n", ":1: ", "format \"\""},
+       {head, ":1: ", "the file ends before the size"},
+       {head + "3 2\n", ":2: ", "expected an integer"},
+       {head + "3 2 x\n1 1 1\n", ":2: ", "expected an integer, found \"x\""},
+       {head + "-3 2 1\n1 1 1\n", ":2: ", "-3 rows are declared"},
+       {head + "3 2 1000000000\n1 1 1\n", ":2: ", "too short"},
+       {head + "3 2 3000000000\n1 1 1\n", ":2: ", "more than this program can handle"},
+       {head + "3 2 99999999999999999999\n1 1 1\n", ":2: ", "too large"},
+       {head + "2000000000 2000000000 1\n1 1 1\n", ":2: ", "only 1 entries"},
+       {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
+       {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},
+       {head + "3 2 1\n4 1 1\n", ":3: ", "rows are numbered 1 to 3"},
+       {head + "3 2 1\n1 0 1\n", ":3: ", "columns are numbered 1 to 2"},
+       {head + "3 2 1\n1 -1 1\n", ":3: ", "the index -1 is out of range"},
+       {head + "3 2 1\n1.5 1 1\n", ":3: ", "expected an integer, found \"1.5\""},
+       {head + "3 2 2\n1 1 1\n1 1 1\n", ":4: ", "row 1, column 1 occurs twice"},
+       {head + "3 2 2\n1 1 0\n1 1 2\n", ":4: ", "row 1, column 1 occurs twice"},
+       {head + "3 2 1\n1 1\n", ":3: ", "expected a number, found the end"},
+       {head + "3 2 1\n1 1 1 1\n", ":3: ", "expected the end of the line, found \"1\""},
+       {head + "3 2 1\n1 1 0x1p3\n", ":3: ", "expected a number, found \"0x1p3\""},
+       {head + "3 2 1\n1 1 1,5\n", ":3: ", "expected a number, found \"1,5\""},
+       {head + "3 2 1\n1 1 1e400\n", ":3: ", "\"1e400\" is too large"},
+       {head + "3 2 1\n1 1 nan\n", ":3: ", "expected a finite number, found \"nan\""},
+       {head + "3 2 1\n1 1 -inf\n", ":3: ", "expected a finite number, found \"-inf\""},
+       {array + "3 2\n1 2 3 4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
+       {array + "3 2\n1 2 3 4 5 6 7\n", ":3: ", "found \"7\""},
+       {array + "300000 200000\n1 2 3\n", ":2: ", "too short"}});
+}
+
+TEST_F(WeightsFile, MalformedDmat) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_malformed(
+      "w.dmat",
+      {{"", ":1: ", "end of the file"},
+       {std::string("\0\x01\xff\xfe\0\0garbage", 13), ":1: ", "expected an integer"},
+       {"2\n", ":1: ", "expected an integer"},
+       {"2 -3\n", ":1: ", "-3 rows are declared"},
+       {"2 3\n1 2 3\n4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
+       {"2 3\n1 2 3\n4 5 6\n7\n", ":4: ", "expected the end of the file"},
+       {"2 3\n1 2 3\n4 abc 6\n", ":3: ", "expected a number, found \"abc\""},
+       {"2 3\n1 2 nan\n4 5 6\n", ":2: ", "expected a finite number"},
+       {"2000000000 2000000000\n1 2 3\n", ":1: ", "too short"},
+       {"0 0\n", ":1: ", "the file ends before the size"},
+       {"0 0\n2 x\n", ":2: ", "expected an integer, found \"x\""},
+       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5}), ": at byte 48: ", "after 5 of 6 numbers"},
+       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6, 7}), ": at byte 56: ", "goes on for 8 bytes"},
+       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, nan, 6}),
+        ": at byte 40: ", "control point 1 at point 1 is not finite"},
+       {"0 0\n2000000000 2000000000\n" + doubles({1, 2}), ": at byte ", "after 2 of 4000000000"}});
+}
+
+TEST_F(WeightsFile, MalformedNpy) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }";
+  const std::string data = doubles({1, 4, 2, 5, 3, 6});
+  const auto with = [&](const std::string& dictionary) { return npy(dictionary) + data; };
+  expect_malformed(
+      "w.npy",
+      {{"", ": at byte 0: ", "not a NumPy"},
+       {"garbage", ": at byte 0: ", "not a NumPy"},
+       {"\x93NUMPY", ": at byte 6: ", "ends inside its header"},
+       {std::string("\x93NUMPY\x01\x00\x76", 9), ": at byte 9: ", "ends inside its header"},
+       {npy(head).substr(0, 30), ": at byte 30: ", "ends inside its header"},
+       {npy(head, 9), ": at byte 6: ", "version 9"},
+       {with("{'descr': '>f8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "\">f8\""},
+       {with("{'descr': '>f8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "big-endian"},
+       {with("{'descr': '<i8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "\"<i8\""},
+       {with("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3, 2), }"),
+        ": at byte 20: ", "structured"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (6,), }"), ": ", "1 dimensions"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (), }"), ": ", "0 dimensions"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3, 2), }"), ": ",
+        "3 dimensions"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 2), }"),
+        ": at byte 61: ", "number of elements"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999, 2)}"),
+        ": at byte 61: ", "number of elements"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999, 2)}"), ": ",
+        "more than this program can handle"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (2000000000, 2000000000)}"), ": ",
+        "after 6 of 4000000000000000000 numbers"},
+       {with("{'descr': '<f8', 'fortran_order': Maybe, 'shape': (3, 2)}"),
+        ": at byte 44: ", "True or False"},
+       {with("{'descr': '<f8', 'fortran_order': False}"), ": ", "no 'shape'"},
+       {with("{'descr': '<f8', 'shape': (3, 2)}"), ": ", "no 'fortran_order'"},
+       {with("{'fortran_order': False, 'shape': (3, 2)}"), ": ", "no 'descr'"},
+       {with("{'color': 1}"), ": at byte 11: ", "unknown key \"color\""},
+       {with("{'descr: "), ": at byte 11: ", "string without end"},
+       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), } x"),
+        ": at byte 70: ", "end of the header"},
+       {npy(head) + data.substr(0, 45), ": at byte 114: ", "after 5 of 6 numbers"},
+       {npy(head) + data + "!", ": at byte 117: ", "goes on for 1 bytes"},
+       {npy(head) + doubles({1, 4, 2, infinity, 3, 6}),
+        ": at byte 93: ", "control point 1 at point 1 is not finite: inf"}});
+}
+
+TEST_F(WeightsFile, OtherExtensionsAreRefused) {
+  for (const std::string name : {"weights.txt", "weights", "-"}) {
+    const std::string file = name == "-" ? name : path(name);
+    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat or .npy"});
+    expect_error<OptionError>([&] { write_weights(file, small_weights()); },
+                              {file, ".mtx, .dmat or .npy"});
+  }
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(WeightsFile, FilesThatCannotBeOpened) {
+  for (const std::string extension : kExtensions) {
+    const std::string missing = path("missing." + extension);
+    expect_error<IoError>([&] { read_weights(missing); }, {missing, "No such file"});
+    const std::string nowhere = path("missing/w." + extension);
+    expect_error<IoError>([&] { write_weights(nowhere, small_weights()); },
+                          {nowhere, "No such file"});
+    const std::string folder = path("folder." + extension);
+    std::filesystem::create_directory(folder);
+    expect_error<IoError>([&] { read_weights(folder); }, {folder, "Is a directory"});
+    expect_error<IoError>([&] { write_weights(folder, small_weights()); },
+                          {folder, "Is a directory"});
+  }
+}
+
+TEST_F(WeightsFile, WeightsThatAreNotFiniteAreNotWritten) {
+  WeightMatrix weights = small_weights();
+  weights(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  for (const std::string extension : kExtensions) {
+    expect_error<InputError>([&] { write_weights(path("w." + extension), weights); },
+                             {"control point 1 at point 2 is not finite"});
+  }
+  EXPECT_TRUE(names().empty());
+}
+
+// What many languages do, without relying on their locales being installed.
+struct CommaAndGroups : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\1"; }
+};
+
+TEST_F(WeightsFile, NumbersDoNotDependOnTheLocale) {
+  const WeightMatrix weights = awkward_weights();
+  const std::locale previous = std::locale::global(std::locale({}, new CommaAndGroups));
+  const std::string c_locale = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
+  for (const std::string extension : kExtensions) {
+    const std::string file = path("weights." + extension);
+    write_weights(file, weights);
+    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
+  }
+  std::setlocale(LC_ALL, c_locale.c_str());
+  std::locale::global(previous);
+}
+
+}  // namespace
+}  // namespace flbc::io

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "openmesh_bindings/mesh_io.h"
+
+namespace flbc::openmesh {
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+};
+using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+
+std::string path_of(const std::string& name) {
+  return ::testing::TempDir() + "/flbc_" + name;
+}
+
+// A box without lid, in quadrangles, with thirds as coordinates.
+Mesh open_box() {
+  Mesh mesh;
+  std::vector<Mesh::VertexHandle> v;
+  for (int k = 0; k < 8; ++k) {
+    v.push_back(mesh.add_vertex(Mesh::Point((k & 1) / 3.0, (k & 2) / 3.0, (k & 4) / 3.0)));
+  }
+  mesh.add_face(v[0], v[2], v[3], v[1]);
+  mesh.add_face(v[0], v[1], v[5], v[4]);
+  mesh.add_face(v[1], v[3], v[7], v[5]);
+  mesh.add_face(v[3], v[2], v[6], v[7]);
+  mesh.add_face(v[2], v[0], v[4], v[6]);
+  return mesh;
+}
+
+TEST(OpenMeshIo, KeepsPolygonsAndTheirOrder) {
+  const auto mesh = open_box();
+  for (const std::string extension : {"ply", "om", "obj", "off"}) {
+    SCOPED_TRACE(extension);
+    const auto path = path_of("box." + extension);
+    ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
+    const auto soup = read_polygons(path);
+    ASSERT_EQ(soup.points.size(), 8U);
+    ASSERT_EQ(soup.polygons.size(), 5U);
+    for (const auto& polygon : soup.polygons) EXPECT_EQ(polygon.size(), 4U);
+    for (const auto vertex : mesh.vertices()) {
+      const auto& point = mesh.point(vertex);
+      for (int d = 0; d < 3; ++d) EXPECT_NEAR(soup.points[vertex.idx()][d], point[d], 1e-6);
+    }
+  }
+}
+
+TEST(OpenMeshIo, KeepsDoublePointsOfOmFiles) {
+  const auto path = path_of("exact.om");
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path));
+  EXPECT_EQ(read_polygons(path).points[1].x(), 1 / 3.0);
+}
+
+TEST(OpenMeshIo, MergesTheCornersOfStlFiles) {
+  auto mesh = open_box();
+  mesh.triangulate();
+  const auto path = path_of("box.stl");
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
+  const auto soup = read_polygons(path);
+  EXPECT_EQ(soup.points.size(), 8U);
+  EXPECT_EQ(soup.polygons.size(), 10U);
+}
+
+// Three triangles at one edge: no half-edge mesh could hold them, the soup must.
+TEST(OpenMeshIo, KeepsNonManifoldFacesAndPrintsNothing) {
+  const auto path = path_of("fan.ply");
+  std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\n"
+                         "property float y\nproperty float z\nelement face 3\n"
+                         "property list uchar int vertex_indices\nend_header\n"
+                         "0 0 0\n0 0 1\n1 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n";
+  ::testing::internal::CaptureStderr();
+  const auto soup = read_polygons(path);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(soup.polygons.size(), 3U);
+}
+
+TEST(OpenMeshIo, RefusesWhatItCannotRead) {
+  EXPECT_THROW(read_polygons(path_of("missing.ply")), IoError);
+  const auto path = path_of("garbage.ply");
+  std::ofstream(path) << "this is no mesh\n";
+  ::testing::internal::CaptureStderr();
+  EXPECT_THROW(read_polygons(path), InputError);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace flbc::openmesh

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What has to hold for any mesh of a cage's interior.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc::testing {
+
+//! Sum of the lengths of edges or the areas of triangles.
+template <int Dim>
+double sum_of_facets(const PointList<Dim>& points, const FacetList<Dim>& facets) {
+  double sum = 0;
+  for (Index f = 0; f < facets.cols(); ++f) {
+    const Vector<Dim> a = points.col(facets(0, f)), b = points.col(facets(1, f));
+    if constexpr (Dim == 2) {
+      sum += (b - a).norm();
+    } else {
+      const Vector<3> c = points.col(facets(2, f));
+      sum += (b - a).cross(c - a).norm() / 2;
+    }
+  }
+  return sum;
+}
+
+//! Area or volume by the divergence theorem; positive for counter-clockwise loops and outward
+//! shells.
+template <int Dim>
+double enclosed_measure(const Cage<Dim>& cage) {
+  double sum = 0;
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    sum += corners.determinant() / (Dim == 2 ? 2 : 6);
+  }
+  return sum;
+}
+
+template <int Dim>
+double total_volume(const DomainMesh<Dim>& mesh) {
+  double sum = 0;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) sum += signed_measure(mesh, cell);
+  return sum;
+}
+
+//! Do all corners of a mesh facet lie in one cage facet?
+template <int Dim>
+bool lies_in_one_facet(const Cage<Dim>& cage, const PointList<Dim>& points,
+                       const Eigen::Matrix<Index, Dim, 1>& corners, double tolerance) {
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    const Vector<Dim> a = cage.points.col(cage.facets(0, f)),
+                      b = cage.points.col(cage.facets(1, f));
+    bool has_all = true;
+    for (int k = 0; k < Dim && has_all; ++k) {
+      const Vector<Dim> p = points.col(corners(k));
+      if constexpr (Dim == 2) {
+        has_all = (p - a).norm() + (p - b).norm() <= (b - a).norm() + tolerance;
+      } else {
+        // Inside the prism over the triangle: heights over its plane and inwards from its edges.
+        const Vector<3> c = cage.points.col(cage.facets(2, f));
+        const Vector<3> normal = (b - a).cross(c - a).normalized();
+        has_all = std::abs(normal.dot(p - a)) <= tolerance;
+        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+          has_all = has_all && normal.cross(to - from).normalized().dot(p - from) >= -tolerance;
+        }
+      }
+    }
+    if (has_all) return true;
+  }
+  return false;
+}
+
+//! The points are the mesh's vertices from `first` on, bit by bit.
+template <int Dim>
+void expect_vertices(const DomainMesh<Dim>& mesh, Index first, const PointList<Dim>& points) {
+  ASSERT_GE(mesh.num_vertices(), first + points.cols());
+  EXPECT_EQ(PointList<Dim>(mesh.points.middleCols(first, points.cols())), points);
+}
+
+//! Control points first, cells positive and all of the interior, boundary facets on the cage and
+//! all of it. \param interior_measure  area or volume that the mesh must have
+template <int Dim>
+void expect_fills(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, double interior_measure) {
+  expect_vertices<Dim>(mesh, 0, cage.points);
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) EXPECT_GT(signed_measure(mesh, cell), 0);
+  EXPECT_NEAR(total_volume(mesh), interior_measure, 1e-9 * interior_measure);
+
+  const MeshTopology<Dim> topology = build_topology(mesh);
+  const double tolerance = 1e-9 * size_of<Dim>(cage.points);
+  FacetList<Dim> boundary(Dim, topology.num_facets());
+  Index count = 0, astray = 0;
+  for (Index facet = 0; facet < topology.num_facets(); ++facet) {
+    if (!topology.is_boundary(facet)) continue;
+    boundary.col(count++) = topology.facets.col(facet);
+    astray += !lies_in_one_facet<Dim>(cage, mesh.points, topology.facets.col(facet), tolerance);
+  }
+  EXPECT_EQ(astray, 0) << "boundary facets that lie in no single facet of the cage";
+  boundary.conservativeResize(Dim, count);
+  const double surface = sum_of_facets<Dim>(cage.points, cage.facets);
+  EXPECT_NEAR(sum_of_facets<Dim>(mesh.points, boundary), surface, 1e-9 * surface);
+}
+
+//! The number of vertices is met up to a relative error.
+template <int Dim>
+void expect_count(const DomainMesh<Dim>& mesh, Index wanted, double tolerance) {
+  EXPECT_NEAR(mesh.num_vertices(), wanted, tolerance * wanted);
+}
+
+//! Runs `action` and returns the text of the exception of type `Exception`, which it must throw.
+template <class Exception, class Action>
+std::string message_of(const Action& action) {
+  try {
+    action();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "the expected exception was not thrown";
+  return "";
+}
+
+}  // namespace flbc::testing

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Tiny cages with meshes of their interiors, made in code, the same way in 2D and 3D: a coarse
+//! mesh whose boundary is the cage is subdivided regularly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coarse_shapes.h"
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc::testing {
+
+//! A cage, oriented outwards, and a conforming mesh of its interior. The control points are mesh
+//! vertices (in no particular place) and every cage facet is a union of mesh facets.
+template <int Dim>
+struct Sample {
+  Cage<Dim> cage;
+  DomainMesh<Dim> mesh;
+  std::string name;
+};
+
+//! \param subdivisions  k >= 1: every coarse cell becomes k^Dim cells
+//! \param jitter  moves interior vertices by up to this part of the least height of their cells,
+//!     the same way on every machine; 0 leaves them in place
+//! \throws std::invalid_argument if subdivisions < 1, or if the jitter turns a cell round (no
+//!     jitter below 0.25 can)
+template <int Dim>
+Sample<Dim> make_sample(Shape shape, Index subdivisions, double jitter = 0);
+
+//! All shapes with 50 to 400 vertices, most of them jittered, each with interior vertices.
+template <int Dim>
+std::vector<Sample<Dim>> samples();
+
+}  // namespace flbc::testing

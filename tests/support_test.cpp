@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What judges the library has to be right itself: sample meshes and judge.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+
+#include "support/harmonic_weights.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+#include "support/simplex.h"
+
+namespace flbc::testing {
+namespace {
+
+using Eigen::MatrixXd;
+
+template <int Dim>
+double total_measure(const DomainMesh<Dim>& mesh) {
+  double sum = 0;
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    sum += signed_simplex_measure<Dim>(cell_corners(mesh, s));
+  }
+  return sum;
+}
+
+// By the divergence theorem: cones from the origin over the oriented facets.
+template <int Dim>
+double enclosed_measure(const Cage<Dim>& cage) {
+  double sum = 0;
+  for (Eigen::Index f = 0; f < cage.facets.cols(); ++f) {
+    PointList<Dim> cone = PointList<Dim>::Zero(Dim, Dim + 1);
+    cone.rightCols(Dim) = corners_of<Dim>(cage.points, cage.facets.col(f));
+    sum += signed_simplex_measure<Dim>(cone);
+  }
+  return sum;
+}
+
+template <class Dimension>
+class SupportTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SupportTest, Dimensions);
+
+// The ridges (vertices of edges, edges of triangles) of a closed, consistently oriented cage are
+// met exactly once in each direction.
+template <int Dim>
+std::map<std::array<Index, 2>, std::array<int, 2>> ridge_counts(const Cage<Dim>& cage) {
+  std::map<std::array<Index, 2>, std::array<int, 2>> counts;
+  for (Eigen::Index f = 0; f < cage.facets.cols(); ++f) {
+    for (int k = 0; k < Dim; ++k) {
+      const Index a = cage.facets(k, f);
+      const Index b = Dim == 2 ? a : cage.facets((k + 1) % Dim, f);
+      const int direction = Dim == 2 ? k : (a < b ? 0 : 1);
+      ++counts[{std::min(a, b), std::max(a, b)}][direction];
+    }
+  }
+  return counts;
+}
+
+TYPED_TEST(SupportTest, SampleCagesAreClosedAndOrientedOutwards) {
+  constexpr int Dim = TypeParam::value;
+  for (const auto& sample : samples<Dim>()) {
+    SCOPED_TRACE(sample.name);
+    for (const auto& [ridge, counts] : ridge_counts(sample.cage)) {
+      EXPECT_EQ(counts[0], 1) << ridge[0] << " " << ridge[1];
+      EXPECT_EQ(counts[1], 1) << ridge[0] << " " << ridge[1];
+    }
+    EXPECT_GT(enclosed_measure(sample.cage), 0);
+    EXPECT_NEAR(enclosed_measure(sample.cage), total_measure(sample.mesh), 1e-12);
+  }
+}
+
+TYPED_TEST(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
+  constexpr int Dim = TypeParam::value;
+  const auto box = make_sample<Dim>(Shape::kBox, 2).cage;
+  const auto corner = make_sample<Dim>(Shape::kCorner, 2).cage;
+  const auto ring = make_sample<Dim>(Shape::kRing, 2).cage;
+  EXPECT_NEAR(enclosed_measure(box), 1, 1e-14);
+  EXPECT_NEAR(enclosed_measure(corner), 3, 1e-14);
+  EXPECT_NEAR(enclosed_measure(ring), 8, 1e-14);
+  const Index layers = Dim - 1;
+  EXPECT_EQ(box.size(), 4 * layers);
+  EXPECT_EQ(corner.size(), 6 * layers);
+  EXPECT_EQ(ring.size(), 8 * layers);
+  if (Dim == 3) {
+    const auto euler = [](const Cage<Dim>& cage) {
+      const auto edges = static_cast<Index>(ridge_counts(cage).size());
+      return cage.size() - edges + static_cast<Index>(cage.facets.cols());
+    };
+    EXPECT_EQ(euler(box), 2);
+    EXPECT_EQ(euler(corner), 2);
+    EXPECT_EQ(euler(ring), 0);
+  }
+}
+
+// Each cell of a Kuhn triangulation contains the main diagonal of its cube.
+TYPED_TEST(SupportTest, BoxSampleIsAStructuredGrid) {
+  constexpr int Dim = TypeParam::value;
+  const auto mesh = make_sample<Dim>(Shape::kBox, 3).mesh;
+  EXPECT_EQ(mesh.num_vertices(), Dim == 2 ? 16 : 64);
+  EXPECT_EQ(mesh.num_cells(), Dim == 2 ? 2 * 9 : 6 * 27);
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    const auto corners = cell_corners(mesh, s);
+    const Vector<Dim> span = corners.rowwise().maxCoeff() - corners.rowwise().minCoeff();
+    EXPECT_LT((span - Vector<Dim>::Constant(1.0 / 3)).norm(), 1e-14);
+    const Eigen::RowVectorXd heights = corners.colwise().sum();
+    EXPECT_NEAR(heights.maxCoeff() - heights.minCoeff(), Dim / 3.0, 1e-14);
+  }
+}
+
+TYPED_TEST(SupportTest, SampleMeshesAreConformingAndFillTheirCages) {
+  constexpr int Dim = TypeParam::value;
+  for (const auto& sample : samples<Dim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto& mesh = sample.mesh;
+    EXPECT_GE(mesh.num_vertices(), 50);
+    EXPECT_LE(mesh.num_vertices(), 400);
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      EXPECT_GT(signed_simplex_measure<Dim>(cell_corners(mesh, s)), 1e-5);
+    }
+    double mesh_boundary = 0;
+    for (const auto& [facet, cells] : cells_by_facet(mesh)) {
+      ASSERT_LE(cells.size(), 2u);
+      if (cells.size() == 1) {
+        mesh_boundary += simplex_measure<Dim>(corners_of<Dim>(mesh.points, facet));
+      }
+    }
+    double cage_boundary = 0;
+    for (Eigen::Index f = 0; f < sample.cage.facets.cols(); ++f) {
+      const auto corners = corners_of<Dim>(sample.cage.points, sample.cage.facets.col(f));
+      cage_boundary += simplex_measure<Dim>(corners);
+    }
+    // Positive cells that fill the enclosed measure and have no boundary but the cage's leave
+    // neither gaps nor hanging vertices.
+    EXPECT_NEAR(mesh_boundary, cage_boundary, 1e-12);
+    const auto zero = MatrixXd::Zero(sample.cage.size(), mesh.num_vertices());
+    const auto judgement = judge<Dim>(sample.cage, mesh, zero);
+    EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
+    EXPECT_EQ(judgement.control_points_found, sample.cage.size());
+  }
+}
+
+TYPED_TEST(SupportTest, JitterIsReproducibleAndMovesInteriorVerticesOnly) {
+  constexpr int Dim = TypeParam::value;
+  const auto straight = make_sample<Dim>(Shape::kBox, 3).mesh;
+  const auto moved = make_sample<Dim>(Shape::kBox, 3, 0.25).mesh;
+  EXPECT_EQ(moved.points, make_sample<Dim>(Shape::kBox, 3, 0.25).mesh.points);
+  const auto interior = interior_vertices(straight);
+  for (Index v = 0; v < straight.num_vertices(); ++v) {
+    EXPECT_EQ(interior[v], straight.points.col(v) != moved.points.col(v)) << v;
+  }
+  EXPECT_THROW(make_sample<Dim>(Shape::kBox, 3, 10), std::invalid_argument);
+  EXPECT_THROW(make_sample<Dim>(Shape::kBox, 0), std::invalid_argument);
+}
+
+TYPED_TEST(SupportTest, JudgeAcceptsHarmonicCoordinates) {
+  constexpr int Dim = TypeParam::value;
+  for (const auto& sample : samples<Dim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto judgement = judge<Dim>(sample.cage, sample.mesh, harmonic_weights(sample), 1e-12);
+    EXPECT_LT(judgement.partition_error, 1e-12);
+    EXPECT_LT(judgement.reproduction_error, 1e-12);
+    EXPECT_LT(judgement.lagrange_error, 1e-12);
+    EXPECT_LT(judgement.linearity_error, 1e-12);
+  }
+}
+
+TYPED_TEST(SupportTest, JudgeSeesBrokenInteriorWeights) {
+  constexpr int Dim = TypeParam::value;
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
+  const MatrixXd good = harmonic_weights(sample);
+  const auto interior = interior_vertices(sample.mesh);
+  const auto v = std::find(interior.begin(), interior.end(), true) - interior.begin();
+  const Index last = sample.cage.size() - 1;  // the corner (1, .., 1)
+
+  MatrixXd broken = good;
+  broken(last, v) += 0.01;
+  auto judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_NEAR(judgement.partition_error, 0.01, 1e-12);
+  EXPECT_NEAR(judgement.reproduction_error, 0.01, 1e-12);  // |(1, .., 1)| is the cage's diagonal
+  EXPECT_EQ(judgement.worst_reproduced, Vector<Dim>(sample.mesh.points.col(v)));
+  EXPECT_LT(judgement.linearity_error, 1e-12);
+
+  broken = good;
+  broken(1, v) = -2;
+  judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_EQ(judgement.min_weight, -2);
+  EXPECT_EQ(judgement.local_minima[1], 1);
+  EXPECT_EQ(judgement.local_maxima[1], 0);
+  EXPECT_EQ(judge<Dim>(sample.cage, sample.mesh, broken, 10).local_minima[1], 0);
+
+  broken(1, v) = 2;
+  judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_EQ(judgement.local_minima[1], 0);
+  EXPECT_EQ(judgement.local_maxima[1], 1);
+
+  broken(1, v) = std::numeric_limits<double>::quiet_NaN();
+  judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_TRUE(std::isinf(judgement.partition_error));
+  EXPECT_TRUE(std::isinf(judgement.reproduction_error));
+  EXPECT_TRUE(std::isinf(judgement.min_weight));
+}
+
+TYPED_TEST(SupportTest, JudgeSeesBrokenBoundaryWeights) {
+  constexpr int Dim = TypeParam::value;
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3);
+  const MatrixXd good = harmonic_weights(sample);
+  Index control = -1;
+  Index between = -1;
+  const auto interior = interior_vertices(sample.mesh);
+  for (Index v = 0; v < sample.mesh.num_vertices(); ++v) {
+    if (!interior[v]) (good.col(v).maxCoeff() > 1 - 1e-9 ? control : between) = v;
+  }
+  MatrixXd broken = good;
+  broken(0, control) += 0.5;
+  auto judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_NEAR(judgement.lagrange_error, 0.5, 1e-12);
+  EXPECT_NEAR(judgement.linearity_error, 0.5, 1e-12);
+
+  broken = good;
+  broken(0, between) -= 0.25;
+  judgement = judge<Dim>(sample.cage, sample.mesh, broken);
+  EXPECT_LT(judgement.lagrange_error, 1e-12);
+  EXPECT_NEAR(judgement.linearity_error, 0.25, 1e-12);
+
+  auto mesh = sample.mesh;
+  mesh.points.col(control) *= 1.01;
+  mesh.points.col(control).array() += 0.01;
+  judgement = judge<Dim>(sample.cage, mesh, good);
+  EXPECT_EQ(judgement.boundary_vertices_off_cage, 1);
+  EXPECT_EQ(judgement.control_points_found, sample.cage.size() - 1);
+  EXPECT_THROW(judge<Dim>(sample.cage, mesh, good.topRows(2)), std::invalid_argument);
+}
+
+TYPED_TEST(SupportTest, ObjectiveOfBarycentricCoordinatesFollowsFromTheFacets) {
+  constexpr int Dim = TypeParam::value;
+  const auto sample = make_sample<Dim>(Shape::kSimplex, 3, 0.2);
+  MatrixXd phi(Dim + 1, sample.mesh.num_cells());
+  double expected = 0;  // A |grad w_i| is the facet opposite to c_i over Dim
+  for (Index i = 0; i <= Dim; ++i) {
+    phi.row(i).setConstant(0.1 + i);
+    PointList<Dim> facet(Dim, Dim);
+    for (Index k = 0, slot = 0; k <= Dim; ++k) {
+      if (k != i) facet.col(slot++) = sample.cage.points.col(k);
+    }
+    expected += (0.1 + i) * simplex_measure<Dim>(facet) / Dim;
+  }
+  EXPECT_NEAR(objective(sample.mesh, harmonic_weights(sample), phi), expected, 1e-12);
+}
+
+TYPED_TEST(SupportTest, MeanSquaredDifferenceCountsInteriorVerticesOnly) {
+  constexpr int Dim = TypeParam::value;
+  const auto sample = make_sample<Dim>(Shape::kBox, 3);  // 2^Dim interior vertices
+  const auto interior = interior_vertices(sample.mesh);
+  const MatrixXd a = MatrixXd::Random(sample.cage.size(), sample.mesh.num_vertices());
+  MatrixXd b = a;
+  for (Index v = 0; v < sample.mesh.num_vertices(); ++v) {
+    if (!interior[v]) b.col(v).array() += 7;
+  }
+  EXPECT_EQ(mean_squared_difference(sample.mesh, a, b), 0);
+  const auto v = std::find(interior.begin(), interior.end(), true) - interior.begin();
+  b(2, v) += 0.1;
+  EXPECT_NEAR(mean_squared_difference(sample.mesh, a, b), 0.01 / std::pow(4, Dim), 1e-15);
+  const auto no_interior = make_sample<Dim>(Shape::kBox, 1);
+  EXPECT_THROW(mean_squared_difference(no_interior.mesh, a, b), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "flbc/errors.h"
+#include "flbc/meshing.h"
+#include "support/code_cages.h"
+#include "support/mesh_checks.h"
+#include "support/model_cages.h"
+
+namespace flbc {
+namespace {
+
+using flbc::testing::box_cage;
+using flbc::testing::enclosed_measure;
+using flbc::testing::expect_count;
+using flbc::testing::expect_fills;
+using flbc::testing::expect_vertices;
+using flbc::testing::has_model;
+using flbc::testing::join;
+using flbc::testing::load_cage;
+using flbc::testing::message_of;
+using flbc::testing::reversed;
+using flbc::testing::without_facet;
+
+MeshingOptions<3> vertices(Index count) {
+  MeshingOptions<3> options;
+  options.vertices = count;
+  return options;
+}
+
+MeshingOptions<3> embedding(const PointList<3>& points, Index count = 0) {
+  MeshingOptions<3> options = vertices(count);
+  options.embedded_points = points;
+  return options;
+}
+
+// Circumradius over shortest edge, largest over the cells: what TetGen is asked to bound.
+double worst_radius_edge_ratio(const DomainMesh<3>& mesh) {
+  double worst = 0;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    const Vector<3> origin = mesh.points.col(mesh.cells(0, cell));
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) {
+      edges.row(k) = (mesh.points.col(mesh.cells(k + 1, cell)) - origin).transpose();
+    }
+    const Vector<3> half_squares = edges.rowwise().squaredNorm() / 2;
+    const double radius = (edges.inverse() * half_squares).norm();
+    double shortest = edges.row(0).norm();
+    for (int k = 0; k < 3; ++k) {
+      shortest =
+          std::min({shortest, edges.row(k).norm(), (edges.row(k) - edges.row((k + 1) % 3)).norm()});
+    }
+    worst = std::max(worst, radius / shortest);
+  }
+  return worst;
+}
+
+bool has_child() {
+  return waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD;
+}
+
+TEST(TetrahedralizeTest, CountAndCover) {
+  for (double size : {1e-6, 1.0, 1e5}) {
+    const Cage<3> cage = box_cage<3>(size);
+    for (Index count : {0, 300, 5000}) {
+      const DomainMesh<3> mesh = tetrahedralize(cage, vertices(count));
+      expect_fills(cage, mesh, 8 * size * size * size);
+      if (count > 0) expect_count(mesh, count, 0.10);
+      EXPECT_LT(worst_radius_edge_ratio(mesh), 1.5);
+    }
+  }
+}
+
+TEST(TetrahedralizeTest, InwardOrientationDoesNotMatter) {
+  const Cage<3> cage = reversed(box_cage<3>(1));
+  expect_fills(cage, tetrahedralize(cage, vertices(500)), 8);
+}
+
+TEST(TetrahedralizeTest, CavitiesStayEmptyWhateverTheirOrientationAndOrder) {
+  const Cage<3> box = box_cage<3>(1), cavity = box_cage<3>(0.5);
+  const Cage<3> second = box_cage<3>(Vector<3>::Constant(0.7), Vector<3>::Constant(0.9));
+  for (const Cage<3>& cage : {join(box, cavity), join(box, reversed(cavity)), join(cavity, box)}) {
+    for (Index count : {0, 2000}) {
+      const DomainMesh<3> mesh = tetrahedralize(cage, vertices(count));
+      expect_fills(cage, mesh, 7);
+      if (count > 0) expect_count(mesh, count, 0.10);
+    }
+  }
+  const Cage<3> two = join(join(box, cavity), second);
+  expect_fills(two, tetrahedralize(two), 7 - 0.008);
+}
+
+TEST(TetrahedralizeTest, IslandsAndSeparateShellsAreRefused) {
+  const Cage<3> island = join(join(box_cage<3>(1), box_cage<3>(0.75)), box_cage<3>(0.5));
+  EXPECT_THROW(tetrahedralize(island), InputError);
+  const Cage<3> apart = join(box_cage<3>(Vector<3>::Zero(), Vector<3>::Ones()),
+                             box_cage<3>(Vector<3>::Constant(2), Vector<3>::Constant(3)));
+  EXPECT_THROW(tetrahedralize(apart), InputError);
+}
+
+TEST(TetrahedralizeTest, DefectiveCagesAreRefusedBeforeTetgenRuns) {
+  const std::string text =
+      message_of<InputError>([] { tetrahedralize(without_facet(box_cage<3>(1), 4)); });
+  EXPECT_NE(text.find("open at the edge"), std::string::npos);
+}
+
+TEST(TetrahedralizeTest, SelfIntersectionsGiveAnErrorAndTheProcessSurvives) {
+  const Cage<3> crossing = join(box_cage<3>(Vector<3>(-1, -2, -1), Vector<3>(1, 2, 1)),
+                                box_cage<3>(Vector<3>(-3, -0.5, -0.5), Vector<3>(3, 0.5, 0.5)));
+  const std::string text = message_of<InputError>([&] { tetrahedralize(crossing); });
+  EXPECT_NE(text.find("TetGen"), std::string::npos);
+  EXPECT_NE(text.find("intersect"), std::string::npos);
+  EXPECT_FALSE(has_child());
+  expect_fills(box_cage<3>(1), tetrahedralize(box_cage<3>(1)), 8);  // and goes on working
+}
+
+TEST(TetrahedralizeTest, TimeLimit) {
+  MeshingOptions<3> options = vertices(2000000);
+  options.time_limit = 0.3;
+  const auto start = std::chrono::steady_clock::now();
+  const std::string text = message_of<InputError>([&] { tetrahedralize(box_cage<3>(1), options); });
+  EXPECT_NE(text.find("time limit of 0.3 s"), std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_FALSE(has_child());
+}
+
+TEST(TetrahedralizeTest, EmbeddedPointsFollowTheControlPoints) {
+  PointList<3> points(3, 4);
+  points << 0.1 + 0.2, -0.7, 0.123456789, -0.999,  //
+      0.75, 0.7, 0.987654321, 0.1,                 //
+      0.6, 0.1, 0.1, 0.33333;
+  const Cage<3> cage = join(box_cage<3>(1), box_cage<3>(0.5));
+  for (Index count : {0, 3000}) {
+    const DomainMesh<3> mesh = tetrahedralize(cage, embedding(points, count));
+    expect_fills(cage, mesh, 7);
+    expect_vertices<3>(mesh, cage.size(), points);
+    if (count > 0) expect_count(mesh, count, 0.10);
+  }
+}
+
+TEST(TetrahedralizeTest, PointsThatCannotBeEmbedded) {
+  const Cage<3> cage = join(box_cage<3>(1), box_cage<3>(0.5));
+  const auto refusal = [&](const Vector<3>& second) {
+    PointList<3> points(3, 2);
+    points << Vector<3>(0.75, 0.75, 0.75), second;
+    return message_of<InputError>([&] { tetrahedralize(cage, embedding(points)); });
+  };
+  EXPECT_NE(refusal({2, 0.5, 0}).find("point 1 at (2, 0.5, 0) cannot be embedded: it lies outside"),
+            std::string::npos);
+  EXPECT_NE(refusal({0, 0.1, 0.2}).find("outside"), std::string::npos) << "in the cavity";
+  EXPECT_NE(refusal({1, 0.2, 0.1}).find("on the cage"), std::string::npos);
+  EXPECT_NE(refusal({1, 1, 1}).find("control point 7"), std::string::npos);
+  EXPECT_NE(refusal({0.75, 0.75, 0.75}).find("distinct points"), std::string::npos);
+}
+
+TEST(TetrahedralizeTest, OptionsOutOfRange) {
+  const Cage<3> cage = join(box_cage<3>(1), box_cage<3>(0.5));
+  const Index minimum = tetrahedralize(cage).num_vertices();
+  const std::string text =
+      message_of<OptionError>([&] { tetrahedralize(cage, vertices(minimum / 2)); });
+  EXPECT_NE(text.find("--vertices"), std::string::npos);
+  EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
+  EXPECT_THROW(tetrahedralize(cage, vertices(-1)), OptionError);
+  MeshingOptions<3> no_time;
+  no_time.time_limit = 0;
+  EXPECT_THROW(tetrahedralize(cage, no_time), OptionError);
+}
+
+TEST(TetrahedralizeTest, RunsAgreeBitByBit) {
+  const Cage<3> cage = box_cage<3>(1);
+  const DomainMesh<3> first = tetrahedralize(cage, vertices(2000));
+  const DomainMesh<3> second = tetrahedralize(cage, vertices(2000));
+  ASSERT_EQ(first.num_vertices(), second.num_vertices());
+  EXPECT_EQ(first.points, second.points);
+  EXPECT_EQ(first.cells, second.cells);
+}
+
+TEST(TetrahedralizeTest, RealCages) {
+  if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
+  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
+    const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
+    const DomainMesh<3> mesh = tetrahedralize(cage, vertices(5900));
+    expect_fills(cage, mesh, enclosed_measure(cage));
+    expect_count(mesh, 5900, 0.10);
+  }
+}
+
+TEST(TetrahedralizeTest, RealModelEmbedded) {
+  if (!has_model("3d/shark.obj")) GTEST_SKIP() << "the real models are absent";
+  const Cage<3> cage = load_cage<3>("3d/shark_cage.obj");
+  const PointList<3> model = load_cage<3>("3d/shark.obj").points;
+  const DomainMesh<3> mesh = tetrahedralize(cage, embedding(model));
+  expect_fills(cage, mesh, enclosed_measure(cage));
+  expect_vertices<3>(mesh, cage.size(), model);
+}
+
+TEST(TetrahedralizeTest, RealCagesThatCrashTetgen) {
+  if (!has_model("defective/self_intersecting_cage.obj")) {
+    GTEST_SKIP() << "the real models are absent";
+  }
+  for (const char* name : {"self_intersecting_cage.obj", "genus1_self_intersecting_cage.obj"}) {
+    EXPECT_THROW(tetrahedralize(load_cage<3>("defective/" + std::string(name))), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace flbc
