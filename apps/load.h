@@ -6,9 +6,20 @@
 #include <string>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 
 namespace flbc::app {
+
+//! Calls `action`, and puts the file's name before what an InputError says about its content.
+template <class Action>
+auto naming(const std::string& path, const Action& action) {
+  try {
+    return action();
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
 
 //! Any polygon file: OBJ and OFF exactly, other formats through OpenMesh if it was built in.
 io::PolygonSoup load_polygons(const std::string& path);

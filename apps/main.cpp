@@ -2,6 +2,7 @@
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "commands.h"
 #include "exit_status.h"
@@ -13,6 +14,12 @@ namespace {
 int fail(int exit_status, const char* what) {
   std::cerr << "flbc: " << what << '\n';
   return exit_status;
+}
+
+// CLI11 would only say that a command is required.
+bool has_command(const CLI::App& app, const std::string& name) {
+  return !app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; })
+              .empty();
 }
 
 int run(int argc, char** argv) {
@@ -28,6 +35,9 @@ int run(int argc, char** argv) {
   add_solve_command(app, exit_status);
   add_draw_command(app, exit_status);
   add_info_command(app, exit_status);
+  if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
+    throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'; see flbc --help");
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help and --version

@@ -2,6 +2,7 @@
 #include "make_domain.h"
 
 #include "flbc/errors.h"
+#include "load.h"
 
 namespace flbc::app {
 namespace {
@@ -29,21 +30,26 @@ DomainMesh<3> mesh_cage([[maybe_unused]] const Cage<3>& cage,
 }  // namespace
 
 template <int Dim>
-DomainMesh<Dim> make_domain(const Cage<Dim>& cage, Index vertices,
-                            const PointList<Dim>& embedded_points) {
+DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage, Index vertices,
+                            const std::string& embedded_file, const PointList<Dim>& model) {
   MeshingOptions<Dim> options;
-  options.embedded_points = embedded_points;
+  if (!embedded_file.empty()) options.embedded_points = model;
   options.vertices = vertices > 0 ? vertices : kDefaultVertices;
-  if (vertices > 0) return mesh_cage(cage, options);
-  try {
-    return mesh_cage(cage, options);
-  } catch (const OptionError&) {  // the default is too small for this cage or model
-    options.vertices = 0;
-    return mesh_cage(cage, options);
-  }
+  const auto name = embedded_file.empty() ? cage_file : cage_file + " with " + embedded_file;
+  return naming(name, [&] {
+    if (vertices > 0) return mesh_cage(cage, options);
+    try {
+      return mesh_cage(cage, options);
+    } catch (const OptionError&) {  // the default is too small for this cage or model
+      options.vertices = 0;
+      return mesh_cage(cage, options);
+    }
+  });
 }
 
-template DomainMesh<2> make_domain(const Cage<2>&, Index, const PointList<2>&);
-template DomainMesh<3> make_domain(const Cage<3>&, Index, const PointList<3>&);
+template DomainMesh<2> make_domain(const std::string&, const Cage<2>&, Index, const std::string&,
+                                   const PointList<2>&);
+template DomainMesh<3> make_domain(const std::string&, const Cage<3>&, Index, const std::string&,
+                                   const PointList<3>&);
 
 }  // namespace flbc::app

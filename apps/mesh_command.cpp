@@ -24,7 +24,8 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   require_domain_writable<Dim>(arguments.output);
   PointList<Dim> embedded;
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
-  const auto domain = make_domain(cage, arguments.vertices, embedded);
+  const auto domain =
+      make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded);
   io::write_domain(arguments.output, domain);
   if (!arguments.quiet) {
     std::cerr << arguments.output << ": " << domain.num_vertices() << " vertices, "

@@ -46,9 +46,10 @@ template <int Dim>
 DomainMesh<Dim> get_domain(const Cage<Dim>& cage, const PointList<Dim>& model,
                            const SolveArguments& arguments, double& seconds) {
   const auto start = std::chrono::steady_clock::now();
-  auto domain = !arguments.domain.empty() ? io::read_domain<Dim>(arguments.domain)
-                                          : make_domain(cage, arguments.vertices,
-                                                        arguments.embed ? model : PointList<Dim>());
+  auto domain = !arguments.domain.empty()
+                    ? io::read_domain<Dim>(arguments.domain)
+                    : make_domain(arguments.cage, cage, arguments.vertices,
+                                  arguments.embed ? arguments.model : "", model);
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return domain;
 }
@@ -59,11 +60,7 @@ template <int Dim>
 std::vector<Location<Dim>> place_model(const DomainMesh<Dim>& domain, const PointList<Dim>& model,
                                        const SolveArguments& arguments) {
   if (arguments.model.empty() || arguments.embed) return {};
-  try {
-    return locate_points(domain, model);
-  } catch (const InputError& error) {
-    throw InputError(arguments.model + ": " + error.what());
-  }
+  return naming(arguments.model, [&] { return locate_points(domain, model); });
 }
 
 // The rows to deliver: the model's vertices, embedded or interpolated, or all of the mesh.
@@ -110,7 +107,8 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       bar.show(progress);
       return true;
     };
-    solution = solve(cage, domain, options);
+    solution = naming(arguments.domain.empty() ? arguments.cage : arguments.domain,
+                      [&] { return solve(cage, domain, options); });
   }
   const auto rows = select_rows(cage, domain, solution.weights, model, places, arguments);
   context.delivered =

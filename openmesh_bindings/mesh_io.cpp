@@ -34,6 +34,13 @@ class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
     polygons_.push_back(std::move(polygon));
     return OpenMesh::FaceHandle(static_cast<int>(polygons_.size()) - 1);
   }
+
+  // Faces have no place in the mesh, so nothing may be attached to them.
+  void add_face_texcoords(OpenMesh::FaceHandle, OpenMesh::VertexHandle,
+                          const std::vector<OpenMesh::Vec2f>&) override {}
+  void add_face_texcoords(OpenMesh::FaceHandle, OpenMesh::VertexHandle,
+                          const std::vector<OpenMesh::Vec3f>&) override {}
+  void set_face_texindex(OpenMesh::FaceHandle, int) override {}
   void finish() override {}
 
  private:

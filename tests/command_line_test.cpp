@@ -238,8 +238,8 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
     expect_failure("solve " + cage + " -o " + path("w.npy"), 2, words);
     expect_failure("solve " + cage + " -o " + path("w.npy"), 2, "bad.obj");
   };
-  refused("", "no v");
-  refused("v 0 0 0\nv 1 0", "bad.obj:2");
+  refused("", "without a vertex");
+  refused("v 0 0 0\nv 1", "bad.obj:2");
   refused("v 0 0 0\nv 1 nan 0\nv 0 1 0\n", "bad.obj:2");
   refused("v 0 0 0\nv 1 inf 0\nv 0 1 0\n", "bad.obj:2");
   refused("v 0 0 0\nv 1 0 0\nl 1 2 1\n", "control points");
@@ -253,7 +253,12 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
       "l 1 2 3 4 1\nl 5 6 7 8 5\n",
       "not connected");
   // A tetrahedron without one side.
-  refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "open");
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
+  // A cube of quadrangles without lid.
+  refused(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+      "open");
 }
 
 TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {

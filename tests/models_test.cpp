@@ -37,7 +37,8 @@ void expect_properties(const Model& model, double least_weight, double tolerance
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
   const auto judgement = judge(cage, mesh, solution.weights);
   EXPECT_LT(judgement.partition_error, 1e-12);
-  EXPECT_LT(judgement.reproduction_error, 1e-12);
+  // TetGen's points on facets lie beside them by up to 1e-9 of the cage's size.
+  EXPECT_LT(judgement.reproduction_error, Dim == 2 ? 1e-12 : 1e-8);
   EXPECT_EQ(judgement.lagrange_error, 0);
   EXPECT_LT(judgement.linearity_error, 1e-9);
   EXPECT_EQ(judgement.control_points_found, cage.size());
@@ -55,7 +56,7 @@ TEST_P(Models2d, DefaultTolerance) {
   expect_properties<2>(GetParam(), -0.05, 1e-7);
 }
 TEST_P(Models2d, TighterTolerance) {
-  expect_properties<2>(GetParam(), -0.001, 1e-8);
+  expect_properties<2>(GetParam(), -0.001, 3e-9);
 }
 INSTANTIATE_TEST_SUITE_P(Paper, Models2d,
                          ::testing::Values(Model{"2d/woody-control-edgeset.obj", 10800},

@@ -15,6 +15,7 @@ namespace flbc {
 namespace {
 
 using flbc::testing::box_cage;
+using flbc::testing::covers_edges;
 using flbc::testing::enclosed_measure;
 using flbc::testing::expect_count;
 using flbc::testing::expect_fills;
@@ -183,6 +184,7 @@ TEST(TriangulateTest, RealCages) {
     expect_fills(cage, mesh, std::abs(enclosed_measure(cage)));
     expect_count(mesh, c.count, 0.05);
     EXPECT_GT(smallest_angle_in_degrees(mesh), 20) << c.name;
+    EXPECT_TRUE(covers_edges(cage, mesh)) << c.name;
   }
 }
 

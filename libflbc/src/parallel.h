@@ -34,7 +34,8 @@ Sum parallel_sum(Index count, Sum zero, const Body& body) {
   constexpr Index kBlock = 64;
   const Index num_blocks = (count + kBlock - 1) / kBlock;
   std::vector<Sum> partial(num_blocks, zero);
-#pragma omp parallel for schedule(static)
+  // Waking threads up costs about as much as a few blocks of work.
+#pragma omp parallel for schedule(static) if (num_blocks >= 8)
   for (Index block = 0; block < num_blocks; ++block) {
     partial[block] = body(block * kBlock, std::min(count, (block + 1) * kBlock));
   }

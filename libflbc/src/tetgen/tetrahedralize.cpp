@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -12,7 +13,7 @@
 #include "../inside.h"
 #include "../meshing_steps.h"
 #include "../vertex_count_search.h"
-#include "conform.h"
+#include "flat_parts.h"
 #include "flbc/errors.h"
 #include "tetgen_run.h"
 
@@ -37,17 +38,25 @@ double guess_volume_bound(double volume, Index vertices) {
   return volumes_per_vertex * volume / vertices;
 }
 
-// p: fill the facets, of which those are joined that meet at this angle or a flatter one; q: bound
-// the ratio of circumradius to shortest edge; a: bound the volume; J: keep unused points, so that
-// input points keep their numbers; Q: print nothing. Without Y, TetGen may put points on the cage's
+// What happens to edges of the cage between coplanar facets.
+enum class CoplanarFacets {
+  kJoin,  // the edges are lost, but TetGen hardly ever fails
+  kKeep   // the edges are kept, on which TetGen may fail or run for ever
+};
+
+// p: fill the facets, and join those at an angle at least so flat; M: join none; q: bound the ratio
+// of circumradius to shortest edge; a: bound the volume; J: keep unused points, so that input
+// points keep their numbers; Q: print nothing. Without Y, TetGen may put points on the cage's
 // facets and edges, which good cells need.
-std::string quality_switches(double ratio, double largest_volume) {
+std::string quality_switches(CoplanarFacets coplanar, double ratio, double largest_volume) {
   char text[96];
-  const int length = std::snprintf(text, sizeof(text), "p%.9gq%gQJ", 180 - kCoplanarAngle, ratio);
+  const char* merging = coplanar == CoplanarFacets::kKeep ? "M" : "";
+  int length =
+      std::snprintf(text, sizeof(text), "p%.9gq%gQJ%s", 180 - kCoplanarAngle, ratio, merging);
   if (largest_volume > 0) {
-    std::snprintf(text + length, sizeof(text) - length, "a%.17g", largest_volume);
+    length += std::snprintf(text + length, sizeof(text) - length, "a%.17g", largest_volume);
   }
-  return text;
+  return std::string(text, length);
 }
 
 // Within each region that the shells separate, the centroid of the largest cell: the point that is
@@ -129,26 +138,57 @@ DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMa
   return mesh;
 }
 
+// A cage to be filled.
+struct Task {
+  const Cage<3>& cage;
+  TetgenInput input;
+  Index vertices;  // wanted; 0 = any
+};
+
+// \param time_limit  for each run of TetGen
+DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit) {
+  const auto make_mesh = [&](double ratio, double largest_volume) {
+    const std::string switches = quality_switches(coplanar, ratio, largest_volume);
+    DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
+    peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
+    return compact(task.cage, task.input.points, std::move(mesh));
+  };
+  DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
+  check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
+  if (task.vertices <= mesh.num_vertices()) return mesh;
+  return refine_to_count(task.vertices, std::move(mesh), make_mesh);
+}
+
+// Replaces the mesh by one that has the cage's edges between coplanar facets too, where TetGen can
+// do it and the vertex count is met. Without these edges the boundary values are not exactly linear
+// along them, which is a lesser evil than no mesh.
+void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mesh) {
+  try {
+    DomainMesh<3> better = fill(task, CoplanarFacets::kKeep, time_limit);
+    const VertexCountGoal goal{task.vertices};
+    if (task.vertices > 0 && !goal.is_met(better.num_vertices(), kCountTolerance)) return;
+    mesh = std::move(better);
+  } catch (const InputError&) {
+  } catch (const OptionError&) {
+  }
+}
+
 }  // namespace
 
 DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
   validate(cage);
   const PointList<3> points = collect_input_points(cage, options);
-  const auto num_points = static_cast<Index>(points.cols());
-  const TetgenInput input{points, cage.facets, find_cavities(cage, options.time_limit)};
-  const auto make_mesh = [&](double ratio, double largest_volume) {
-    const std::string switches = quality_switches(ratio, largest_volume);
-    DomainMesh<3> mesh = run_tetgen(input, switches, options.time_limit).mesh;
-    conform_to_cage(cage, num_points, mesh);
-    return compact(cage, points, std::move(mesh));
-  };
+  const Task task{
+      cage, {points, cage.facets, find_cavities(cage, options.time_limit)}, options.vertices};
 
-  DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
-  check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
-  if (options.vertices > mesh.num_vertices()) {
-    mesh = refine_to_count(options.vertices, std::move(mesh), make_mesh);
+  const auto start = std::chrono::steady_clock::now();
+  DomainMesh<3> mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+  if (has_coplanar_facets(cage)) {
+    // Far more than it takes unless it runs for ever.
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);
   }
-  finish_mesh(mesh, num_points);
+  finish_mesh(mesh, static_cast<Index>(points.cols()));
   return mesh;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "conform.h"
+#include "flat_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -43,25 +43,39 @@ bool is_flat(const DomainMesh<3>& mesh, Index cell) {
   return std::abs(signed_measure(mesh, cell)) <= kFlat * longest * longest * longest;
 }
 
-// \return true if there were any
-bool remove_flat_cells(DomainMesh<3>& mesh) {
+// \return the vertices of the cells removed
+std::set<Index> remove_flat_cells(DomainMesh<3>& mesh) {
+  std::set<Index> vertices;
   Index count = 0;
   for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
-    if (!is_flat(mesh, cell)) mesh.cells.col(count++) = mesh.cells.col(cell);
+    if (is_flat(mesh, cell)) {
+      for (int k = 0; k < 4; ++k) vertices.insert(mesh.cells(k, cell));
+    } else {
+      mesh.cells.col(count++) = mesh.cells.col(cell);
+    }
   }
-  const bool found = count < mesh.num_cells();
   mesh.cells.conservativeResize(4, count);
-  return found;
+  return vertices;
 }
 
-std::vector<Simplex> boundary_faces(const DomainMesh<3>& mesh) {
+// The boundary faces between the vertices: those laid bare, and perhaps others beside them.
+std::vector<Simplex> bare_faces(const DomainMesh<3>& mesh, const std::set<Index>& vertices) {
   const MeshTopology<3> topology = build_topology(mesh);
   std::vector<Simplex> faces;
   for (Index facet = 0; facet < topology.num_facets(); ++facet) {
     const auto corners = topology.facets.col(facet);
-    if (topology.is_boundary(facet)) faces.push_back({corners(0), corners(1), corners(2)});
+    const bool is_between = std::all_of(corners.begin(), corners.end(),
+                                        [&](Index corner) { return vertices.count(corner) > 0; });
+    if (is_between && topology.is_boundary(facet)) {
+      faces.push_back({corners(0), corners(1), corners(2)});
+    }
   }
   return faces;
+}
+
+[[noreturn]] void refuse_flat_cell(const Vector<3>& place) {
+  throw InputError("TetGen left a cell without volume near " + format_point(place) +
+                   "; points or facets come extremely close to each other there");
 }
 
 // Flat cells inside would leave a slit.
@@ -71,9 +85,7 @@ void refuse_slits(const Cage<3>& cage, const DomainMesh<3>& mesh,
   for (const Simplex& face : faces) {
     Vector<3> centre = Vector<3>::Zero();
     for (Index corner : face) centre += mesh.points.col(corner) / 3;
-    if (locator.locate(centre) == Location::kOnCage) continue;
-    throw InputError("TetGen left a cell without volume near " + format_point(centre) +
-                     "; points or facets come extremely close to each other there");
+    if (locator.locate(centre) != Location::kOnCage) refuse_flat_cell(centre);
   }
 }
 
@@ -98,7 +110,7 @@ Simplex containing_simplex(const CellComplex& complex, const Simplex& face,
 }
 
 // A control point in the middle of a flat part of the cage may have had flat cells only.
-// \param faces  the boundary, kept up to date
+// \param faces  those among which its place is, kept up to date
 void put_back(Index vertex, CellComplex& complex, std::vector<Simplex>& faces) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Simplex simplex = containing_simplex(complex, faces[f], complex.point(vertex));
@@ -122,7 +134,7 @@ Vector<3> unit_normal(const Cage<3>& cage, Index facet) {
   return (b - a).cross(c - a).normalized();
 }
 
-// The edges of the cage that TetGen may not have kept, with a margin.
+// The edges of the cage between coplanar facets, with a margin.
 std::vector<Segment> flat_edges(const Cage<3>& cage) {
   const double margin = 10 * kCoplanarAngle * std::acos(-1.0) / 180;
   std::map<Edge, Index> first_facet;
@@ -203,19 +215,25 @@ void divide_along(const std::vector<Segment>& segments, const std::vector<Simple
 
 }  // namespace
 
-void conform_to_cage(const Cage<3>& cage, Index num_input_points, DomainMesh<3>& mesh) {
-  const bool had_flat_cells = remove_flat_cells(mesh);
-  const std::vector<Segment> segments = flat_edges(cage);
-  if (!had_flat_cells && segments.empty()) return;
+bool has_coplanar_facets(const Cage<3>& cage) {
+  return !flat_edges(cage).empty();
+}
 
-  std::vector<Simplex> faces = boundary_faces(mesh);
-  if (had_flat_cells) refuse_slits(cage, mesh, faces);
+void peel_flat_cells(const Cage<3>& cage, Index num_input_points, DomainMesh<3>& mesh) {
+  const std::set<Index> vertices = remove_flat_cells(mesh);
+  if (vertices.empty()) return;
+  std::vector<Simplex> faces = bare_faces(mesh, vertices);
+  refuse_slits(cage, mesh, faces);
+
   CellComplex complex(mesh);
-  for (Index vertex = 0; vertex < num_input_points; ++vertex) {
-    if (!complex.is_used(vertex)) put_back(vertex, complex, faces);
+  for (Index vertex : vertices) {
+    if (vertex < num_input_points && !complex.is_used(vertex)) put_back(vertex, complex, faces);
   }
-  divide_along(segments, faces, complex);
+  divide_along(flat_edges(cage), faces, complex);
   mesh = complex.to_mesh();
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    if (is_flat(mesh, cell)) refuse_flat_cell(mesh.points.col(mesh.cells(0, cell)));
+  }
 }
 
 }  // namespace flbc
