@@ -20,8 +20,8 @@ solve_and_draw() {
   "$flbc" draw "$out"_domain."$3" --weights "$out"_weights.npy --cage "$cage" \
     --control-point "$4" -o "$out".png
 }
-solve_and_draw 2d figure obj 8
-solve_and_draw 3d limb mesh 30
+solve_and_draw 2d figure obj 32
+solve_and_draw 3d limb mesh 20
 
 echo
 echo "Weights, reports and pictures are in out/; look at out/figure.png and out/limb.png."

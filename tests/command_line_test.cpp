@@ -210,7 +210,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
   expect_failure("solve " + cage + o + " --vertices 3", 1, "vertices");
   expect_failure("solve " + cage + o + " --method magic", 1, "'magic' is none of auto|");
-  expect_failure("solve " + cage + o + " --tolerance 0", 1, "tolerance must be positive");
+  expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
   expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");
   expect_failure("solve " + cage + o + " --threads -1", 1, "threads must be in");
   expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");

@@ -132,7 +132,7 @@ TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
       EXPECT_EQ(std::string(error.what()).find(field), 0U) << error.what();
     }
   };
-  refused("tolerance", [](auto& o) { o.tolerance = 0; });
+  refused("tolerance", [](auto& o) { o.tolerance = -1e-8; });
   refused("tolerance", [](auto& o) { o.tolerance = std::nan(""); });
   refused("max_iterations", [](auto& o) { o.max_iterations = 0; });
   refused("penalty", [](auto& o) { o.penalty = -1; });

@@ -2,7 +2,6 @@
 #include "barycentric_constraints.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 namespace flbc {
 
@@ -11,8 +10,14 @@ BarycentricConstraints<Dim>::BarycentricConstraints(const PointList<Dim>& contro
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> matrix(control_points.cols(), Dim + 1);
   matrix.col(0).setOnes();
   matrix.template rightCols<Dim>() = control_points.transpose();
-  basis_ = Eigen::HouseholderQR<decltype(matrix)>(matrix).householderQ() *
-           decltype(matrix)::Identity(matrix.rows(), Dim + 1);
+  // Gram and Schmidt, every column twice, which makes them orthogonal to rounding.
+  basis_ = matrix;
+  for (int k = 0; k <= Dim; ++k) {
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int l = 0; l < k; ++l) basis_.col(k) -= basis_.col(l).dot(basis_.col(k)) * basis_.col(l);
+    }
+    basis_.col(k).normalize();
+  }
   inverse_r_transposed_ = (basis_.transpose() * matrix).inverse().transpose();
 }
 

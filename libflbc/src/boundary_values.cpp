@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include "flbc/errors.h"
 #include "format.h"
@@ -33,7 +33,7 @@ std::vector<LocatedFacet<Dim>> prepare_facets(const Cage<Dim>& cage, double tole
     facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
     Eigen::Matrix<double, Dim, Dim - 1> edges;
     for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
-    facet.to_barycentric = edges.completeOrthogonalDecomposition().pseudoInverse();
+    facet.to_barycentric = (edges.transpose() * edges).inverse() * edges.transpose();
   }
   return facets;
 }

@@ -17,8 +17,8 @@ void require(bool valid, const char* field, double value, const char* range) {
 }  // namespace
 
 void validate(const SolverOptions& options) {
-  require(std::isfinite(options.tolerance) && options.tolerance > 0, "tolerance", options.tolerance,
-          "positive");
+  require(std::isfinite(options.tolerance) && options.tolerance >= 0, "tolerance",
+          options.tolerance, "positive, or 0 for the method's own");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
   require(std::isfinite(options.penalty) && options.penalty >= 0, "penalty", options.penalty,
           "positive, or 0 for the method's own");
@@ -39,6 +39,7 @@ SolverOptions resolve(SolverOptions options, int dim) {
     // The paper's values (section 5), and those that served best on all models in docs/results.md.
     options.penalty = paper ? (dim == 2 ? 100 : 10000) : (dim == 2 ? 1000 : 3000);
   }
+  if (options.tolerance == 0) options.tolerance = paper ? 1e-7 : 1e-8;
   if (options.relaxation == 0) options.relaxation = paper ? 1 : 1.8;
   return options;
 }

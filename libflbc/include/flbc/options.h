@@ -42,8 +42,10 @@ struct SolverOptions {
   Recovery recovery = Recovery::kAuto;
 
   //! Residual threshold per component, > 0: the run ends when |r_p| <= N_p tolerance and
-  //! |r_d| <= N_d 10 tolerance (section 5 of the paper, whose value is the default).
-  double tolerance = 1e-7;
+  //! |r_d| <= N_d 10 tolerance (section 5 of the paper). 0 = by method: the paper's 1e-7 for
+  //! kPaper, 1e-8 for kGradient, at which the coordinates have become local on every model
+  //! measured.
+  double tolerance = 0;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error.
   int max_iterations = 20000;
