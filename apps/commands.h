@@ -5,6 +5,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <string>
+
+#include "flbc/types.h"
 
 namespace flbc::app {
 
@@ -12,5 +16,14 @@ void add_mesh_command(CLI::App& app, int& exit_status);
 void add_solve_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
+
+//! What is wrong with a number of vertices, for CLI::Option::check(); empty if nothing is.
+inline std::string refuse_vertex_count(const std::string& text) {
+  Index count = 0;
+  const auto* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, count);
+  if (parsed.ec == std::errc() && parsed.ptr == end && count > 0) return {};
+  return "must be a positive whole number as 20000, not '" + text + "'";
+}
 
 }  // namespace flbc::app

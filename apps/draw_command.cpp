@@ -11,6 +11,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
+#include "held_signals.h"
 #include "load.h"
 
 namespace flbc::app {
@@ -71,6 +72,7 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
   const auto weights = io::read_weights(arguments.weights);
   check_sizes(cage, domain, weights, arguments);
   const auto png = draw::encode_png(picture(cage, domain, weights, arguments));
+  const HeldSignals held;
   io::write_file(arguments.output, [&](std::ostream& file) { file << png; });
 }
 

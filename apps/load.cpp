@@ -27,6 +27,15 @@ void check_cage(const Cage<Dim>& cage, const std::string& path) {
   if (!defects.empty()) throw InputError(path + ": " + defects.front().message);
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  if (a.empty() || b.empty() || a == "-" || b == "-") return false;
+  std::error_code error;
+  if (fs::exists(a, error) && !fs::is_regular_file(a, error)) return false;  // as /dev/null
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
 }  // namespace
 
 io::PolygonSoup load_polygons(const std::string& path) {
@@ -34,10 +43,11 @@ io::PolygonSoup load_polygons(const std::string& path) {
   if (extension == "obj" || path == "-") return io::read_obj(path);
   if (extension == "off") return io::read_off(path);
 #ifdef FLBC_WITH_OPENMESH
-  if (extension == "ply" || extension == "stl" || extension == "om") {
+  // Not .om: OpenMesh's reader crashes on damaged files of that kind.
+  if (extension == "ply" || extension == "stl") {
     return openmesh::read_polygons(path);
   }
-  throw OptionError(path + ": expected a file ending in .obj, .off, .ply, .stl or .om");
+  throw OptionError(path + ": expected a file ending in .obj, .off, .ply or .stl");
 #else
   throw OptionError(path + ": expected a file ending in .obj or .off");
 #endif
@@ -69,6 +79,22 @@ void require_writable(const std::string& path, std::initializer_list<const char*
   if (access(folder.c_str(), W_OK) != 0) {
     throw IoError(path + ": cannot write in folder " + folder.string() + ": " +
                   std::strerror(errno));
+  }
+}
+
+void require_distinct(const std::vector<std::string>& inputs,
+                      const std::vector<std::string>& outputs) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    for (const auto& input : inputs) {
+      if (is_same_file(outputs[k], input)) {
+        throw OptionError(outputs[k] + ": the result would replace this file, which is read");
+      }
+    }
+    for (std::size_t l = 0; l < k; ++l) {
+      if (is_same_file(outputs[k], outputs[l])) {
+        throw OptionError(outputs[k] + ": two results would go to this one file");
+      }
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
@@ -34,5 +35,10 @@ PointList<Dim> load_model(const std::string& path);
 //! \throws OptionError before any work is done if the file could not be written in the end: unknown
 //! extension; IoError: missing or unwritable folder. Nothing is checked for an empty path.
 void require_writable(const std::string& path, std::initializer_list<const char*> extensions);
+
+//! \throws OptionError before any work is done if a result would replace a file that is read, or
+//! another result. Empty paths and "-" are no files.
+void require_distinct(const std::vector<std::string>& inputs,
+                      const std::vector<std::string>& outputs);
 
 }  // namespace flbc::app

@@ -22,6 +22,18 @@ bool has_command(const CLI::App& app, const std::string& name) {
               .empty();
 }
 
+// An empty name, as of an unset variable in a script, must not pass for an option left out.
+void refuse_empty_values(CLI::App& app) {
+  for (auto* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    for (auto* option : command->get_options()) {
+      if (option->get_expected_min() == 0) continue;
+      option->check([](const std::string& text) {
+        return text.empty() ? std::string("the value is empty") : std::string();
+      });
+    }
+  }
+}
+
 int run(int argc, char** argv) {
   using namespace flbc::app;
   CLI::App app{
@@ -35,6 +47,7 @@ int run(int argc, char** argv) {
   add_solve_command(app, exit_status);
   add_draw_command(app, exit_status);
   add_info_command(app, exit_status);
+  refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'; see flbc --help");
   }

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "domain_formats.h"
+#include "held_signals.h"
 #include "load.h"
 #include "make_domain.h"
 
@@ -26,7 +27,10 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
   const auto domain =
       make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded);
-  io::write_domain(arguments.output, domain);
+  {
+    const HeldSignals held;
+    io::write_domain(arguments.output, domain);
+  }
   if (!arguments.quiet) {
     std::cerr << arguments.output << ": " << domain.num_vertices() << " vertices, "
               << domain.num_cells() << (Dim == 2 ? " triangles\n" : " tetrahedra\n");
@@ -41,10 +45,11 @@ void add_mesh_command(CLI::App& app, int&) {
   command->add_option("CAGE", arguments->cage, "closed polylines (2D) or surface (3D)")->required();
   command->add_option("-o,--output", arguments->output, domain_formats_help())->required();
   command->add_option("--vertices", arguments->vertices, "number of mesh vertices wanted")
-      ->check(CLI::PositiveNumber);
+      ->check(refuse_vertex_count);
   command->add_option("--model", arguments->model, "make this model's vertices mesh vertices");
   command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
   command->callback([arguments] {
+    require_distinct({arguments->cage, arguments->model}, {arguments->output});
     std::visit([&](const auto& cage) { mesh(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

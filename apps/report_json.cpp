@@ -98,7 +98,8 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
                      {"penalty", options.penalty},
                      {"relaxation", options.relaxation},
                      {"threads", options.threads}};
-  return json.dump(2) + "\n";
+  // File names need not be UTF-8, which JSON must be.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace flbc::app

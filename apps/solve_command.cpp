@@ -14,6 +14,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/solver.h"
+#include "held_signals.h"
 #include "load.h"
 #include "make_domain.h"
 #include "progress_bar.h"
@@ -39,6 +40,8 @@ struct SolveArguments {
 void check_outputs(const SolveArguments& arguments) {
   require_writable(arguments.output, {"mtx", "dmat", "npy"});
   if (arguments.report != "-") require_writable(arguments.report, {"json"});
+  require_distinct({arguments.cage, arguments.domain, arguments.model},
+                   {arguments.output, arguments.save_domain, arguments.report});
 }
 
 // The mesh, from a file or made of the cage, and the seconds that took.
@@ -113,11 +116,14 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   const auto rows = select_rows(cage, domain, solution.weights, model, places, arguments);
   context.delivered =
       measure_quality(cage.points, arguments.model.empty() ? domain.points : model, rows);
-  io::write_weights(arguments.output, rows);
-  if (!arguments.save_domain.empty()) io::write_domain(arguments.save_domain, domain);
   const auto json = report_json(solution.report, options, context);
-  if (!arguments.report.empty()) {
-    io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
+  {
+    const HeldSignals held;
+    io::write_weights(arguments.output, rows);
+    if (!arguments.save_domain.empty()) io::write_domain(arguments.save_domain, domain);
+    if (!arguments.report.empty()) {
+      io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
+    }
   }
   if (arguments.verbose) std::cerr << json;
   if (!arguments.quiet) {
@@ -176,7 +182,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
       ->required();
   auto* vertices =
       command->add_option("--vertices", a.vertices, "number of mesh vertices wanted (10000)")
-          ->check(CLI::PositiveNumber);
+          ->check(refuse_vertex_count);
   auto* domain = command->add_option("--domain", a.domain, "use this mesh of the interior");
   auto* model = command->add_option("--model", a.model, "write weights at this model's vertices");
   auto* embed = command->add_flag("--embed", a.embed, "make the model's vertices mesh vertices")
@@ -191,7 +197,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   add_choice(*command, "--precision", a.options.precision, kPrecisions,
              "arithmetic of the iteration (single)");
   command->add_option("--tolerance", a.options.tolerance,
-                      "residual threshold per component (by method: 1e-8, paper 1e-7)");
+                      "residual threshold (by method: 3e-5, paper 1e-7)");
   command->add_option("--max-iterations", a.options.max_iterations, "limit of iterations (20000)");
   command->add_option("--penalty", a.options.penalty, "penalty mu (by method)");
   command->add_option("--relaxation", a.options.relaxation,

@@ -3,6 +3,10 @@
 // memory and the quality of the weights.
 //
 //   flbc_bench_models MODELS_FOLDER [--threads T] [--method gradient|paper] [--tolerance T]
+//                     [--model NAME] [--reference K]
+//
+// With --reference, the last column is the paper's error (5), the mean squared difference inside,
+// from K iterations of the gradient method in double precision.
 //
 // Each case runs in a process of its own, so that its peak memory is its own.
 #include <sys/resource.h>
@@ -54,49 +58,89 @@ double peak_mebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+struct Arguments {
+  SolverOptions options;
+  std::string only_model;        // empty: all
+  int reference_iterations = 0;  // 0: no reference
+};
+
+// The error (5) of the paper against a long run.
 template <int Dim>
-void run(const Case& test, const Cage<Dim>& cage, const SolverOptions& options) {
+double error_to_reference(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
+                          int iterations) {
+  SolverOptions options;
+  options.method = Method::kGradient;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-100;
+  options.max_iterations = iterations;
+  const auto reference = solve(problem, options).weights;
+  double sum = 0;
+  Index interior = 0;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] >= 0) continue;
+    sum += (weights.col(v) - reference.col(v)).squaredNorm();
+    ++interior;
+  }
+  return sum / static_cast<double>(interior * weights.rows());
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int Dim>
+void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const auto mesh = mesh_of(cage, test.vertices);
-  const double mesh_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto report = solve(cage, mesh, options).report;
-  std::printf(
-      "%-10s %4d %7d %8d %6d %8.2f %6.2f %6.2f %7.2f %7.2f %8.1f %8.0f %10.2e %9.1e %6.2f%s\n",
-      test.name, report.control_points, report.vertices, report.cells, report.iterations,
-      1000 * report.seconds.solve / report.iterations, mesh_seconds, report.seconds.setup,
-      report.seconds.solve, report.seconds.recover, report.numbers_per_cell, peak_mebibytes(),
-      report.quality.min_weight, report.quality.max_reproduction_error,
-      report.quality.mean_influences,
-      report.status == SolveStatus::kConverged ? "" : "  NOT CONVERGED");
+  const double mesh_seconds = seconds_since(start);
+  const auto before_setup = std::chrono::steady_clock::now();
+  const auto problem = make_problem(cage, mesh, arguments.options.phi);
+  const double setup_seconds = seconds_since(before_setup);
+  const auto solution = solve(problem, arguments.options);
+  const auto& report = solution.report;
+  std::printf("%-10s %4d %7d %8d %6d %8.2f %6.2f %6.2f %7.2f %7.2f %8.1f %8.0f %10.2e %9.1e %6.2f",
+              test.name, report.control_points, report.vertices, report.cells, report.iterations,
+              1000 * report.seconds.solve / report.iterations, mesh_seconds, setup_seconds,
+              report.seconds.solve, report.seconds.recover, report.numbers_per_cell,
+              peak_mebibytes(), report.quality.min_weight, report.quality.max_reproduction_error,
+              report.quality.mean_influences);
+  if (arguments.reference_iterations > 0) {
+    std::printf(" %9.1e",
+                error_to_reference(problem, solution.weights, arguments.reference_iterations));
+  }
+  std::printf("%s\n", report.status == SolveStatus::kConverged ? "" : "  NOT CONVERGED");
   std::fflush(stdout);
 }
 
-SolverOptions parse(int argc, char** argv) {
-  SolverOptions options;
-  for (int k = 2; k + 1 < argc; k += 2) {
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  for (int k = 2; k < argc; k += 2) {
     const std::string name = argv[k];
-    const std::string value = argv[k + 1];
+    const std::string value = k + 1 < argc ? argv[k + 1] : "";
     if (name == "--threads") {
-      options.threads = std::stoi(value);
+      arguments.options.threads = std::stoi(value);
     } else if (name == "--tolerance") {
-      options.tolerance = std::stod(value);
+      arguments.options.tolerance = std::stod(value);
     } else if (name == "--method" && (value == "gradient" || value == "paper")) {
-      options.method = value == "paper" ? Method::kPaper : Method::kGradient;
+      arguments.options.method = value == "paper" ? Method::kPaper : Method::kGradient;
+    } else if (name == "--model" && !value.empty()) {
+      arguments.only_model = value;
+    } else if (name == "--reference") {
+      arguments.reference_iterations = std::stoi(value);
     } else {
       throw std::invalid_argument("unknown option " + name + " " + value);
     }
   }
-  return options;
+  return arguments;
 }
 
 // \return true if the case ended well
-bool run_isolated(const Case& test, const std::string& path, const SolverOptions& options) {
+bool run_isolated(const Case& test, const std::string& path, const Arguments& arguments) {
   const pid_t child = fork();
   if (child == 0) {
     try {
       const auto cage = io::to_cage(io::read_obj(path), path);
-      std::visit([&](const auto& any) { run(test, any, options); }, cage);
+      std::visit([&](const auto& any) { run(test, any, arguments); }, cage);
       std::_Exit(EXIT_SUCCESS);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s: %s\n", test.name, error.what());
@@ -112,24 +156,29 @@ bool run_isolated(const Case& test, const std::string& path, const SolverOptions
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: %s MODELS_FOLDER [--threads T] [--method M] [--tolerance T]\n",
-                 argv[0]);
+    std::fprintf(
+        stderr,
+        "usage: %s MODELS_FOLDER [--threads T] [--method M] [--tolerance T] [--model NAME] "
+        "[--reference K]\n",
+        argv[0]);
     return 1;
   }
   try {
-    const auto options = parse(argc, argv);
-    std::printf("%-10s %4s %7s %8s %6s %8s %6s %6s %7s %7s %8s %8s %10s %9s %6s\n", "model", "n",
-                "V", "cells", "its", "ms/it", "mesh s", "setup", "solve s", "recover", "num/cell",
-                "MiB", "min w", "repro", "infl");
+    const auto arguments = parse(argc, argv);
+    std::printf("%-10s %4s %7s %8s %6s %8s %6s %6s %7s %7s %8s %8s %10s %9s %6s", "model", "n", "V",
+                "cells", "its", "ms/it", "mesh s", "setup", "solve s", "recover", "num/cell", "MiB",
+                "min w", "repro", "infl");
+    std::printf("%s\n", arguments.reference_iterations > 0 ? "     error" : "");
     std::fflush(stdout);
     bool ok = true;
     for (const auto& test : kCases) {
+      if (!arguments.only_model.empty() && arguments.only_model != test.name) continue;
       const auto path = std::string(argv[1]) + "/" + test.cage;
       if (!std::ifstream(path)) {
         std::fprintf(stderr, "%s: skipped, %s is absent\n", test.name, path.c_str());
         continue;
       }
-      ok = run_isolated(test, path, options) && ok;
+      ok = run_isolated(test, path, arguments) && ok;
     }
     return ok ? 0 : 1;
   } catch (const std::exception& error) {

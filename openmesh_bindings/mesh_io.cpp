@@ -8,6 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "openmesh_bindings/ply_file.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -63,6 +64,7 @@ class SilencedOpenMesh {
 }  // namespace
 
 io::PolygonSoup read_polygons(const std::string& path) {
+  if (io::extension_of(path) == "ply") return read_ply(path);
   if (!std::ifstream(path)) io::read_file(path);  // throws with the system's reason
   io::PolygonSoup soup;
   Mesh mesh;

@@ -5,23 +5,23 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_dependencies.sh
-cmake --preset release -DFLBC_BUILD_TESTS=OFF -DFLBC_BUILD_BENCHMARKS=OFF -B build/demo >/dev/null
-cmake --build build/demo
+cmake --preset release >/dev/null
+cmake --build --preset release --target flbc_app
 mkdir -p out
-flbc=build/demo/flbc
+flbc=build/release/flbc
 
-# solve_and_draw DIM NAME DOMAIN_EXTENSION CONTROL_POINT
+# solve_and_draw DIM NAME DOMAIN_EXTENSION CONTROL_POINT VERTICES
 solve_and_draw() {
   local cage=meshes/$1/$2_cage.obj out=out/$2
-  "$flbc" solve "$cage" -o "$out"_weights.npy --save-domain "$out"_domain."$3" \
+  "$flbc" solve "$cage" -o "$out"_weights.npy --vertices "$5" --save-domain "$out"_domain."$3" \
     --report "$out"_report.json
   "$flbc" solve "$cage" -o "$out"_model_weights.mtx --domain "$out"_domain."$3" \
     --model meshes/"$1"/"$2"_model.obj
   "$flbc" draw "$out"_domain."$3" --weights "$out"_weights.npy --cage "$cage" \
     --control-point "$4" -o "$out".png
 }
-solve_and_draw 2d figure obj 32
-solve_and_draw 3d limb mesh 20
+solve_and_draw 2d figure obj 32 10000
+solve_and_draw 3d limb mesh 20 4000
 
 echo
 echo "Weights, reports and pictures are in out/; look at out/figure.png and out/limb.png."

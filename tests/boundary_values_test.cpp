@@ -96,5 +96,24 @@ TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
   }
 }
 
+// A ring one cell thick from which a cell is taken keeps all its vertices on the cage.
+TYPED_TEST(BoundaryValuesTest, RefusesAMeshWithAGapAcrossTheCage) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 1);
+  int refused = 0;
+  for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
+    auto mesh = sample.mesh;
+    mesh.cells.col(s) = mesh.cells.rightCols(1).eval();
+    mesh.cells.conservativeResize(kDim + 1, mesh.num_cells() - 1);
+    try {
+      values_of(sample.cage, mesh);
+      ADD_FAILURE() << "accepted a mesh without cell " << s;
+    } catch (const InputError& error) {
+      refused += std::string(error.what()).find("the mesh must fill the cage") != std::string::npos;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 }  // namespace
 }  // namespace flbc::testing

@@ -2,6 +2,7 @@
 #include "flbc/io/cage_io.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "flbc/errors.h"
 
@@ -45,6 +46,48 @@ TEST(CageIo, QuadranglesAreCutAlongTheShorterDiagonal) {
     EXPECT_TRUE((cage.facets.col(f).array() == 3).any());
   }
   EXPECT_TRUE(find_defects(cage).empty());
+}
+
+// Area of the triangles, and whether all are seen from the same side.
+double area_seen_from_above(const PolygonSoup& soup) {
+  const auto cage = std::get<Cage<3>>(to_cage(soup, "file.obj"));
+  double sum = 0;
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    const Vector<3> a = cage.points.col(cage.facets(0, f));
+    const Vector<3> b = cage.points.col(cage.facets(1, f));
+    const Vector<3> c = cage.points.col(cage.facets(2, f));
+    const Vector<3> normal = (b - a).cross(c - a) / 2;
+    EXPECT_GT(normal.z(), 0) << "triangle " << f;
+    sum += normal.z();
+  }
+  return sum;
+}
+
+// From whichever corner they start; the second polygon only makes a surface of it.
+TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
+  struct Case {
+    std::vector<Vector<3>> outline;
+    double area;
+  };
+  const Case cases[] = {
+      {{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, 3},  // an L
+      // an arrow head, whose shorter diagonal is outside
+      {{{0, 3, 0}, {-0.5, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, 1},
+      {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, 4},  // with a straight corner
+      {{{1, 1, 0}, {1, 3, 0}, {0, 3, 0}, {0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}},
+       7},  // a U
+  };
+  for (const auto& [outline, area] : cases) {
+    const auto n = static_cast<Index>(outline.size());
+    for (Index start = 0; start < n; ++start) {
+      PolygonSoup soup;
+      soup.points = outline;
+      soup.points.insert(soup.points.end(), {{9, 0, 1}, {10, 0, 1}, {9, 1, 1}});
+      soup.polygons = {{}, {n, n + 1, n + 2}};
+      for (Index k = 0; k < n; ++k) soup.polygons[0].push_back((start + k) % n);
+      EXPECT_NEAR(area_seen_from_above(soup), area + 0.5, 1e-12) << n << " from " << start;
+    }
+  }
 }
 
 TEST(CageIo, RefusesWhatIsNoCage) {

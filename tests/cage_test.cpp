@@ -69,6 +69,22 @@ TYPED_TEST(CageTest, SoundCagesHaveNoDefects) {
   EXPECT_TRUE(find_defects(tiny).empty());
 }
 
+TYPED_TEST(CageTest, ExtremeExtent) {
+  constexpr int Dim = TypeParam::value;
+  const auto scaled = [](double factor, double shift) {
+    Cage<Dim> cage = box_cage<Dim>(1);
+    cage.points = (factor * cage.points).array() + shift;
+    return find_defects(cage);
+  };
+  for (const double factor : {1e-320, 1e-150, 1e-40, 1e40, 1e150, 1e300}) {
+    EXPECT_TRUE(reports(scaled(factor, 0), {"size", "out of range", "unit of length"})) << factor;
+  }
+  for (const double factor : {1e-29, 1e29}) EXPECT_TRUE(scaled(factor, 0).empty()) << factor;
+  EXPECT_TRUE(scaled(1, 1e9).empty());
+  EXPECT_TRUE(reports(scaled(1, 1e12), {"too far from the origin", "control point 0 at"}));
+  EXPECT_TRUE(reports(scaled(1e-6, -1e5), {"too far from the origin", "control point 0 at"}));
+}
+
 TYPED_TEST(CageTest, TooFewControlPointsOrFacets) {
   constexpr int Dim = TypeParam::value;
   Cage<Dim> cage;

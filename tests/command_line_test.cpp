@@ -219,6 +219,35 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat, .npy");
   expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off, .vtu");
   expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
+  for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
+    expect_failure("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
+  }
+  expect_failure("mesh " + cage + " -o " + path("d.obj") + " --vertices 2000000000", 1,
+                 "too many; at most");
+  expect_failure("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
+  expect_failure("mesh '' -o " + path("d.obj"), 1, "CAGE: the value is empty");
+}
+
+TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {
+  const std::string content = slurp(sample("2d/letter_cage.obj"));
+  const auto cage = file("cage.obj", content);
+  file("w.npy", "old");
+  fs::create_hard_link(path("w.npy"), path("w.json"));
+  expect_failure("mesh " + cage + " -o " + path("./cage.obj"), 1, "which is read");
+  expect_failure("solve " + cage + " -o " + path("x.npy") + " --save-domain " + cage, 1,
+                 "which is read");
+  expect_failure("solve " + cage + " -o " + path("w.npy") + " --report " + path("w.json"), 1,
+                 "two results");
+  EXPECT_EQ(slurp(cage), content);
+  EXPECT_EQ(slurp(path("w.npy")), "old");
+}
+
+TEST_F(CommandLine, ReportsAreValidWhateverTheFilesAreCalled) {
+  const auto cage = file("bad\xff name.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  const auto result = run("solve '" + cage + "' -o " + path("w.npy") + " --vertices 100 -q " +
+                          "--method harmonic --report " + path("r.json"));
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(nlohmann::json::accept(slurp(path("r.json"))));
 }
 
 TEST_F(CommandLine, IoFailureIsStatus4) {

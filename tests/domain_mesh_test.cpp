@@ -87,6 +87,12 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   mesh.cells.rightCols(2).colwise() = sound.cells.col(0);
   expect_refused(mesh, "share one facet");
 
+  mesh = sound;  // the centre vertex beyond the boundary: cells fold over each other
+  Index inner = 0;
+  (sound.points.colwise() - Vector<kDim>::Constant(0.5)).colwise().norm().minCoeff(&inner);
+  mesh.points.col(inner).setConstant(3);
+  expect_refused(mesh, "overlap");
+
   mesh = sound;  // a second copy beside the first
   mesh.points.conservativeResize(kDim, 2 * sound.points.cols());
   mesh.points.rightCols(sound.points.cols()) = sound.points.array() + 10;

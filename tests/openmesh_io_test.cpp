@@ -81,6 +81,36 @@ TEST(OpenMeshIo, KeepsNonManifoldFacesAndPrintsNothing) {
   EXPECT_EQ(soup.polygons.size(), 3U);
 }
 
+// Whatever is cut off or changed, reading ends, with polygons or an InputError.
+TEST(OpenMeshIo, SurvivesDamagedPlyFiles) {
+  const auto path = path_of("damaged.ply");
+  using OpenMesh::IO::Options;
+  for (const int flags : {0, int(Options::Binary), Options::Binary | Options::MSB}) {
+    ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path, Options(flags)));
+    EXPECT_EQ(read_polygons(path).polygons.size(), 5U);
+    std::ifstream file(path, std::ios::binary);
+    const std::string sound{std::istreambuf_iterator<char>(file), {}};
+    const auto survives = [&](const std::string& content) {
+      std::ofstream(path, std::ios::binary) << content;
+      try {
+        for (const auto& polygon : read_polygons(path).polygons) {
+          for (const Index corner : polygon) ASSERT_LT(corner, 8);
+        }
+      } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();
+      }
+    };
+    for (std::size_t k = 0; k < sound.size(); ++k) {
+      survives(sound.substr(0, k));
+      for (const char c : {'9', '-', '\n', '\xff'}) {
+        std::string changed = sound;
+        changed[k] = c;
+        survives(changed);
+      }
+    }
+  }
+}
+
 TEST(OpenMeshIo, RefusesWhatItCannotRead) {
   EXPECT_THROW(read_polygons(path_of("missing.ply")), IoError);
   const auto path = path_of("garbage.ply");

@@ -119,6 +119,48 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
 }
 
+// Numbers out of the range of single or double precision must not pass for a result.
+TYPED_TEST(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  for (const double penalty : {1e-320, 1e-300, 1e-40, 1e-30, 1e30, 1e40, 1e300}) {
+    for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
+      for (const auto method : {Method::kGradient, Method::kPaper}) {
+        SolverOptions options;
+        options.method = method;
+        options.precision = precision;
+        options.penalty = penalty;
+        options.max_iterations = 40;
+        try {
+          const auto solution = solve(sample.cage, sample.mesh, options);
+          EXPECT_TRUE(solution.weights.allFinite()) << penalty;
+          EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-9) << penalty;
+        } catch (const SolverError& error) {
+          EXPECT_NE(std::string(error.what()).find("penalty"), std::string::npos) << error.what();
+          EXPECT_TRUE(penalty < 1e-25) << penalty;
+        }
+      }
+    }
+  }
+  SolverOptions options;
+  options.penalty = 1e-320;
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options), SolverError);
+}
+
+TYPED_TEST(SolverTest, MessagesGiveTheUsersCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  auto sample = make_sample<kDim>(Shape::kBox, 2);
+  Index corner = 0;
+  sample.mesh.points.colwise().sum().maxCoeff(&corner);
+  sample.mesh.points.col(corner).setConstant(1.25);
+  try {
+    solve(sample.cage, sample.mesh);
+    FAIL() << "accepted a mesh that leaves the cage";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("(1.25, 1.25"), std::string::npos) << error.what();
+  }
+}
+
 TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kBox, 1);

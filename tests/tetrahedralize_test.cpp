@@ -188,6 +188,7 @@ TEST(TetrahedralizeTest, OptionsOutOfRange) {
   EXPECT_NE(text.find("--vertices"), std::string::npos);
   EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
   EXPECT_THROW(tetrahedralize(cage, vertices(-1)), OptionError);
+  EXPECT_THROW(tetrahedralize(cage, vertices(2000000000)), OptionError);
   MeshingOptions<3> no_time;
   no_time.time_limit = 0;
   EXPECT_THROW(tetrahedralize(cage, no_time), OptionError);

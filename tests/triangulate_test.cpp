@@ -161,6 +161,7 @@ TEST(TriangulateTest, OptionsOutOfRange) {
   EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
   EXPECT_EQ(triangulate(cage, vertices(minimum)).num_vertices(), minimum);
   EXPECT_THROW(triangulate(cage, vertices(-1)), OptionError);
+  EXPECT_THROW(triangulate(cage, vertices(2000000000)), OptionError);
 }
 
 TEST(TriangulateTest, RunsAgreeBitByBit) {

@@ -51,6 +51,46 @@ Vector<Dim> barycentric_coordinates(const LocatedFacet<Dim>& facet, const Vector
   return coordinates / coordinates.sum();
 }
 
+// Where on the cage a point is.
+template <int Dim>
+struct Place {
+  double distance = std::numeric_limits<double>::infinity();
+  Index facet = -1;
+  Vector<Dim> coordinates;
+};
+
+// \return facet -1 if the point is outside all bounding boxes
+template <int Dim>
+Place<Dim> nearest_place(const std::vector<LocatedFacet<Dim>>& facets, const Vector<Dim>& point) {
+  Place<Dim> nearest;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto& facet = facets[f];
+    if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
+      continue;
+    }
+    const Vector<Dim> coordinates = barycentric_coordinates(facet, point);
+    const double distance = (facet.corners * coordinates - point).norm();
+    if (distance < nearest.distance) nearest = {distance, static_cast<Index>(f), coordinates};
+  }
+  return nearest;
+}
+
+// All vertices of a facet may lie on the cage and the facet not: where cells are missing.
+template <int Dim>
+void check_boundary_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                           const std::vector<LocatedFacet<Dim>>& cage_facets, double tolerance) {
+  for (Index f = 0; f < topology.num_facets(); ++f) {
+    if (!topology.is_boundary(f)) continue;
+    Vector<Dim> center = Vector<Dim>::Zero();
+    for (int k = 0; k < Dim; ++k) center += mesh.points.col(topology.facets(k, f)) / Dim;
+    if (nearest_place(cage_facets, center).distance <= tolerance) continue;
+    throw InputError("the boundary " + std::string(Dim == 2 ? "edge" : "face") + " of cell " +
+                     std::to_string(topology.sides(0, f)) + " of the domain mesh at " +
+                     format_point(center) +
+                     " does not lie on the cage; the mesh must fill the cage");
+  }
+}
+
 template <int Dim>
 void find_control_vertices(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                            BoundaryValues<Dim>& boundary) {
@@ -98,26 +138,16 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
 
   for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
     const Vector<Dim> point = mesh.points.col(boundary.vertices[b]);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      const auto& facet = facets[f];
-      if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
-        continue;
-      }
-      const Vector<Dim> coordinates = barycentric_coordinates(facet, point);
-      const double distance = (facet.corners * coordinates - point).norm();
-      if (distance < nearest) {
-        nearest = distance;
-        boundary.control_points.col(b) = cage.facets.col(f);
-        boundary.values.col(b) = coordinates;
-      }
-    }
-    if (!(nearest <= tolerance)) {
+    const auto nearest = nearest_place(facets, point);
+    if (!(nearest.distance <= tolerance)) {
       throw InputError("boundary vertex " + std::to_string(boundary.vertices[b]) +
                        " of the domain mesh at " + format_point(point) +
                        " does not lie on the cage");
     }
+    boundary.control_points.col(b) = cage.facets.col(nearest.facet);
+    boundary.values.col(b) = nearest.coordinates;
   }
+  check_boundary_facets(mesh, topology, facets, 2 * tolerance);
   find_control_vertices(cage, mesh, boundary);
   return boundary;
 }

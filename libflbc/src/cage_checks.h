@@ -26,7 +26,8 @@ class DefectList {
   std::vector<Defect> defects_;
 };
 
-//! Counts, finiteness and indices. Only a cage that passes may be given to the other checks.
+//! Counts, finiteness, extent and indices. Only a cage that passes may be given to the other
+//! checks.
 template <int Dim>
 void check_numbers(const Cage<Dim>& cage, DefectList& found);
 

@@ -20,6 +20,12 @@ namespace {
 // Below this part of the cage's size a length counts as zero.
 constexpr double kRelativeTolerance = 1e-10;
 
+// Meshers multiply up to five lengths, which must stay within the range of numbers.
+constexpr double kSmallestSize = 1e-30;
+constexpr double kLargestSize = 1e30;
+// Beyond this many times its size from the origin, a cage's coordinates have too few digits left.
+constexpr double kFarthest = 1e9;
+
 template <int Dim>
 std::string facet_name() {
   return Dim == 2 ? "edge" : "triangle";
@@ -43,6 +49,22 @@ void check_finiteness(const Cage<Dim>& cage, DefectList& found) {
   for (Index vertex = 0; vertex < cage.size() && !found.is_full(); ++vertex) {
     if (cage.points.col(vertex).allFinite()) continue;
     found.add({describe_control_point<Dim>(cage.points, vertex) + " is not finite", {vertex}});
+  }
+}
+
+template <int Dim>
+void check_extent(const Cage<Dim>& cage, DefectList& found) {
+  if (cage.size() == 0 || !cage.points.allFinite()) return;
+  const double size = size_of<Dim>(cage.points);
+  if (size > 0 && !(size >= kSmallestSize && size <= kLargestSize)) {
+    found.add({"the cage's size of " + format_number(size) + " is out of range; it must be from " +
+               format_number(kSmallestSize) + " to " + format_number(kLargestSize) +
+               "; use another unit of length"});
+  } else if (cage.points.cwiseAbs().maxCoeff() > kFarthest * size && size > 0) {
+    found.add({"the cage lies too far from the origin for its size of " + format_number(size) +
+                   ", with " + describe_control_point<Dim>(cage.points, 0) +
+                   ": its coordinates have too few digits; move it to the origin",
+               {0}});
   }
 }
 
@@ -162,6 +184,7 @@ template <int Dim>
 void check_numbers(const Cage<Dim>& cage, DefectList& found) {
   check_counts(cage, found);
   check_finiteness(cage, found);
+  check_extent(cage, found);
   check_indices(cage, found);
 }
 

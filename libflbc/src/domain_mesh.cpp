@@ -111,6 +111,39 @@ void check_all_vertices_used(const DomainMesh<Dim>& mesh) {
                    format_point(mesh.points.col(v)) + " belongs to no cell");
 }
 
+// On which side of the facet the vertex lies.
+template <int Dim>
+bool is_above(const DomainMesh<Dim>& mesh, const Eigen::Matrix<Index, Dim, 1>& facet,
+              Index opposite) {
+  Eigen::Matrix<double, Dim, Dim> edges;
+  for (int k = 1; k < Dim; ++k) {
+    edges.col(k - 1) = mesh.points.col(facet[k]) - mesh.points.col(facet[0]);
+  }
+  edges.col(Dim - 1) = mesh.points.col(opposite) - mesh.points.col(facet[0]);
+  return edges.determinant() > 0;
+}
+
+// Cells on the same side of their common facet lie on top of each other.
+template <int Dim>
+void check_unfolded(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
+  const auto opposite = [&](Index facet, Index cell) {
+    Index corner = 0;
+    while (topology.cell_facets(corner, cell) != facet) ++corner;
+    return mesh.cells(corner, cell);
+  };
+  for (Index f = 0; f < topology.num_facets(); ++f) {
+    if (topology.is_boundary(f)) continue;
+    const Index a = topology.sides(0, f);
+    const Index b = topology.sides(1, f);
+    const Eigen::Matrix<Index, Dim, 1> facet = topology.facets.col(f);
+    if (is_above(mesh, facet, opposite(f, a)) != is_above(mesh, facet, opposite(f, b))) continue;
+    throw InputError("cells " + std::to_string(a) + " and " + std::to_string(b) +
+                     " of the domain mesh overlap: they lie on the same side of their common " +
+                     (Dim == 2 ? "edge" : "face") + ", at " +
+                     format_point(mesh.points.col(facet[0])));
+  }
+}
+
 template <int Dim>
 void check_connected(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
   std::vector<bool> reached(mesh.num_cells(), false);
@@ -211,7 +244,9 @@ void normalize_and_validate(DomainMesh<Dim>& mesh) {
   check_numbers(mesh);
   orient_cells(mesh);
   check_all_vertices_used(mesh);
-  check_connected(mesh, build_topology(mesh));
+  const auto topology = build_topology(mesh);
+  check_unfolded(mesh, topology);
+  check_connected(mesh, topology);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                    \

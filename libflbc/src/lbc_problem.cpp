@@ -22,10 +22,12 @@ double scale_to_radius(Cage<Dim>& cage, DomainMesh<Dim>& mesh) {
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
+  auto topology = build_topology(mesh);
+  // Before scaling, so that messages give the user's coordinates.
+  auto boundary = boundary_values(cage, mesh, topology);
   const double scale = scale_to_radius(cage, mesh);
-  LbcProblem<Dim> problem{std::move(cage), std::move(mesh), {}, {}, {}, scale};
-  problem.topology = build_topology(problem.mesh);
-  problem.boundary = boundary_values(problem.cage, problem.mesh, problem.topology);
+  LbcProblem<Dim> problem{
+      std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale};
   Eigen::MatrixXd distances;
   if (scheme != DistanceScheme::kConstant) {
     distances = geodesic_distances(problem.mesh, problem.boundary.control_vertices);

@@ -16,12 +16,19 @@ namespace {
 // Points closer than this part of the cage's size are one point for TetGen too.
 constexpr double kRelativeTolerance = 1e-8;
 
+// Numbers of facets in 3D, about twelve per vertex and two slots each, must fit an Index.
+constexpr Index kMostVertices = 50000000;
+
 template <int Dim>
 void check_options(const MeshingOptions<Dim>& options) {
   if (options.vertices < 0) {
     throw OptionError(
         "vertices: " + std::to_string(options.vertices) +
         " is no number of vertices; it must be positive, or 0 for as few as possible");
+  }
+  if (options.vertices > kMostVertices) {
+    throw OptionError("vertices (--vertices): " + std::to_string(options.vertices) +
+                      " are too many; at most " + std::to_string(kMostVertices) + " can be had");
   }
   if (!(options.time_limit > 0)) {
     throw OptionError("time_limit: the limit must be a positive number of seconds");

@@ -39,7 +39,7 @@ SolverOptions resolve(SolverOptions options, int dim) {
     // The paper's values (section 5), and those that served best on all models in docs/results.md.
     options.penalty = paper ? (dim == 2 ? 100 : 10000) : (dim == 2 ? 1000 : 3000);
   }
-  if (options.tolerance == 0) options.tolerance = paper ? 1e-7 : 1e-8;
+  if (options.tolerance == 0) options.tolerance = paper ? 1e-7 : 3e-5;
   if (options.relaxation == 0) options.relaxation = paper ? 1 : 1.8;
   return options;
 }

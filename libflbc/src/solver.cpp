@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "flbc/coordinates.h"
+#include "flbc/errors.h"
 #include "flbc/recovery.h"
+#include "format.h"
 #include "gradient/gradient_admm.h"
 #include "parallel.h"
 
@@ -27,13 +29,25 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+// Penalties and relaxations without measure take the numbers out of their range, which must never
+// pass for a result.
+void require_finite(bool finite, const SolverOptions& options, const SolveReport& report) {
+  if (finite) return;
+  throw SolverError("the computation broke down within " + std::to_string(report.iterations) +
+                    " iterations: its numbers are not finite; with penalty " +
+                    format_number(options.penalty) + " and relaxation " +
+                    format_number(options.relaxation) + ", try the defaults or double precision");
+}
+
 // Iterates until both residuals are below their thresholds (section 4.2.1 of the paper), the limit
 // is reached or the caller stops the run.
 template <class Scalar, int Dim>
 void run(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
          SolveReport& report) {
-  // The paper's thresholds are N_p 1e-7 and N_d 1e-6; one tolerance keeps their ratio.
-  const double primal_threshold = options.tolerance * admm.num_residual_components();
+  // The paper's dual threshold is 10 times its primal one; one tolerance keeps their ratio.
+  const double components = admm.num_residual_components();
+  const double primal_threshold =
+      options.tolerance * (options.method == Method::kPaper ? components : std::sqrt(components));
   const double dual_threshold = 10 * primal_threshold;
   for (int iteration = 1;; ++iteration) {
     const auto change = admm.iterate();
@@ -44,6 +58,8 @@ void run(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options
     const auto residuals = admm.residuals(change);
     report.primal_residual = residuals.primal / primal_threshold;
     report.dual_residual = residuals.dual / dual_threshold;
+    require_finite(std::isfinite(residuals.primal) && std::isfinite(residuals.dual), options,
+                   report);
     report.status = SolveStatus::kConverged;
     if (report.primal_residual <= 1 && report.dual_residual <= 1) return;
     report.status = SolveStatus::kIterationLimit;
@@ -100,6 +116,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options
   } else {
     solution.weights = solve_gradients<double>(problem, options, report);
   }
+  require_finite(solution.weights.allFinite(), options, report);
   report.objective =
       objective(problem.mesh, problem.phi, solution.weights) / std::pow(problem.scale, Dim - 1);
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, solution.weights);

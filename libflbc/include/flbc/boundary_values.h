@@ -32,7 +32,7 @@ struct BoundaryValues {
 //! Locates every boundary vertex on the cage by geometry, so that any mesh of the cage's interior
 //! serves, whoever made it.
 //! \throws InputError naming the vertex if one is farther from the cage than 1e-6 of the cage's
-//! size, or if a control point is no vertex of the mesh.
+//! size, the cell if its boundary facet is, or if a control point is no vertex of the mesh.
 template <int Dim>
 BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                     const MeshTopology<Dim>& topology);

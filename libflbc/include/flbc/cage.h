@@ -34,7 +34,8 @@ struct Defect {
 };
 
 //! Checks everything that can be decided without constructing intersections: number and finiteness
-//! of control points, facet indices, duplicate and unreferenced points, edges of length zero and
+//! of control points, a size from 1e-30 to 1e30 and a distance from the origin of at most 1e9 times
+//! the size, facet indices, duplicate and unreferenced points, edges of length zero and
 //! degenerate triangles, open or non-manifold edges and vertices, inconsistent orientation (3D).
 //! In 2D the orientation of the polyline's edges is free.
 //! \return at most `limit` defects, the most fundamental first; empty for a sound cage.

@@ -51,7 +51,7 @@ double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 //! Turns cells with negative measure round.
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
 //! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
-//! cells, or the mesh is not connected through facets.
+//! cells or to two on the same side of it, or the mesh is not connected through facets.
 template <int Dim>
 void normalize_and_validate(DomainMesh<Dim>& mesh);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <deque>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,9 @@ using Mesher = CGAL::Delaunay_mesher_2<Triangulation, Criteria>;
 
 constexpr double kShapeBound = 0.125;     // squared sine of the smallest angle wanted: 20.7 degrees
 constexpr double kCountTolerance = 0.05;  // promised by MeshingOptions
+
+// A coarsest mesh of more vertices, as extremely thin cages have, is not worth its time and memory.
+constexpr std::size_t kMostByShape = 5000000;
 
 // The constrained Delaunay triangulation of the input points and the cage's edges.
 Triangulation triangulate_input(const Cage<2>& cage, const PointList<2>& input) {
@@ -110,13 +115,25 @@ DomainMesh<2> extract_mesh(Triangulation& triangulation, const PointList<2>& inp
   return mesh;
 }
 
+[[noreturn]] void refuse_size(std::size_t limit) {
+  throw InputError("triangles of good shape that fill this cage take more than " +
+                   std::to_string(limit) +
+                   " vertices: somewhere it is extremely thin, or points come extremely close");
+}
+
 // \param longest_edge  bound of the edges' lengths; 0 = none
-DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, double longest_edge) {
+// \param wanted  number of vertices wanted
+DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, double longest_edge,
+                            Index wanted) {
   Triangulation triangulation = triangulate_input(cage, input);
   mark_domain(triangulation);
   Mesher mesher(triangulation, Criteria(kShapeBound, longest_edge));
   mesher.init(true);  // the domain is marked already
-  mesher.refine_mesh();
+  // In steps, because the mesher knows no limit of its own.
+  const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(wanted));
+  while (mesher.try_one_step_refine_mesh()) {
+    if (triangulation.number_of_vertices() > limit) refuse_size(limit);
+  }
   return extract_mesh(triangulation, input);
 }
 
@@ -132,7 +149,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   refuse_self_intersections(cage);
   const PointList<2> input = collect_input_points(cage, options);
 
-  DomainMesh<2> mesh = mesh_interior(cage, input, 0);
+  DomainMesh<2> mesh = mesh_interior(cage, input, 0, options.vertices);
   check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
   if (options.vertices > mesh.num_vertices()) {
     // Half as many vertices as triangles, which are equilateral but for their longest edges.
@@ -140,7 +157,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
     VertexCountGoal goal;
     goal.vertices = options.vertices;
     mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, [&](double longest_edge) {
-      return mesh_interior(cage, input, longest_edge);
+      return mesh_interior(cage, input, longest_edge, options.vertices);
     });
   }
   finish_mesh(mesh, static_cast<Index>(input.cols()));

@@ -3,6 +3,7 @@
 
 #include "flbc/errors.h"
 #include "format.h"
+#include "polygon_triangles.h"
 
 namespace flbc::io {
 namespace {
@@ -34,23 +35,11 @@ bool is_flat(const PolygonSoup& soup) {
   return true;
 }
 
-// The corners of a quadrangle in the order that makes a fan from the first one use the shorter
-// diagonal.
-Polygon start_at_shorter_diagonal(const PolygonSoup& soup, const Polygon& quad) {
-  const auto length = [&](int a, int b) {
-    return (soup.points[quad[a]] - soup.points[quad[b]]).squaredNorm();
-  };
-  if (length(0, 2) <= length(1, 3)) return quad;
-  return {quad[1], quad[2], quad[3], quad[0]};
-}
-
 FacetList<3> triangles_of_polygons(const PolygonSoup& soup) {
   std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
   for (const auto& polygon : soup.polygons) {
-    const Polygon fan = polygon.size() == 4 ? start_at_shorter_diagonal(soup, polygon) : polygon;
-    for (std::size_t k = 1; k + 1 < fan.size(); ++k) {
-      triangles.emplace_back(fan[0], fan[k], fan[k + 1]);
-    }
+    const auto parts = PolygonCutter(soup.points, polygon).cut();
+    triangles.insert(triangles.end(), parts.begin(), parts.end());
   }
   FacetList<3> facets(3, triangles.size());
   for (std::size_t f = 0; f < triangles.size(); ++f) facets.col(f) = triangles[f];
