@@ -42,7 +42,7 @@ struct SolveReport {
   double dual_residual = 0;    //!< |r_d| divided by its threshold
   double objective =
       0;  //!< of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1)
-  double numbers_per_cell = 0;  //!< memory of the iteration: numbers per cell and control point
+  double numbers_per_cell = 0;  //!< state of the iteration, per cell and control point
   StageSeconds seconds{};
   Quality quality{};
 };

@@ -226,8 +226,8 @@ double GradientAdmm<Scalar, Dim>::num_residual_components() const {
 
 template <class Scalar, int Dim>
 double GradientAdmm<Scalar, Dim>::numbers_per_cell() const {
-  const std::size_t numbers = gradient_.size() + extrapolated_.size() + tv_dual_.size() +
-                              facet_dual_.size() + radius_.size();
+  const std::size_t numbers =
+      gradient_.size() + extrapolated_.size() + tv_dual_.size() + facet_dual_.size();
   return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
 }
 

@@ -54,7 +54,7 @@ class GradientAdmm {
 
   GradientView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
 
-  //! Numbers held per cell and control point, state and phi together.
+  //! Numbers of state held per cell and control point; phi is one more.
   double numbers_per_cell() const;
 
  private:
