@@ -15,9 +15,14 @@ namespace flbc::testing {
 namespace {
 
 struct Model {
+  const char* name;
   const char* file;
   Index vertices;
 };
+
+std::string name_of(const ::testing::TestParamInfo<Model>& info) {
+  return info.param.name;
+}
 
 DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
   return triangulate(cage, {vertices});
@@ -59,9 +64,10 @@ TEST_P(Models2d, TighterTolerance) {
   expect_properties<2>(GetParam(), -0.001, 5e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Paper, Models2d,
-                         ::testing::Values(Model{"2d/woody-control-edgeset.obj", 10800},
-                                           Model{"2d/cactus-control-edgeset.obj", 10800},
-                                           Model{"2d/LBClogo-control-edgeset.obj", 26800}));
+                         ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 10800},
+                                           Model{"cactus", "2d/cactus-control-edgeset.obj", 10800},
+                                           Model{"logo", "2d/LBClogo-control-edgeset.obj", 26800}),
+                         name_of);
 
 // In 3D the optimum itself has negative weights on meshes like these (docs/results.md).
 class Models3d : public ::testing::TestWithParam<Model> {};
@@ -69,8 +75,9 @@ TEST_P(Models3d, DefaultTolerance) {
   expect_properties<3>(GetParam(), -0.1, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Paper, Models3d,
-                         ::testing::Values(Model{"3d/horse_cage.obj", 5900},
-                                           Model{"3d/armadillo_cage.obj", 6600}));
+                         ::testing::Values(Model{"horse", "3d/horse_cage.obj", 5900},
+                                           Model{"armadillo", "3d/armadillo_cage.obj", 6600}),
+                         name_of);
 
 }  // namespace
 }  // namespace flbc::testing
