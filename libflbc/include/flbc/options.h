@@ -44,8 +44,8 @@ struct SolverOptions {
   //! Residual threshold, > 0. kGradient ends when the root mean square of the primal residual's
   //! components is at most the tolerance and that of the dual residual's at most 10 times as much,
   //! which asks the same accuracy of every mesh. kPaper ends as section 5 of the paper says: norms
-  //! at most N_p tolerance and 10 N_d tolerance. 0 = by method: 3e-5 for kGradient, at which the
-  //! coordinates have become local on every model measured; the paper's 1e-7 for kPaper.
+  //! at most N_p tolerance and 10 N_d tolerance. 0 = by method: 3e-5 for kGradient, the paper's 1e-7
+  //! for kPaper.
   double tolerance = 0;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error.
