@@ -31,4 +31,17 @@ CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
   return geometry;
 }
 
+//! Gradients of piecewise linear weights on one cell, n x Dim. \param weights  n x V
+template <int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> weight_gradients(const DomainMesh<Dim>& mesh, Index cell,
+                                                            const CellGeometry<Dim>& geometry,
+                                                            const WeightMatrix& weights) {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients =
+      weights.col(mesh.cells(0, cell)) * geometry.hat_gradients.col(0).transpose();
+  for (int k = 1; k <= Dim; ++k) {
+    gradients += weights.col(mesh.cells(k, cell)) * geometry.hat_gradients.col(k).transpose();
+  }
+  return gradients;
+}
+
 }  // namespace flbc

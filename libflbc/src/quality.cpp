@@ -41,14 +41,10 @@ double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
                  const WeightMatrix& weights) {
   return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
     double sum = 0;
-    Eigen::Matrix<double, Eigen::Dynamic, Dim> gradient(weights.rows(), Dim);
     for (Index s = begin; s < end; ++s) {
       const auto geometry = cell_geometry(mesh, s);
-      gradient.setZero();
-      for (int k = 0; k <= Dim; ++k) {
-        gradient += weights.col(mesh.cells(k, s)) * geometry.hat_gradients.col(k).transpose();
-      }
-      sum += geometry.measure * phi.col(s).dot(gradient.rowwise().norm());
+      const auto gradients = weight_gradients(mesh, s, geometry, weights);
+      sum += geometry.measure * phi.col(s).dot(gradients.rowwise().norm());
     }
     return sum;
   });

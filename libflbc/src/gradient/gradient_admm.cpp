@@ -183,12 +183,8 @@ template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
 #pragma omp parallel for schedule(static)
   for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-    const auto geometry = cell_geometry(problem_.mesh, s);
-    Eigen::Matrix<double, Eigen::Dynamic, Dim> gradient = Eigen::MatrixXd::Zero(n_, Dim);
-    for (int k = 0; k <= Dim; ++k) {
-      gradient +=
-          weights.col(problem_.mesh.cells(k, s)) * geometry.hat_gradients.col(k).transpose();
-    }
+    const auto gradient =
+        weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights);
     for (int d = 0; d < Dim; ++d) {
       const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
       for (Index i = 0; i < n_; ++i) {
