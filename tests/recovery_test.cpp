@@ -23,7 +23,7 @@ TYPED_TEST_SUITE(RecoveryTest, Dimensions);
 template <class Scalar, int Dim>
 struct Gradients {
   std::vector<Scalar> numbers;
-  GradientView<Scalar, Dim> view;
+  CellFieldView<Scalar, Dim> view;
 
   Gradients(const DomainMesh<Dim>& mesh, const WeightMatrix& weights) {
     const auto stride = static_cast<std::size_t>(weights.rows()) + 2;

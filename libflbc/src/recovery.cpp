@@ -53,7 +53,7 @@ std::vector<std::vector<Index>> breadth_first_levels(const LbcProblem<Dim>& prob
 
 template <class Scalar, int Dim>
 WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
-                                     const GradientView<Scalar, Dim>& gradients) {
+                                     const CellFieldView<Scalar, Dim>& gradients) {
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   std::vector<Index> level_of;
@@ -87,7 +87,7 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
 
 template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
-                                     const GradientView<Scalar, Dim>& gradients) {
+                                     const CellFieldView<Scalar, Dim>& gradients) {
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
@@ -118,9 +118,9 @@ WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
 
 #define FLBC_INSTANTIATE(Scalar, Dim)                                              \
   template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,            \
-                                                const GradientView<Scalar, Dim>&); \
+                                                const CellFieldView<Scalar, Dim>&); \
   template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,            \
-                                                const GradientView<Scalar, Dim>&);
+                                                const CellFieldView<Scalar, Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

@@ -52,7 +52,7 @@ class GradientAdmm {
   //! Number of components of r_p and of r_d, which is the same.
   double num_residual_components() const;
 
-  GradientView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
+  CellFieldView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
 
   //! Numbers of state held per cell and control point; phi is one more.
   double numbers_per_cell() const;
