@@ -11,14 +11,34 @@ const char* name_of(Method method) {
   switch (method) {
     case Method::kAuto:
       return "auto";
+    case Method::kValue:
+      return "value";
     case Method::kGradient:
       return "gradient";
     case Method::kPaper:
       return "paper";
+    case Method::kLbc2014:
+      return "lbc2014";
     case Method::kHarmonic:
+      return "harmonic";
+    case Method::kMeanValue:
       break;
   }
-  return "harmonic";
+  return "meanvalue";
+}
+
+const char* name_of(NonNegative non_negative) {
+  switch (non_negative) {
+    case NonNegative::kAuto:
+      return "auto";
+    case NonNegative::kConstraint:
+      return "constraint";
+    case NonNegative::kProject:
+      return "project";
+    case NonNegative::kOff:
+      break;
+  }
+  return "off";
 }
 
 const char* name_of(SolveStatus status) {
@@ -74,14 +94,21 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
   json["primal_residual"] = report.primal_residual;
   json["dual_residual"] = report.dual_residual;
   json["objective"] = report.objective;
+  if (options.certify) {
+    json["lower_bound"] = report.certificate.lower_bound;
+    json["certified_objective"] = report.certificate.objective;
+    json["relative_gap"] = report.certificate.relative_gap;
+  }
   json["seconds"] = {{"mesh", context.mesh_seconds},
                      {"setup", report.seconds.setup},
                      {"solve", report.seconds.solve},
-                     {"recover", report.seconds.recover}};
+                     {"recover", report.seconds.recover},
+                     {"certify", report.seconds.certify}};
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;
   json["max_reproduction_error"] = context.delivered.max_reproduction_error;
   json["mean_influences"] = context.delivered.mean_influences;
+  json["penalty"] = report.penalty;
   json["numbers_per_cell"] = report.numbers_per_cell;
   json["version"] = FLBC_VERSION;
   json["options"] = {{"cage", context.cage},
@@ -90,6 +117,8 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
                      {"embed", context.embed},
                      {"vertices", context.wanted_vertices},
                      {"method", name_of(given.method)},
+                     {"non_negative", name_of(options.non_negative)},
+                     {"certify", options.certify},
                      {"phi", name_of(options.phi)},
                      {"recovery", name_of(options.recovery)},
                      {"precision", options.precision == Precision::kSingle ? "single" : "double"},

@@ -83,7 +83,11 @@ void print_summary(const SolveArguments& arguments, const SolveReport& report, i
             << report.vertices << " vertices, " << report.cells
             << (dim == 2 ? " triangles; " : " tetrahedra; ") << report.iterations << " iterations, "
             << report.seconds.solve << " s; minimum weight " << delivered.min_weight
-            << ", reproduction error " << delivered.max_reproduction_error << '\n';
+            << ", reproduction error " << delivered.max_reproduction_error;
+  if (arguments.options.certify) {
+    std::cerr << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
+  }
+  std::cerr << '\n';
 }
 
 template <int Dim>
@@ -135,10 +139,15 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   return kNotConverged;
 }
 
-const std::map<std::string, Method> kMethods{{"auto", Method::kAuto},
-                                             {"gradient", Method::kGradient},
-                                             {"paper", Method::kPaper},
-                                             {"harmonic", Method::kHarmonic}};
+const std::map<std::string, Method> kMethods{
+    {"auto", Method::kAuto},           {"value", Method::kValue},
+    {"gradient", Method::kGradient},   {"paper", Method::kPaper},
+    {"lbc2014", Method::kLbc2014},     {"harmonic", Method::kHarmonic},
+    {"meanvalue", Method::kMeanValue}};
+const std::map<std::string, NonNegative> kNonNegative{{"auto", NonNegative::kAuto},
+                                                      {"constraint", NonNegative::kConstraint},
+                                                      {"project", NonNegative::kProject},
+                                                      {"off", NonNegative::kOff}};
 const std::map<std::string, DistanceScheme> kSchemes{{"square", DistanceScheme::kSquare},
                                                      {"linear", DistanceScheme::kLinear},
                                                      {"sqrt", DistanceScheme::kSquareRoot},
@@ -191,15 +200,18 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("--save-domain", a.save_domain, domain_formats_help());
   command->add_option("--report", a.report, "write what happened to this .json file");
   add_choice(*command, "--method", a.options.method, kMethods, "how to solve (auto)");
+  add_choice(*command, "--non-negative", a.options.non_negative, kNonNegative,
+             "what becomes of negative weights (by method)");
+  command->add_flag("--certify", a.options.certify, "prove how near the optimum the weights are");
   add_choice(*command, "--phi", a.options.phi, kSchemes, "growth of the distance weights (square)");
   add_choice(*command, "--recovery", a.options.recovery, kRecoveries,
              "how weights follow from gradients (auto)");
   add_choice(*command, "--precision", a.options.precision, kPrecisions,
              "arithmetic of the iteration (single)");
   command->add_option("--tolerance", a.options.tolerance,
-                      "residual threshold (by method: 3e-5, paper 1e-7)");
+                      "accuracy wanted (by method: value 1e-6, gradient 3e-5, others 1e-7)");
   command->add_option("--max-iterations", a.options.max_iterations, "limit of iterations (20000)");
-  command->add_option("--penalty", a.options.penalty, "penalty mu (by method)");
+  command->add_option("--penalty", a.options.penalty, "penalty of the augmented Lagrangian (by method)");
   command->add_option("--relaxation", a.options.relaxation,
                       "over-relaxation in (0, 2) (by method)");
   command->add_option("--threads", a.options.threads, "number of threads (all)");

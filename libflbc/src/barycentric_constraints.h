@@ -22,12 +22,17 @@ class BarycentricConstraints {
   //! (Dim + 1) x Dim: Q^T g_d for every gradient that satisfies (8), a column per direction d.
   Eigen::Matrix<double, Dim + 1, Dim> gradient_target() const;
 
+  //! Q^T w for every w with sum 1 that reproduces the point.
+  Vector<Dim + 1> weight_target(const Vector<Dim>& point) const {
+    Vector<Dim + 1> sums;
+    sums << 1, point;
+    return inverse_r_transposed_ * sums;
+  }
+
   //! The nearest weights with sum 1 that reproduce the point.
   template <class Column>
   void project_weights(const Vector<Dim>& point, Column&& weights) const {
-    Vector<Dim + 1> sums;
-    sums << 1, point;
-    const Vector<Dim + 1> excess = basis_.transpose() * weights - inverse_r_transposed_ * sums;
+    const Vector<Dim + 1> excess = basis_.transpose() * weights - weight_target(point);
     weights -= basis_ * excess;
   }
 

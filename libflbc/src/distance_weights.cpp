@@ -2,10 +2,16 @@
 // The heat method: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013.
 #include "flbc/distance_weights.h"
 
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "aligned_array.h"
 #include "cell_geometry.h"
 #include "laplacian.h"
+#include "linear/panel_cholesky.h"
 
 namespace flbc {
 namespace {
@@ -30,40 +36,84 @@ Eigen::SparseMatrix<double> diagonal_matrix(const Eigen::VectorXd& diagonal) {
   return matrix;
 }
 
-// One short step of heat flow from every source. \return V x #sources
-Eigen::MatrixXd heat(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& mass,
-                     double time, const std::vector<Index>& sources) {
-  const SpdSolver solver(time * stiffness + diagonal_matrix(mass));
-  Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(mass.size(), sources.size());
-  for (std::size_t i = 0; i < sources.size(); ++i) impulse(sources[i], i) = 1;
-  return solver.solve(impulse);
+// A function per source on the vertices: a row per vertex, in the order of the solver it is for.
+struct Field {
+  std::vector<Index> position;  // row of a vertex
+  std::size_t stride;
+  AlignedArray<double> rows;
+
+  Field(const PanelCholesky<double>& solver, std::size_t num_sources)
+      : position(solver.position()),
+        stride(row_stride(num_sources)),
+        rows(solver.size() * stride) {}
+  double* row(Index v) { return rows.data() + position[v] * stride; }
+  const double* row(Index v) const { return rows.data() + position[v] * stride; }
+};
+
+// One short step of heat flow from every source.
+Field heat(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& mass, double time,
+           const std::vector<Index>& sources) {
+  const PanelCholesky<double> solver(time * stiffness + diagonal_matrix(mass));
+  Field field(solver, sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) field.row(sources[i])[i] = 1;
+  solver.solve(field.rows.data(), field.stride);
+  return field;
 }
 
-// Divergence of the normalised, reversed temperature gradient, in place of the temperature.
+// Adds one cell's part of the divergence of the normalised, reversed temperature gradient.
 template <int Dim>
-void replace_by_divergence_of_direction(const DomainMesh<Dim>& mesh, Eigen::MatrixXd& field) {
+void add_divergence_of_direction(const CellGeometry<Dim>& cell,
+                                 const std::array<const double*, Dim + 1>& temperature,
+                                 const std::array<double*, Dim + 1>& divergence, Slice slice) {
+  for (std::size_t i = slice.begin; i < slice.end; ++i) {
+    // Far from the source the temperature is near the smallest numbers: scale before squaring.
+    double largest = 0;
+    for (int k = 0; k <= Dim; ++k) largest = std::max(largest, std::abs(temperature[k][i]));
+    if (!(largest > 0)) continue;
+    Vector<Dim> gradient = Vector<Dim>::Zero();
+    for (int k = 0; k <= Dim; ++k) {
+      gradient += temperature[k][i] / largest * cell.hat_gradients.col(k);
+    }
+    const double length = gradient.norm();
+    if (!(length > 0)) continue;
+    const Vector<Dim> flow = -cell.measure / length * gradient;
+    for (int k = 0; k <= Dim; ++k) divergence[k][i] += cell.hat_gradients.col(k).dot(flow);
+  }
+}
+
+// Every thread adds up the columns of its own.
+template <int Dim>
+void add_divergence_of_direction(const DomainMesh<Dim>& mesh, const Field& temperature,
+                                 Field& divergence) {
   std::vector<CellGeometry<Dim>> cells;
   cells.reserve(mesh.num_cells());
   for (Index s = 0; s < mesh.num_cells(); ++s) cells.push_back(cell_geometry(mesh, s));
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index i = 0; i < field.cols(); ++i) {
-    Eigen::VectorXd divergence = Eigen::VectorXd::Zero(mesh.num_vertices());
+#pragma omp parallel
+  {
+    const Slice slice = slice_of(temperature.stride, omp_get_thread_num(), omp_get_num_threads());
     for (Index s = 0; s < mesh.num_cells(); ++s) {
-      Eigen::Matrix<double, Dim + 1, 1> temperature;
-      for (int k = 0; k <= Dim; ++k) temperature[k] = field(mesh.cells(k, s), i);
-      // Far from the source the temperature is near the smallest numbers: scale before squaring.
-      const double largest = temperature.cwiseAbs().maxCoeff();
-      if (!(largest > 0)) continue;
-      const Vector<Dim> gradient = cells[s].hat_gradients * (temperature / largest);
-      const double length = gradient.norm();
-      if (!(length > 0)) continue;
-      const Vector<Dim> flow = -cells[s].measure / length * gradient;
+      std::array<const double*, Dim + 1> from;
+      std::array<double*, Dim + 1> to;
       for (int k = 0; k <= Dim; ++k) {
-        divergence[mesh.cells(k, s)] += cells[s].hat_gradients.col(k).dot(flow);
+        from[k] = temperature.row(mesh.cells(k, s));
+        to[k] = divergence.row(mesh.cells(k, s));
       }
+      add_divergence_of_direction<Dim>(cells[s], from, to, slice);
     }
-    field.col(i) = divergence;
   }
+}
+
+// The solution up to a constant, made zero at the source.
+Eigen::MatrixXd distances_from(const Field& field, const std::vector<Index>& sources) {
+  const auto n = static_cast<Eigen::Index>(sources.size());
+  Eigen::ArrayXd at_source(n);
+  for (Eigen::Index i = 0; i < n; ++i) at_source[i] = field.row(sources[i])[i];
+  Eigen::MatrixXd distances(n, field.position.size());
+  for (Eigen::Index v = 0; v < distances.cols(); ++v) {
+    const Eigen::Map<const Eigen::ArrayXd> row(field.row(static_cast<Index>(v)), n);
+    distances.col(v) = (row - at_source).max(0.0);
+  }
+  return distances;
 }
 
 double relative_to_weight(DistanceScheme scheme, double distance) {
@@ -87,19 +137,18 @@ Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const std::vecto
   const auto stiffness = stiffness_matrix(mesh);
   const auto mass = lumped_mass(mesh);
   const double step = mean_edge_length(mesh);
-  Eigen::MatrixXd field = heat(stiffness, mass, step * step, sources);
-  replace_by_divergence_of_direction(mesh, field);
+  const Field temperature = heat(stiffness, mass, step * step, sources);
 
   // Constants are in the kernel of the stiffness matrix; a trace of mass makes it definite without
   // a visible change, because the right-hand side sums to zero.
   const double extent =
       (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
-  const SpdSolver solver(stiffness + 1e-8 / (extent * extent) * diagonal_matrix(mass));
-  field = solver.solve(field);
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    field.col(i) = (field.col(i).array() - field(sources[i], i)).max(0.0);
-  }
-  return field.transpose();
+  const PanelCholesky<double> solver(stiffness + 1e-8 / (extent * extent) * diagonal_matrix(mass));
+
+  Field field(solver, sources.size());
+  add_divergence_of_direction(mesh, temperature, field);
+  solver.solve(field.rows.data(), field.stride);
+  return distances_from(field, sources);
 }
 
 template <int Dim>

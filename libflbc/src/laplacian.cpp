@@ -36,9 +36,9 @@ Eigen::VectorXd lumped_mass(const DomainMesh<Dim>& mesh) {
 
 template <int Dim>
 Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n) {
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(boundary.vertices.size(), n);
-  for (Eigen::Index b = 0; b < values.rows(); ++b) {
-    boundary.scatter(static_cast<Index>(b), values.row(b));
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(n, boundary.vertices.size());
+  for (Eigen::Index b = 0; b < values.cols(); ++b) {
+    boundary.scatter(static_cast<Index>(b), values.col(b));
   }
   return values;
 }
@@ -52,43 +52,53 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
     place[v] = boundary.slot[v] >= 0 ? boundary.slot[v] : static_cast<Index>(interior_.size());
     if (boundary.slot[v] < 0) interior_.push_back(v);
   }
-  if (interior_.empty()) return;
 
   using Triplet = Eigen::Triplet<double, Index>;
-  std::vector<Triplet> inner;
+  std::vector<Triplet> inner;  // lower triangle
   std::vector<Triplet> outer;
   const auto stiffness = stiffness_matrix(mesh);
   for (const Index v : interior_) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
       const auto w = static_cast<Index>(it.row());
-      (boundary.slot[w] < 0 ? inner : outer).emplace_back(place[v], place[w], it.value());
+      if (boundary.slot[w] >= 0) {
+        outer.emplace_back(place[v], place[w], it.value());
+      } else if (w >= v) {
+        inner.emplace_back(place[w], place[v], it.value());
+      }
     }
   }
   Eigen::SparseMatrix<double> matrix(interior_.size(), interior_.size());
   matrix.setFromTriplets(inner.begin(), inner.end());
   coupling_.resize(interior_.size(), boundary_.size());
   coupling_.setFromTriplets(outer.begin(), outer.end());
-  solver_ = std::make_unique<SpdSolver>(matrix);
+  interior_solver_.emplace(matrix);
 }
 
 template <int Dim>
 WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values,
                                           const Eigen::MatrixXd& divergence) const {
-  WeightMatrix weights(boundary_values.cols(), interior_.size() + boundary_.size());
-  for (std::size_t b = 0; b < boundary_.size(); ++b) {
-    weights.col(boundary_[b]) = boundary_values.row(b).transpose();
-  }
-  if (interior_.empty()) return weights;
-  Eigen::MatrixXd right_hand_side = -(coupling_ * boundary_values);
-  if (divergence.size() > 0) {
-    for (std::size_t k = 0; k < interior_.size(); ++k) {
-      right_hand_side.row(k) += divergence.col(interior_[k]).transpose();
+  const Eigen::Index k = boundary_values.rows();
+  const std::size_t stride = row_stride(k);
+  AlignedArray<double> rows(interior_.size() * stride);
+  const auto row_of = [&](std::size_t i) {
+    return Eigen::Map<Eigen::VectorXd>(rows.data() + interior_solver_->position()[i] * stride, k);
+  };
+
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < interior_.size(); ++i) {
+    auto row = row_of(i);
+    if (divergence.size() > 0) row = divergence.col(interior_[i]);
+    for (typename decltype(coupling_)::InnerIterator it(coupling_, i); it; ++it) {
+      row -= it.value() * boundary_values.col(it.col());
     }
   }
-  const Eigen::MatrixXd solution = solver_->solve(right_hand_side);
-  for (std::size_t k = 0; k < interior_.size(); ++k) {
-    weights.col(interior_[k]) = solution.row(k).transpose();
+  interior_solver_->solve(rows.data(), stride);
+
+  WeightMatrix weights(k, interior_.size() + boundary_.size());
+  for (std::size_t b = 0; b < boundary_.size(); ++b) {
+    weights.col(boundary_[b]) = boundary_values.col(b);
   }
+  for (std::size_t i = 0; i < interior_.size(); ++i) weights.col(interior_[i]) = row_of(i);
   return weights;
 }
 

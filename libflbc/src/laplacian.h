@@ -3,7 +3,7 @@
 //! The finite-element Laplacian of a domain mesh and the Poisson problem with boundary values.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -11,7 +11,7 @@
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
-#include "spd_solver.h"
+#include "linear/panel_cholesky.h"
 
 namespace flbc {
 
@@ -23,7 +23,7 @@ Eigen::SparseMatrix<double> stiffness_matrix(const DomainMesh<Dim>& mesh);
 template <int Dim>
 Eigen::VectorXd lumped_mass(const DomainMesh<Dim>& mesh);
 
-//! The coordinates known on the boundary as a matrix, B x n.
+//! The coordinates known on the boundary as a matrix, n x B.
 template <int Dim>
 Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n);
 
@@ -35,7 +35,7 @@ class DirichletProblem {
   DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary);
 
   //! Minimises sum_s A_s |grad w_i - g_i|^2 for every i.
-  //! \param boundary_values  B x k, the values known, a column per function
+  //! \param boundary_values  k x B, the values known, a row per function
   //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty stands
   //! for zero and gives harmonic functions
   //! \return k x V, boundary values included
@@ -43,10 +43,10 @@ class DirichletProblem {
                      const Eigen::MatrixXd& divergence = {}) const;
 
  private:
-  std::vector<Index> interior_;           // interior vertices, ascending
-  std::vector<Index> boundary_;           // boundary vertices, ascending
-  Eigen::SparseMatrix<double> coupling_;  // interior x boundary part of K
-  std::unique_ptr<SpdSolver> solver_;  // interior x interior part, none without interior vertices
+  std::vector<Index> interior_;                            // interior vertices, ascending
+  std::vector<Index> boundary_;                            // boundary vertices, ascending
+  Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_;  // interior x boundary part of K
+  std::optional<PanelCholesky<double>> interior_solver_;   // interior x interior part
 };
 
 }  // namespace flbc

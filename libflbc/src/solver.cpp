@@ -1,96 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/solver.h"
 
-#include <chrono>
 #include <cmath>
 
+#include "flbc/certificate.h"
 #include "flbc/coordinates.h"
-#include "flbc/errors.h"
+#include "flbc/mean_value.h"
+#include "flbc/non_negative.h"
 #include "flbc/recovery.h"
-#include "format.h"
-#include "gradient/gradient_admm.h"
+#include "method.h"
 #include "parallel.h"
+#include "stopwatch.h"
 
 namespace flbc {
 namespace {
 
-class Stopwatch {
- public:
-  //! Seconds since construction or the last call.
-  double lap() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
-// Penalties and relaxations without measure take the numbers out of their range, which must never
-// pass for a result.
-void require_finite(bool finite, const SolverOptions& options, const SolveReport& report) {
-  if (finite) return;
-  throw SolverError("the computation broke down within " + std::to_string(report.iterations) +
-                    " iterations: its numbers are not finite; with penalty " +
-                    format_number(options.penalty) + " and relaxation " +
-                    format_number(options.relaxation) + ", try the defaults or double precision");
-}
-
-// Iterates until both residuals are below their thresholds (section 4.2.1 of the paper), the limit
-// is reached or the caller stops the run.
-template <class Scalar, int Dim>
-void run(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
-         SolveReport& report) {
-  // The paper's dual threshold is 10 times its primal one; one tolerance keeps their ratio.
-  const double components = admm.num_residual_components();
-  const double primal_threshold =
-      options.tolerance * (options.method == Method::kPaper ? components : std::sqrt(components));
-  const double dual_threshold = 10 * primal_threshold;
-  for (int iteration = 1;; ++iteration) {
-    const auto change = admm.iterate();
-    report.iterations = iteration;
-    const bool last = iteration >= options.max_iterations;
-    if (iteration % options.check_interval != 0 && !last) continue;
-
-    const auto residuals = admm.residuals(change);
-    report.primal_residual = residuals.primal / primal_threshold;
-    report.dual_residual = residuals.dual / dual_threshold;
-    require_finite(std::isfinite(residuals.primal) && std::isfinite(residuals.dual), options,
-                   report);
-    report.status = SolveStatus::kConverged;
-    if (report.primal_residual <= 1 && report.dual_residual <= 1) return;
-    report.status = SolveStatus::kIterationLimit;
-    if (last) return;
-    report.status = SolveStatus::kStopped;
-    if (options.progress &&
-        !options.progress({iteration, report.primal_residual, report.dual_residual})) {
-      return;
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-WeightMatrix solve_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                             SolveReport& report) {
+template <int Dim>
+Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report) {
   Stopwatch watch;
-  gradient::GradientAdmm<Scalar, Dim> admm(problem, options.penalty, options.relaxation,
-                                           gradient::boundary_periods(problem));
-  if (options.method == Method::kPaper) {
-    admm.start_from_least_norm();
-  } else {
-    admm.start_from_weights(harmonic_coordinates(problem));
+  Outcome outcome;
+  switch (options.method) {
+    case Method::kHarmonic:
+      outcome.weights = harmonic_coordinates(problem);
+      report.seconds.solve = watch.lap();
+      return outcome;
+    case Method::kMeanValue:
+      outcome.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
+      report.seconds.solve = watch.lap();
+      return outcome;
+    case Method::kValue:
+    case Method::kLbc2014:
+      return solve_by_splitting(problem, options, report);
+    default:
+      return solve_by_gradients(problem, options, report);
   }
-  run(admm, options, report);
-  report.numbers_per_cell = admm.numbers_per_cell();
-  report.seconds.solve = watch.lap();
-  auto weights = options.recovery == Recovery::kBreadthFirst
-                     ? integrate_breadth_first(problem, admm.gradients())
-                     : integrate_least_squares(problem, admm.gradients());
-  report.seconds.recover = watch.lap();
-  return weights;
+}
+
+template <int Dim>
+std::vector<Index> interior_vertices(const LbcProblem<Dim>& problem) {
+  std::vector<Index> interior;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] < 0) interior.push_back(v);
+  }
+  return interior;
+}
+
+// In the units of the mesh as it was given.
+template <int Dim>
+double unscaled(const LbcProblem<Dim>& problem, double objective) {
+  return objective / std::pow(problem.scale, Dim - 1);
+}
+
+template <int Dim>
+Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
+  auto certificate = outcome.certify(outcome.weights);
+  certificate.objective = unscaled(problem, certificate.objective);
+  certificate.lower_bound = unscaled(problem, certificate.lower_bound);
+  return certificate;
 }
 
 }  // namespace
@@ -107,19 +74,21 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options
   report.control_points = problem.num_control_points();
   report.vertices = problem.mesh.num_vertices();
   report.cells = problem.mesh.num_cells();
-  if (options.method == Method::kHarmonic) {
-    Stopwatch watch;
-    solution.weights = harmonic_coordinates(problem);
-    report.seconds.solve = watch.lap();
-  } else if (options.precision == Precision::kSingle) {
-    solution.weights = solve_gradients<float>(problem, options, report);
-  } else {
-    solution.weights = solve_gradients<double>(problem, options, report);
+  auto outcome = run_method(problem, options, report);
+  require_finite(outcome.weights.allFinite(), options, report);
+
+  Stopwatch watch;
+  if (options.non_negative != NonNegative::kOff) {
+    project_non_negative(problem.cage.points, problem.mesh.points, outcome.weights,
+                         interior_vertices(problem));
   }
-  require_finite(solution.weights.allFinite(), options, report);
+  report.seconds.recover += watch.lap();
+  if (options.certify) report.certificate = certify(problem, outcome);
+  report.seconds.certify = watch.lap();
   report.objective =
-      objective(problem.mesh, problem.phi, solution.weights) / std::pow(problem.scale, Dim - 1);
-  report.quality = measure_quality(problem.cage.points, problem.mesh.points, solution.weights);
+      objective(problem.mesh, problem.phi, outcome.weights) / std::pow(problem.scale, Dim - 1);
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, outcome.weights);
+  solution.weights = std::move(outcome.weights);
   return solution;
 }
 

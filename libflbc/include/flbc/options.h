@@ -11,10 +11,21 @@ namespace flbc {
 
 //! How the coordinates are computed.
 enum class Method {
-  kAuto,      //!< the method recommended for most uses, at present kGradient
+  kAuto,      //!< the method recommended for most uses, at present kValue
+  kValue,     //!< splitting on the weights in the metric of the continuous problem: the fastest
   kGradient,  //!< the paper's gradient ADMM, started from harmonic coordinates, over-relaxed
   kPaper,     //!< the same with the paper's start, parameters and recovery, to the letter
-  kHarmonic   //!< harmonic coordinates (Joshi et al. 2007), for comparison
+  kLbc2014,   //!< the original solver (section 3 of the paper; Zhang et al. 2014)
+  kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
+  kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
+};
+
+//! What becomes of w >= 0. On a mesh the optimum without it may be negative, in 3D noticeably.
+enum class NonNegative {
+  kAuto,        //!< kConstraint where the method has it, kProject for kGradient, else kOff
+  kConstraint,  //!< a constraint of the iteration; delivered weights are then projected as well
+  kProject,     //!< each row is replaced by the nearest one that is feasible and not negative
+  kOff          //!< neither: the paper's problem
 };
 
 //! Arithmetic of the iteration; set-up and recovery are always in double precision.
@@ -30,8 +41,8 @@ enum class Recovery {
 //! State of a run, handed to the progress callback.
 struct Progress {
   int iteration;
-  double primal_residual;  //!< Euclidean norm of r_p divided by its threshold
-  double dual_residual;    //!< Euclidean norm of r_d divided by its threshold
+  double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
+  double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
 };
 
 //! Options of solve(). The defaults suit every cage.
@@ -41,17 +52,22 @@ struct SolverOptions {
   Precision precision = Precision::kSingle;
   Recovery recovery = Recovery::kAuto;
 
-  //! Residual threshold, > 0. kGradient ends when the root mean square of the primal residual's
-  //! components is at most the tolerance and that of the dual residual's at most 10 times as much,
-  //! which asks the same accuracy of every mesh. kPaper ends as section 5 of the paper says: norms
-  //! at most N_p tolerance and 10 N_d tolerance. 0 = by method: 3e-5 for kGradient, the paper's 1e-7
-  //! for kPaper.
+  NonNegative non_negative = NonNegative::kAuto;
+
+  //! How accurate, > 0; 0 = by method.
+  //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
+  //!   iteration changes them; 1e-6 by default.
+  //! - kGradient: root mean square of the primal residual's components (the dual's: 10 times as
+  //!   much); 3e-5 by default.
+  //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
+  //!   tolerance; 1e-7 by default.
   double tolerance = 0;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error.
   int max_iterations = 20000;
 
-  //! Penalty mu of the augmented Lagrangian, for a domain scaled to radius 250; 0 = by method.
+  //! Penalty of the augmented Lagrangian, for a domain scaled to radius 250; 0 = by method, which
+  //! for kValue and kLbc2014 means chosen from the mesh.
   double penalty = 0;
 
   //! Over-relaxation in (0, 2), 1 = none; 0 = by method.
@@ -59,6 +75,9 @@ struct SolverOptions {
 
   //! Iterations between two evaluations of the residuals, >= 1.
   int check_interval = 10;
+
+  //! Whether to compute a lower bound of the optimal objective as well; needs an iterative method.
+  bool certify = false;
 
   //! Number of threads; 0 = as many as OpenMP offers.
   int threads = 0;

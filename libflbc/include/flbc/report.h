@@ -19,7 +19,8 @@ enum class SolveStatus {
 struct StageSeconds {
   double setup = 0;    //!< topology, boundary values, phi
   double solve = 0;    //!< the iteration with its set-up and start
-  double recover = 0;  //!< from gradients to weights
+  double recover = 0;  //!< from gradients to weights, and making them non-negative
+  double certify = 0;  //!< the lower bound
 };
 
 //! Properties of weights, measured on the weights themselves.
@@ -30,6 +31,13 @@ struct Quality {
   double mean_influences = 0;         //!< mean number of |w_i| > 1e-4 per point
 };
 
+//! Proof of how good weights are, by weak duality (certificate.h).
+struct Certificate {
+  double objective = 0;     //!< of the weights, made feasible and non-negative where they are not
+  double lower_bound = 0;   //!< of the objective of all feasible, non-negative weights
+  double relative_gap = 0;  //!< (objective - lower_bound) / objective
+};
+
 //! Result of solve() beside the weights.
 struct SolveReport {
   Method method = Method::kAuto;  //!< the method used, never kAuto
@@ -38,10 +46,12 @@ struct SolveReport {
   Index vertices = 0;
   Index cells = 0;
   int iterations = 0;
-  double primal_residual = 0;  //!< |r_p| divided by its threshold
+  double primal_residual = 0;  //!< |r_p|, or estimated error, divided by its threshold
   double dual_residual = 0;    //!< |r_d| divided by its threshold
-  double objective =
-      0;  //!< of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1)
+  double penalty = 0;          //!< used last, for a domain scaled to radius 250
+  //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
+  double objective = 0;
+  Certificate certificate{};    //!< if asked for, in the same units
   double numbers_per_cell = 0;  //!< state of the iteration, per cell and control point
   StageSeconds seconds{};
   Quality quality{};

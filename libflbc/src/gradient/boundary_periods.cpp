@@ -66,9 +66,9 @@ std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem) {
   Index count = 0;
   const auto component = number_components(problem, count);
   if (count == 1) return {};
-  Eigen::MatrixXd indicator = Eigen::MatrixXd::Zero(component.size(), count - 1);
+  Eigen::MatrixXd indicator = Eigen::MatrixXd::Zero(count - 1, component.size());
   for (std::size_t b = 0; b < component.size(); ++b) {
-    if (component[b] > 0) indicator(b, component[b] - 1) = 1;
+    if (component[b] > 0) indicator(component[b] - 1, b) = 1;
   }
   const auto psi = DirichletProblem<Dim>(problem.mesh, problem.boundary).solve(indicator);
   std::vector<Period<Dim>> periods;

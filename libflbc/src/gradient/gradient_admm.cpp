@@ -221,6 +221,15 @@ double GradientAdmm<Scalar, Dim>::num_residual_components() const {
 }
 
 template <class Scalar, int Dim>
+CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() {
+  flux_ = AlignedArray<Scalar>(tv_dual_.size());
+  const auto minus_penalty = static_cast<Scalar>(-penalty_);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < flux_.size(); ++k) flux_[k] = minus_penalty * tv_dual_[k];
+  return {flux_.data(), stride_, n_};
+}
+
+template <class Scalar, int Dim>
 double GradientAdmm<Scalar, Dim>::numbers_per_cell() const {
   const std::size_t numbers =
       gradient_.size() + extrapolated_.size() + tv_dual_.size() + facet_dual_.size();

@@ -54,6 +54,10 @@ class GradientAdmm {
 
   CellFieldView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
 
+  //! The dual of the total variation, -mu u of Z = G: at an optimum phi A times the direction of
+  //! the gradient. With over-relaxation it may be longer than phi A meanwhile.
+  CellFieldView<Scalar, Dim> flux();
+
   //! Numbers of state held per cell and control point; phi is one more.
   double numbers_per_cell() const;
 
@@ -80,6 +84,7 @@ class GradientAdmm {
   AlignedArray<Scalar> tv_dual_;
   AlignedArray<Scalar> facet_dual_;
   AlignedArray<Scalar> period_dual_;
+  AlignedArray<Scalar> flux_;  // of the last call of flux()
   // data
   AlignedArray<Scalar> radius_;
   AlignedArray<Scalar> boundary_slope_;

@@ -2,30 +2,27 @@
 //! \file
 //! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
 //! compiled with the flags of that set (see libflbc/CMakeLists.txt).
-#include "gradient/gradient_kernel.h"
-
-#include <cmath>
 #include <limits>
+
+#include "gradient/gradient_kernel.h"
+#include "pack.h"
 
 namespace flbc::gradient::FLBC_ISA {
 namespace {
 
-// kLanes control points side by side; the compiler maps it to the registers there are.
+static_assert(kLanes == kRowLanes);
+
 template <class Scalar>
-struct PackOf {
-  typedef Scalar type __attribute__((vector_size(kLanes * sizeof(Scalar))));
-};
-template <class Scalar>
-using Pack = typename PackOf<Scalar>::type;
+using Pack = PackN<Scalar, kLanes>;
 
 template <class Scalar>
 inline Pack<Scalar> load(const Scalar* from) {
-  return *reinterpret_cast<const Pack<Scalar>*>(from);
+  return load_pack<kLanes>(from);
 }
 
 template <class Scalar>
 inline void store(Scalar* to, Pack<Scalar> value) {
-  *reinterpret_cast<Pack<Scalar>*>(to) = value;
+  store_pack<kLanes>(to, value);
 }
 
 template <class Scalar>
@@ -33,13 +30,6 @@ inline double sum(Pack<Scalar> pack) {
   double total = 0;
   for (int l = 0; l < kLanes; ++l) total += static_cast<double>(pack[l]);
   return total;
-}
-
-template <class Scalar>
-inline Pack<Scalar> square_root(Pack<Scalar> pack) {
-  Pack<Scalar> root;
-  for (int l = 0; l < kLanes; ++l) root[l] = std::sqrt(pack[l]);
-  return root;
 }
 
 // (9): the boundary facet's dual grows by the violation of t . g = h.
@@ -102,7 +92,7 @@ inline Pack<Scalar> update_tv_dual(Pack<Scalar> radius, const Pack<Scalar>* extr
     length2 += v * v;
   }
   norm2 = length2 > norm2 ? length2 : norm2;
-  const Pack<Scalar> shrink = radius / square_root<Scalar>(norm2);
+  const Pack<Scalar> shrink = radius * inverse_square_root<Scalar, kLanes>(norm2);
   Pack<Scalar> change{};
   for (int d = 0; d < Dim; ++d) {
     const Pack<Scalar> step = shrink * (dual[d] - extrapolated[d]) - dual[d];

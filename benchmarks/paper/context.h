@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What all experiments share.
+#pragma once
+
+#include <string>
+
+#include "flbc/types.h"
+
+namespace flbc::bench {
+
+struct Context {
+  std::string models;  //!< folder of the cages, with 2d/ and 3d/
+  std::string out;     //!< folder of all results
+  bool quick = false;  //!< small meshes and few iterations, to see that everything works
+  int threads = 1;
+
+  //! Number of vertices for a mesh that has `full` in a full run.
+  Index size(int dim, Index full) const {
+    const Index quick_size = dim == 2 ? 1500 : 2000;
+    return quick && full > quick_size ? quick_size : full;
+  }
+};
+
+}  // namespace flbc::bench

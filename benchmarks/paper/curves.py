@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures 3, 5 and 6: curves."""
+
+import math
+
+import results
+from tables import after_setup
+
+
+def draw_all(plt, out):
+    """Draws every figure whose CSV there is; returns the paths."""
+    paths = []
+    for name, draw in (("figure3", scaling), ("figure5", convergence), ("figure6", convergence)):
+        rows, comments = results.read(out, name)
+        if rows:
+            paths.append(draw(plt, rows, comments, out / f"{name}.png"))
+    return paths
+
+
+def style(plt):
+    plt.rcParams.update({
+        "figure.dpi": 130, "savefig.dpi": 130, "font.size": 10, "axes.titlesize": 11,
+        "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+        "grid.color": "#e4e4e4", "grid.linewidth": 0.7, "axes.axisbelow": True,
+        "lines.linewidth": 1.6, "lines.markersize": 5, "legend.frameon": False,
+        "legend.fontsize": 8.5})
+
+
+def exponent(x, y):
+    """Slope of the least-squares line through the logarithms; None for fewer than two points."""
+    points = [(math.log(a), math.log(b)) for a, b in zip(x, y) if a > 0 and b > 0]
+    if len(points) < 2:
+        return None
+    mean_x, mean_y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
+    return (sum((a - mean_x) * (b - mean_y) for a, b in points) /
+            sum((a - mean_x) ** 2 for a, _ in points))
+
+
+def axes_per_model(plt, rows, lines):
+    models = results.in_order(row["model"] for row in rows)
+    figure, axes = plt.subplots(lines, len(models), squeeze=False, layout="constrained",
+                                figsize=(5.6 * len(models), 4.2 * lines))
+    return figure, axes, models
+
+
+def footer(figure, comments):
+    """The machine, without the line that only explains columns."""
+    figure.supxlabel("\n".join(comments[1:]), fontsize=7.5, color="#666666")
+
+
+def scaling(plt, rows, comments, path):
+    figure, axes, models = axes_per_model(plt, rows, 2)
+    for column, model in enumerate(models):
+        top, bottom = axes[0, column], axes[1, column]
+        for name, label, colour, marker in results.METHODS:
+            curve = [r for r in rows if r["model"] == model and r["method"] == name]
+            if not curve:
+                continue
+            vertices = [results.value(r, "vertices") for r in curve]
+            plot_power(top, vertices, [results.value(r, "total_seconds") for r in curve], label,
+                       color=colour, marker=marker)
+            plot_power(bottom, vertices, [results.value(r, "solve_mebibytes") for r in curve],
+                       label + ", solve alone", color=colour, marker=marker)
+            plot_power(bottom, vertices, [results.value(r, "peak_mebibytes") for r in curve],
+                       label + ", whole process", color=colour, marker=marker, linestyle=":",
+                       markerfacecolor="white")
+        top.set_title(f"{model}, {curve_size(rows, model)} control points")
+        top.set_ylabel("time with set-up [s]")
+        bottom.set_ylabel("peak memory [MiB]")
+        for axis in (top, bottom):
+            axis.set_xlabel("vertices V of the mesh")
+            set_vertex_ticks(axis, [results.value(r, "vertices") for r in rows
+                                    if r["model"] == model])
+            axis.legend()
+    footer(figure, comments)
+    figure.savefig(path)
+    plt.close(figure)
+    return path
+
+
+def plot_power(axis, x, y, label, **look):
+    slope = exponent(x, y)
+    axis.loglog(x, y, label=label + (f" ~ V$^{{{slope:.2f}}}$" if slope is not None else ""),
+                **look)
+
+
+def set_vertex_ticks(axis, vertices):
+    """The resolutions themselves, rounded: powers of ten would be one or two ticks."""
+    ticks = sorted({float(f"{v:.1g}") for v in vertices})
+    axis.set_xticks(ticks, [f"{t / 1000:g}k" for t in ticks])
+    axis.set_xticks([], minor=True)
+
+
+def curve_size(rows, model):
+    return next(row["control_points"] for row in rows if row["model"] == model)
+
+
+def convergence(plt, rows, comments, path):
+    figure, axes, models = axes_per_model(plt, rows, 1)
+    for axis, model in zip(axes[0], models):
+        mine = [row for row in rows if row["model"] == model]
+        for name, label, colour, marker in results.METHODS:
+            curve = [row for row in mine if row["method"] == name]
+            if curve:
+                axis.loglog([after_setup(r) for r in curve],
+                            [results.value(r, "error") for r in curve],
+                            label=label, color=colour, marker=marker)
+        axis.set_title(f"{model}, {results.thousands(mine[0]['vertices'])} vertices, "
+                       f"{mine[0]['control_points']} control points")
+        axis.set_xlabel("time of solve and recovery [s]")
+        axis.set_ylabel("mean squared error of the weights [1]")
+    axes[0, 0].legend()
+    footer(figure, comments)
+    figure.savefig(path)
+    plt.close(figure)
+    return path

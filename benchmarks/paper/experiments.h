@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The paper's tables and figures. Each function writes OUT/NAME.csv and returns false if a part of
+//! it failed, after a message on stderr.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "context.h"
+
+namespace flbc::bench {
+
+struct Experiment {
+  const char* name;
+  bool (*run)(const Context&);
+};
+
+//! In the order in which to run them.
+const std::vector<Experiment>& experiments();
+
+bool run_table1(const Context& context);   //!< with and without non-negativity
+bool run_table2(const Context& context);   //!< methods compared at the paper's sizes
+bool run_figure1(const Context& context);  //!< pictures for table 1
+bool run_figure2(const Context& context);  //!< pictures at growing resolution
+bool run_figure3(const Context& context);  //!< time and memory against resolution
+bool run_figure4(const Context& context);  //!< slices of 3D functions
+bool run_figure5(const Context& context);  //!< error against time
+bool run_figure6(const Context& context);  //!< the same on large meshes
+
+}  // namespace flbc::bench

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figure 3: time and memory against the resolution of the mesh.
+#include <algorithm>
+
+#include "experiments.h"
+#include "flbc/solver.h"
+#include "methods.h"
+#include "result_table.h"
+#include "run_columns.h"
+
+namespace flbc::bench {
+namespace {
+
+std::vector<std::string> columns() {
+  return mesh_columns() + run_columns() +
+         std::vector<std::string>{"problem_mebibytes", "solve_mebibytes", "peak_mebibytes",
+                                  "relative_gap"};
+}
+
+std::vector<Index> resolutions(const Context& context, int dim) {
+  if (dim == 2) {
+    return context.quick ? std::vector<Index>{1000, 2000, 4000}
+                         : std::vector<Index>{2000, 5000, 10000, 20000, 50000};
+  }
+  return context.quick ? std::vector<Index>{2000, 3000, 4000}
+                       : std::vector<Index>{2000, 5000, 10000, 20000, 40000};
+}
+
+template <int Dim>
+Row measure(const Context& context, const Setting<Dim>& setting, const NamedMethod& method) {
+  constexpr int kQuickIterations = 200;
+  auto options = method.options(context.threads);
+  if (context.quick) options.max_iterations = kQuickIterations;
+
+  const double problem_memory = resident_mebibytes();
+  const double setup_peak = peak_mebibytes();
+  reset_peak();
+  const auto report = solve(setting.problem, options).report;
+  const double solve_peak = peak_mebibytes();
+
+  auto row = mesh_row(setting);
+  add_run(row, method.name, setting.setup_seconds, report);
+  row["problem_mebibytes"] = number(problem_memory);
+  row["solve_mebibytes"] = number(solve_peak - problem_memory);
+  row["peak_mebibytes"] = number(std::max(setup_peak, solve_peak));
+  if (method.method == Method::kValue) {
+    options.certify = true;  // in a second run, so that its memory and time are not in the first
+    row["relative_gap"] = number(solve(setting.problem, options).report.certificate.relative_gap);
+  }
+  return row;
+}
+
+}  // namespace
+
+bool run_figure3(const Context& context) {
+  ResultTable table(context, "figure3", columns());
+  for (const char* name : {"woody", "horse"}) {
+    for (const auto& method : methods()) {
+      if (method.method != Method::kValue && method.method != Method::kGradient) continue;
+      for (const Index vertices : resolutions(context, model(name).dim)) {
+        const auto what = std::string("figure3 ") + method.name;
+        table.add(in_setting(context, what, model(name), vertices, [&](const auto& setting) {
+          return table.line(measure(context, setting, method));
+        }));
+      }
+    }
+  }
+  return table.write(
+      "figure 3: problem = mesh, topology, boundary values and phi; solve = peak beyond that, the "
+      "weights included; peak = of the whole process");
+}
+
+}  // namespace flbc::bench

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regenerates the numbers of the paper's tables and figures; see README.md in this folder.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+
+#include "experiments.h"
+#include "machine.h"
+#include "stopwatch.h"
+
+namespace flbc::bench {
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> kExperiments = {
+      {"table1", run_table1},   {"table2", run_table2},   {"figure1", run_figure1},
+      {"figure2", run_figure2}, {"figure3", run_figure3}, {"figure4", run_figure4},
+      {"figure5", run_figure5}, {"figure6", run_figure6}};
+  return kExperiments;
+}
+
+namespace {
+
+std::vector<std::string> experiment_names() {
+  std::vector<std::string> names;
+  for (const auto& experiment : experiments()) names.emplace_back(experiment.name);
+  return names;
+}
+
+bool run_all(const Context& context, const std::vector<std::string>& only) {
+  std::filesystem::create_directories(context.out);
+  bool complete = true;
+  for (const auto& experiment : experiments()) {
+    const auto wanted = std::find(only.begin(), only.end(), experiment.name);
+    if (!only.empty() && wanted == only.end()) continue;
+    const Stopwatch watch;
+    complete = experiment.run(context) && complete;
+    std::printf("%s: %.1f s\n\n", experiment.name, watch.seconds());
+    std::fflush(stdout);
+  }
+  return complete;
+}
+
+int run(int argc, char** argv) {
+  Context context;
+  context.threads = available_cores();
+  std::vector<std::string> only;
+  CLI::App app("Regenerates the numbers of the paper's tables and figures");
+  app.add_option("MODELS", context.models, "folder of the cages, with 2d/ and 3d/")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("OUT", context.out, "folder for the results")->required();
+  app.add_flag("--quick", context.quick, "small meshes and few iterations");
+  app.add_option("--only", only, "names of tables and figures, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(experiment_names()));
+  app.add_option("--threads", context.threads, "number of threads (all cores)")
+      ->check(CLI::Range(1, 1024));
+  CLI11_PARSE(app, argc, argv);
+  return run_all(context, only) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace flbc::bench
+
+int main(int argc, char** argv) {
+  try {
+    return flbc::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "flbc_bench_paper: %s\n", error.what());
+    return 1;
+  }
+}

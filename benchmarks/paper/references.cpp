@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "references.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/solver.h"
+
+namespace flbc::bench {
+namespace {
+
+using nlohmann::json;
+
+// FNV-1a over the bytes of matrices.
+class Hash {
+ public:
+  template <class Derived>
+  void add(const Eigen::PlainObjectBase<Derived>& matrix) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(matrix.data());
+    const auto size = static_cast<std::size_t>(matrix.size()) * sizeof(typename Derived::Scalar);
+    for (std::size_t k = 0; k < size; ++k) state_ = (state_ ^ bytes[k]) * 0x100000001b3u;
+  }
+
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+std::string hash_of(const WeightMatrix& weights) {
+  Hash hash;
+  hash.add(weights);
+  return hash.text();
+}
+
+// Everything the optimum depends on, and how it was computed. phi is there so that a change in how
+// the library measures distances makes old references stale.
+template <int Dim>
+json key_of(const Setting<Dim>& setting, const SolverOptions& options) {
+  const auto& problem = setting.problem;
+  Hash hash;
+  hash.add(problem.cage.points);
+  hash.add(problem.cage.facets);
+  hash.add(problem.mesh.points);
+  hash.add(problem.mesh.cells);
+  hash.add(problem.phi);
+  return {{"format", 1},
+          {"model", setting.model.name},
+          {"control_points", problem.num_control_points()},
+          {"vertices", problem.mesh.num_vertices()},
+          {"problem_hash", hash.text()},
+          {"method", "value"},
+          {"precision", "double"},
+          {"non_negative", true},
+          {"tolerance", options.tolerance},
+          {"max_iterations", options.max_iterations}};
+}
+
+std::optional<Reference> load(const std::string& path, const json& key) {
+  if (!std::filesystem::exists(path + ".json")) return std::nullopt;
+  try {
+    const auto entry = json::parse(io::read_file(path + ".json"));
+    if (entry.at("key") != key) return std::nullopt;
+    auto weights = io::read_weights(path + ".npy");
+    if (hash_of(weights) != entry.at("weights_hash").get<std::string>()) return std::nullopt;
+    return Reference{std::move(weights), entry.at("relative_gap").get<double>()};
+  } catch (const std::exception&) {  // damaged: as if it were not there
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+SolverOptions optimum_options(const Context& context, NonNegative non_negative) {
+  SolverOptions options;
+  options.method = Method::kValue;
+  options.precision = Precision::kDouble;
+  options.non_negative = non_negative;
+  options.tolerance = context.quick ? 1e-9 : 1e-13;
+  options.max_iterations = context.quick ? 1000 : 5000;
+  options.certify = true;
+  options.threads = context.threads;
+  return options;
+}
+
+template <int Dim>
+Reference reference(const Context& context, const Setting<Dim>& setting) {
+  const auto options = optimum_options(context, NonNegative::kConstraint);
+  const auto key = key_of(setting, options);
+  const auto folder = context.out + "/references";
+  const auto path = folder + "/" + setting.model.name + "-" +
+                    std::to_string(setting.wanted_vertices) + (context.quick ? "-quick" : "");
+  if (auto found = load(path, key)) return std::move(*found);
+
+  const auto solution = solve(setting.problem, options);
+  const auto& report = solution.report;
+  const json entry{{"key", key},
+                   {"weights_hash", hash_of(solution.weights)},
+                   {"converged", report.status == SolveStatus::kConverged},
+                   {"iterations", report.iterations},
+                   {"seconds", report.seconds.solve + report.seconds.recover},
+                   {"objective", report.certificate.objective},
+                   {"lower_bound", report.certificate.lower_bound},
+                   {"relative_gap", report.certificate.relative_gap}};
+  std::filesystem::create_directories(folder);
+  io::write_weights(path + ".npy", solution.weights);
+  io::write_file(path + ".json", [&](std::ostream& file) { file << entry.dump(2) << '\n'; });
+  return {solution.weights, report.certificate.relative_gap};
+}
+
+template <int Dim>
+double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b) {
+  double sum = 0;
+  Index interior = 0;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] >= 0) continue;
+    sum += (a.col(v) - b.col(v)).squaredNorm();
+    ++interior;
+  }
+  return sum / (static_cast<double>(interior) * static_cast<double>(a.rows()));
+}
+
+template Reference reference(const Context&, const Setting<2>&);
+template Reference reference(const Context&, const Setting<3>&);
+template double squared_error(const LbcProblem<2>&, const WeightMatrix&, const WeightMatrix&);
+template double squared_error(const LbcProblem<3>&, const WeightMatrix&, const WeightMatrix&);
+
+}  // namespace flbc::bench

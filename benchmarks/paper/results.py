@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reading the CSV files that flbc_bench_paper writes."""
+
+import csv
+import math
+
+# Methods in the order of the tables: name in the files, name for readers, colour, marker.
+METHODS = [
+    ("lbc2014", "LBC 2014, penalty 10", "#9a9a9a", "s"),
+    ("lbc2014-tuned", "LBC 2014, tuned penalty", "#3b3b3b", "D"),
+    ("paper", "paper (FLBC), to the letter", "#e08214", "^"),
+    ("gradient", "gradient", "#2c7fb8", "v"),
+    ("value", "value", "#1b9e4b", "o"),
+]
+
+
+def read(out, name):
+    """Rows of OUT/name.csv as dictionaries, and its comment lines; (None, []) if it is not there."""
+    path = out / f"{name}.csv"
+    if not path.exists():
+        return None, []
+    with path.open(newline="") as file:
+        lines = file.read().splitlines()
+    comments = [line[1:].strip() for line in lines if line.startswith("#")]
+    return list(csv.DictReader(line for line in lines if not line.startswith("#"))), comments
+
+
+def value(row, column):
+    """A cell as a number; not-a-number if it is empty."""
+    return float(row[column]) if row[column] else math.nan
+
+
+def in_order(names):
+    """Without repetition, in order of first appearance."""
+    return list(dict.fromkeys(names))
+
+
+def thousands(number):
+    return f"{int(number):,}"

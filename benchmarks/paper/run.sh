@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Regenerates the paper's tables and figures: numbers, then pictures. See README.md beside this file.
+#
+#   benchmarks/paper/run.sh MODELS_FOLDER OUT_FOLDER [--quick] [--only NAME,...] [--threads T]
+set -euo pipefail
+
+if [[ $# -lt 2 || $1 == -* || $2 == -* ]]; then
+  sed -n '2,4s/^# \{0,1\}//p' "$0" >&2
+  exit 1
+fi
+models=$(realpath -- "$1")
+out=$(realpath -m -- "$2")
+shift 2
+cd "$(dirname "$0")/../.."
+
+[[ -f build/release/build.ninja ]] || cmake --preset release
+cmake --build --preset release --target flbc_bench_paper flbc_app
+
+# A case that failed must not keep the others from being drawn.
+status=0
+build/release/benchmarks/flbc_bench_paper "$models" "$out" "$@" || status=$?
+[[ -d $out ]] || exit "$status"
+/usr/bin/python3 benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
+exit "$status"

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Table 2: all methods at the paper's sizes, each by its own stopping rule.
+#include "experiments.h"
+#include "flbc/solver.h"
+#include "methods.h"
+#include "references.h"
+#include "result_table.h"
+#include "run_columns.h"
+
+namespace flbc::bench {
+namespace {
+
+std::vector<std::string> columns() {
+  return mesh_columns() + run_columns() +
+         std::vector<std::string>{"penalty",          "error",
+                                  "min_weight",       "mean_influences",
+                                  "relative_gap",     "reference_gap",
+                                  "paper_lbc_error",  "paper_lbc_seconds",
+                                  "paper_flbc_error", "paper_flbc_seconds"};
+}
+
+// The paper's own results, for comparison beside each row.
+void add_paper(Row& row, const PaperNumbers& paper) {
+  if (paper.lbc_error == 0) return;
+  row["paper_lbc_error"] = number(paper.lbc_error);
+  row["paper_lbc_seconds"] = number(paper.lbc_seconds);
+  row["paper_flbc_error"] = number(paper.flbc_error);
+  row["paper_flbc_seconds"] = number(paper.flbc_seconds);
+}
+
+template <int Dim>
+Row measure(const Context& context, const Setting<Dim>& setting, const NamedMethod& method) {
+  constexpr int kMostIterations = 5000;
+  constexpr int kQuickIterations = 300;
+  auto options = method.options(context.threads);
+  options.max_iterations = context.quick ? kQuickIterations : kMostIterations;
+  options.certify = true;
+  const auto [weights, report] = solve(setting.problem, options);
+  const auto optimum = reference(context, setting);
+
+  auto row = mesh_row(setting);
+  add_run(row, method.name, setting.setup_seconds, report);
+  row["penalty"] = number(report.penalty);
+  row["error"] = number(squared_error(setting.problem, weights, optimum.weights));
+  row["min_weight"] = number(report.quality.min_weight);
+  row["mean_influences"] = number(report.quality.mean_influences);
+  row["relative_gap"] = number(report.certificate.relative_gap);
+  row["reference_gap"] = number(optimum.relative_gap);
+  add_paper(row, setting.model.paper);
+  return row;
+}
+
+}  // namespace
+
+bool run_table2(const Context& context) {
+  ResultTable table(context, "table2", columns());
+  for (const auto& model : models()) {
+    const Index vertices = context.size(model.dim, model.paper_size);
+    const auto ready = in_setting(context, "table2 reference", model, vertices,
+                                  [&](const auto& setting) -> std::string {
+                                    reference(context, setting);
+                                    return "";
+                                  });
+    table.add(ready);
+    if (!ready) continue;
+    for (const auto& method : methods()) {
+      const auto name = std::string("table2 ") + method.name;
+      table.add(in_setting(context, name, model, vertices, [&](const auto& setting) {
+        return table.line(measure(context, setting, method));
+      }));
+    }
+  }
+  return table.write("table 2: error = mean squared difference to the certified optimum");
+}
+
+}  // namespace flbc::bench

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Whether cages, models and weights are what they must be, and where they are not.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/report.h"
+
+namespace flbc {
+
+//! What is worth knowing about a sound cage.
+template <int Dim>
+struct CageFacts {
+  Index parts = 0;              //!< outer loops (2D) or shells (3D)
+  Index holes = 0;              //!< loops or shells that bound holes or cavities
+  double size = 0;              //!< diagonal of the bounding box
+  double measure = 0;           //!< area (2D) or volume (3D) of the interior
+  double shortest_edge = 0;     //!< length
+  Index shortest_ends[2] = {};  //!< the control points between which it runs
+};
+
+//! \param cage  has passed validate() and does not intersect itself
+template <int Dim>
+CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
+
+//! Points outside a cage by more than 1e-6 of its size; those inside holes are outside.
+//! \param cage  has passed validate() \param points  Dim x P
+//! \return their indices, ascending
+template <int Dim>
+std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! The largest or smallest value of something and where it is.
+template <int Dim>
+struct Extreme {
+  double value = 0;
+  Index point = -1;          //!< -1 if there is nothing to measure
+  Index control_point = -1;  //!< -1 if all control points together give the value
+  Vector<Dim> place = Vector<Dim>::Zero();
+};
+
+//! What only shows on the mesh of the cage's interior.
+template <int Dim>
+struct MeshCheck {
+  Index interior_vertices = 0;
+  //! Per control point, the interior vertices at which w_i is below, or above, its values at all
+  //! neighbours by more than 1e-6. By the paper's Conjecture 1 local barycentric coordinates
+  //! have none.
+  std::vector<Index> local_minima, local_maxima;
+  Extreme<Dim> deepest_minimum, highest_maximum;  //!< the value is the distance from the neighbours
+  double total_variation = 0;  //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
+  double harmonic_total_variation = 0;  //!< that of harmonic coordinates on this mesh
+  double harmonic_mean_influences = 0;  //!< mean number of their |w_i| > 1e-4 per vertex
+  double influence_ratio = 0;           //!< mean influences / those of harmonic coordinates
+};
+
+//! Measures of weights. Points with a weight that is not finite count in `non_finite` only.
+template <int Dim>
+struct WeightCheck {
+  Quality quality{};  //!< as measure_quality() gives it
+  Index points = 0;
+  Index control_points = 0;
+
+  std::int64_t non_finite = 0;  //!< number of weights that are not finite
+  Extreme<Dim> first_non_finite;
+  std::int64_t negative = 0;  //!< number of weights below -1e-12, which is more than rounding
+  Extreme<Dim> min_weight, max_weight;
+  Extreme<Dim> partition;     //!< largest |sum_i w_i - 1|
+  Extreme<Dim> reproduction;  //!< largest |sum_i w_i c_i - x| / size of the cage
+  Extreme<Dim> influences;    //!< largest number of |w_i| > 1e-4
+
+  Index control_points_found = 0;  //!< control points with which a point coincides
+  Extreme<Dim> lagrange;           //!< largest |w_i(c_j) - delta_ij| at those
+  Index points_on_cage = 0;        //!< the ones at control points included
+  Extreme<Dim>
+      linearity;  //!< largest deviation there from the barycentric coordinates in the facet
+
+  std::optional<MeshCheck<Dim>> mesh;  //!< if they are weights at the vertices of a mesh
+};
+
+//! Measures weights at any points. Those that lie on the cage, or coincide with a control point, up
+//! to 1e-10 of the cage's size are found by geometry.
+//! \param cage  has passed validate() \param points  Dim x P \param weights  n x P
+//! \throws InputError if the sizes do not belong together
+template <int Dim>
+WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
+                               const WeightMatrix& weights);
+
+//! Measures weights at the vertices of a mesh of the cage's interior; the boundary of the mesh is
+//! on the cage.
+//! \param weights  n x V
+//! \throws InputError if sizes do not belong together or the mesh is none of the cage's interior
+//!     (see boundary_values), SolverError
+template <int Dim>
+WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                               const WeightMatrix& weights);
+
+//! Errors above this are violations of what coordinates must satisfy.
+constexpr double kCheckTolerance = 1e-6;
+
+//! What the weights violate of that which all coordinates of a cage satisfy: being finite, sum,
+//! reproduction, Lagrange property and linearity on facets. Negative weights are no violation.
+//! \return a sentence each, with place and value; empty if there are none
+template <int Dim>
+std::vector<std::string> find_violations(const WeightCheck<Dim>& check);
+
+}  // namespace flbc

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Makes weights non-negative without giving up sum and reproduction.
+#pragma once
+
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Replaces every column by the nearest one (in the Euclidean norm) with w >= 0, sum w = 1 and
+//! sum w c = x. Afterwards no weight is below 0 (nor -0), and sum and reproduction hold to 1e-13,
+//! the latter relative to the size of the control points. Columns that are like that already
+//! stay. A point beside the convex hull of the control points by no more than 1e-9 of their
+//! size counts as the nearest point of the hull.
+//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! \throws InputError if sizes do not fit, if a number is not finite or if a point lies outside the
+//! convex hull, naming the first such point; the weights of other points may be projected then
+template <int Dim>
+void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                          WeightMatrix& weights);
+
+//! The same for some columns; the others are neither read nor written.
+//! \param columns  numbers of points, each at most once
+template <int Dim>
+void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                          WeightMatrix& weights, const std::vector<Index>& columns);
+
+}  // namespace flbc

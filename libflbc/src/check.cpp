@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures of weights at points; those on meshes are in check_mesh.cpp.
+#include "flbc/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "facet_locator.h"
+#include "flbc/errors.h"
+#include "known_weights.h"
+#include "parallel.h"
+
+namespace flbc {
+namespace {
+
+constexpr double kCoincidence = 1e-10;  // of the cage's size: a point that near is at the place
+constexpr double kRounding = 1e-12;     // a weight not more than this below 0 is not negative
+
+// What one sweep over all weights finds out; partial ones are added up in the order of points.
+template <int Dim>
+struct Sweep {
+  std::int64_t non_finite = 0, negative = 0, influences = 0, finite_points = 0;
+  Extreme<Dim> first_non_finite, min_weight, max_weight, partition, reproduction, most_influences;
+
+  Sweep& operator+=(const Sweep& next) {
+    non_finite += next.non_finite;
+    negative += next.negative;
+    influences += next.influences;
+    finite_points += next.finite_points;
+    if (first_non_finite.point < 0) first_non_finite = next.first_non_finite;
+    keep_smaller(min_weight, next.min_weight);
+    keep_larger(max_weight, next.max_weight);
+    keep_larger(partition, next.partition);
+    keep_larger(reproduction, next.reproduction);
+    keep_larger(most_influences, next.most_influences);
+    return *this;
+  }
+};
+
+template <int Dim, class Column>
+void add_non_finite(Sweep<Dim>& sweep, const Column& column, Index p, const Vector<Dim>& place) {
+  for (Index i = 0; i < column.size(); ++i) {
+    if (std::isfinite(column[i])) continue;
+    ++sweep.non_finite;
+    if (sweep.first_non_finite.point < 0) sweep.first_non_finite = {column[i], p, i, place};
+  }
+}
+
+template <int Dim>
+void add_point(Sweep<Dim>& sweep, const Cage<Dim>& cage, double size, Index p,
+               const Vector<Dim>& place, const WeightMatrix& weights) {
+  const auto column = weights.col(p);
+  if (!column.allFinite()) return add_non_finite(sweep, column, p, place);
+  ++sweep.finite_points;
+  Index lowest = 0, highest = 0;
+  const double least = column.minCoeff(&lowest);
+  const double most = column.maxCoeff(&highest);
+  const auto influences = (column.array().abs() > kInfluence).count();
+  const Vector<Dim> error = cage.points * column - place;
+  sweep.negative += (column.array() < -kRounding).count();
+  sweep.influences += influences;
+  keep_smaller(sweep.min_weight, {least, p, lowest, place});
+  keep_larger(sweep.max_weight, {most, p, highest, place});
+  keep_larger(sweep.partition, {std::abs(column.sum() - 1), p, -1, place});
+  keep_larger(sweep.reproduction, {error.norm() / size, p, -1, place});
+  keep_larger(sweep.most_influences, {static_cast<double>(influences), p, -1, place});
+}
+
+template <int Dim>
+void measure_known_weights(WeightCheck<Dim>& check, const PointList<Dim>& points,
+                           const WeightMatrix& weights,
+                           const std::vector<KnownWeights<Dim>>& known) {
+  std::vector<bool> is_found(weights.rows(), false);
+  for (const auto& at : known) {
+    ++check.points_on_cage;
+    if (at.coinciding_with >= 0) is_found[at.coinciding_with] = true;
+    const Vector<Dim> place = points.col(at.point);
+    Eigen::VectorXd deviation = weights.col(at.point);
+    if (!deviation.allFinite()) continue;
+    for (int k = 0; k < Dim; ++k) deviation[at.control_points[k]] -= at.values[k];
+    Index i = 0;
+    const double linearity = deviation.cwiseAbs().maxCoeff(&i);
+    keep_larger(check.linearity, {linearity, at.point, i, place});
+    if (at.coinciding_with < 0) continue;
+    deviation = weights.col(at.point);
+    deviation[at.coinciding_with] -= 1;
+    const double lagrange = deviation.cwiseAbs().maxCoeff(&i);
+    keep_larger(check.lagrange, {lagrange, at.point, i, place});
+  }
+  check.control_points_found =
+      static_cast<Index>(std::count(is_found.begin(), is_found.end(), true));
+}
+
+template <int Dim>
+std::vector<KnownWeights<Dim>> find_points_on_cage(const Cage<Dim>& cage,
+                                                   const PointList<Dim>& points) {
+  const double tolerance = kCoincidence * size_of(cage.points);
+  const FacetLocator<Dim> locator(cage, tolerance);
+  const auto num_points = static_cast<Index>(points.cols());
+  std::vector<FacetPlace<Dim>> places(num_points);
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_points; ++p) places[p] = locator.locate(points.col(p));
+
+  std::vector<KnownWeights<Dim>> known;
+  for (Index p = 0; p < num_points; ++p) {
+    if (places[p].facet < 0) continue;
+    known.push_back({p, cage.facets.col(places[p].facet), places[p].coordinates});
+    for (const Index i : known.back().control_points) {
+      if ((cage.points.col(i) - points.col(p)).norm() <= tolerance) {
+        known.back().coinciding_with = i;
+      }
+    }
+  }
+  return known;
+}
+
+}  // namespace
+
+template <int Dim>
+void check_sizes(const Cage<Dim>& cage, const PointList<Dim>& points, const WeightMatrix& weights) {
+  if (weights.rows() != cage.size()) {
+    throw InputError("there are weights for " + std::to_string(weights.rows()) +
+                     " control points, but the cage has " + std::to_string(cage.size()));
+  }
+  if (weights.cols() != points.cols()) {
+    throw InputError("there are weights of " + std::to_string(weights.cols()) +
+                     " points, but there are " + std::to_string(points.cols()) + " points");
+  }
+}
+
+template <int Dim>
+WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                 const WeightMatrix& weights,
+                                 const std::vector<KnownWeights<Dim>>& known) {
+  const double size = size_of(cage.points);
+  const auto num_points = static_cast<Index>(points.cols());
+  const auto sweep = parallel_sum(num_points, Sweep<Dim>(), [&](Index begin, Index end) {
+    Sweep<Dim> part;
+    for (Index p = begin; p < end; ++p) add_point<Dim>(part, cage, size, p, points.col(p), weights);
+    return part;
+  });
+
+  WeightCheck<Dim> check;
+  check.points = num_points;
+  check.control_points = cage.size();
+  check.non_finite = sweep.non_finite;
+  check.first_non_finite = sweep.first_non_finite;
+  check.negative = sweep.negative;
+  check.min_weight = sweep.min_weight;
+  check.max_weight = sweep.max_weight;
+  check.partition = sweep.partition;
+  check.reproduction = sweep.reproduction;
+  check.influences = sweep.most_influences;
+  check.quality.min_weight = sweep.min_weight.value;
+  check.quality.max_partition_error = sweep.partition.value;
+  check.quality.max_reproduction_error = sweep.reproduction.value;
+  check.quality.mean_influences =
+      static_cast<double>(sweep.influences) /
+      static_cast<double>(std::max<std::int64_t>(1, sweep.finite_points));
+  measure_known_weights(check, points, weights, known);
+  return check;
+}
+
+template <int Dim>
+WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
+                               const WeightMatrix& weights) {
+  check_sizes(cage, points, weights);
+  return check_at_points(cage, points, weights, find_points_on_cage(cage, points));
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template void check_sizes(const Cage<Dim>&, const PointList<Dim>&, const WeightMatrix&); \
+  template WeightCheck<Dim> check_at_points(const Cage<Dim>&, const PointList<Dim>&,       \
+                                            const WeightMatrix&,                           \
+                                            const std::vector<KnownWeights<Dim>>&);        \
+  template WeightCheck<Dim> check_weights(const Cage<Dim>&, const PointList<Dim>&,         \
+                                          const WeightMatrix&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

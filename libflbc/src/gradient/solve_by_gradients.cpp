@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The paper's solver from start to weights.
+#include <cmath>
+#include <memory>
+
+#include "flbc/certificate.h"
+#include "flbc/recovery.h"
+#include "gradient/gradient_admm.h"
+#include "method.h"
+#include "stopwatch.h"
+
+namespace flbc {
+namespace {
+
+// Iterates until both residuals are below their thresholds (section 4.2.1 of the paper), the limit
+// is reached or the caller stops the run.
+template <class Scalar, int Dim>
+void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
+             SolveReport& report) {
+  // The paper's dual threshold is 10 times its primal one; one tolerance keeps their ratio.
+  const double components = admm.num_residual_components();
+  const double primal_threshold =
+      options.tolerance * (options.method == Method::kPaper ? components : std::sqrt(components));
+  const double dual_threshold = 10 * primal_threshold;
+  for (int iteration = 1;; ++iteration) {
+    const auto change = admm.iterate();
+    report.iterations = iteration;
+    if (iteration % options.check_interval != 0 && iteration < options.max_iterations) continue;
+    const auto residuals = admm.residuals(change);
+    report.primal_residual = residuals.primal / primal_threshold;
+    report.dual_residual = residuals.dual / dual_threshold;
+    if (finished(iteration, options, report)) return;
+  }
+}
+
+template <class Scalar, int Dim>
+Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report) {
+  Stopwatch watch;
+  auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
+      problem, options.penalty, options.relaxation, gradient::boundary_periods(problem));
+  if (options.method == Method::kPaper) {
+    admm->start_from_least_norm();
+  } else {
+    admm->start_from_weights(harmonic_coordinates(problem));
+  }
+  iterate(*admm, options, report);
+  report.numbers_per_cell = admm->numbers_per_cell();
+  report.penalty = options.penalty;
+  report.seconds.solve = watch.lap();
+  Outcome outcome;
+  outcome.weights = options.recovery == Recovery::kBreadthFirst
+                        ? integrate_breadth_first(problem, admm->gradients())
+                        : integrate_least_squares(problem, admm->gradients());
+  report.seconds.recover = watch.lap();
+  outcome.certify = [admm, &problem](const WeightMatrix& weights) {
+    return certify(problem, admm->flux(), weights);
+  };
+  return outcome;
+}
+
+}  // namespace
+
+template <int Dim>
+Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report) {
+  return options.precision == Precision::kSingle ? solve<float>(problem, options, report)
+                                                 : solve<double>(problem, options, report);
+}
+
+template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&);
+template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&);
+
+}  // namespace flbc

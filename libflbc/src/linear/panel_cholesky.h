@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Direct solver for sparse symmetric positive definite systems with many right-hand sides at once,
+//! one per control point.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "aligned_array.h"
+#include "flbc/types.h"
+#include "linear/panel_kernel.h"
+
+namespace flbc {
+
+//! The length of a row in the arrays of the solver that has room for so many right-hand sides.
+constexpr std::size_t row_stride(std::size_t columns) {
+  return (columns + 7) / 8 * 8;
+}
+
+//! A range of columns.
+struct Slice {
+  std::size_t begin, end;
+};
+
+//! The columns of one thread of a team, out of rows of `stride` numbers. A slice begins at a
+//! multiple of 16, so that in single precision, too, no two threads write to the same cache line;
+//! where there are more threads than slices some are empty.
+//! \param stride  a multiple of 8
+Slice slice_of(std::size_t stride, int thread, int num_threads);
+
+//! Factors once, in double precision, and solves often, in the precision Scalar. A solve handles
+//! all right-hand sides together: they are the columns of a row-major array, so that every number
+//! of the factor is loaded once for a whole row.
+template <class Scalar>
+class PanelCholesky {
+ public:
+  //! \param matrix  symmetric positive definite; only the lower triangle is read
+  //! \param kernel  the loops to use; the best ones for this processor unless a test asks for
+  //! others \throws SolverError naming the size if the matrix is not positive definite
+  explicit PanelCholesky(
+      const Eigen::SparseMatrix<double>& matrix,
+      const panel::Kernel<Scalar>& kernel = *panel::supported_kernels<Scalar>().kernels[0]);
+
+  //! Number of unknowns.
+  Index size() const { return static_cast<Index>(position_.size()); }
+
+  //! The row of every unknown in the arrays handed to solve(): the order that keeps the factor
+  //! sparse.
+  const std::vector<Index>& position() const { return position_; }
+
+  //! Solves for all columns, in place and in parallel.
+  //! \param rows  size() rows of `stride` numbers, aligned to 64 bytes
+  //! \param stride  a multiple of 8
+  void solve(Scalar* rows, std::size_t stride) const;
+
+  //! Solves for the columns begin .. end - 1, multiples of 8, in the calling thread. A column's
+  //! result is the same, to the last bit, whatever the slice.
+  void solve_slice(Scalar* rows, std::size_t stride, std::size_t begin, std::size_t end) const;
+
+  //! Number of stored numbers of the factor.
+  std::size_t num_entries() const { return entries_.size(); }
+
+ private:
+  std::vector<Index> position_;
+  std::vector<panel::Panel> panels_;
+  std::vector<Index> below_;  // rows of the supernodes; neighbouring panels share them
+  AlignedArray<Scalar> entries_;
+  const panel::Kernel<Scalar>* kernel_;
+};
+
+}  // namespace flbc

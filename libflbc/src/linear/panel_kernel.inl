@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
+//! compiled with the flags of that set (see libflbc/CMakeLists.txt).
+//!
+//! What one column of the right-hand side goes through does not depend on the columns beside it,
+//! nor on where the slice it belongs to begins.
+#include "linear/panel_kernel.h"
+
+#include <utility>
+
+namespace flbc::panel::FLBC_ISA {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kRegisterBytes = 64;
+constexpr int kAccumulators = 16;  // of 32 registers
+#elif defined(__AVX__)
+constexpr int kRegisterBytes = 32;
+constexpr int kAccumulators = 12;  // of 16 registers
+#else
+constexpr int kRegisterBytes = 16;
+constexpr int kAccumulators = 12;
+#endif
+constexpr int kRowBlock = 4;
+
+// A register's worth of a row. Rows are padded to 8 numbers and aligned no better.
+template <class Scalar, int Bytes>
+struct RegisterOf {
+  static constexpr int kAlignment = Bytes < 8 * int(sizeof(Scalar)) ? Bytes : 8 * sizeof(Scalar);
+  typedef Scalar type __attribute__((vector_size(Bytes), aligned(kAlignment), may_alias));
+};
+
+// Count registers side by side.
+template <class Scalar, int Bytes, int Count>
+struct Chunk {
+  using Register = typename RegisterOf<Scalar, Bytes>::type;
+  static constexpr int kLanes = Bytes / static_cast<int>(sizeof(Scalar));
+  static constexpr int kWidth = Count * kLanes;
+  Register part[Count];
+
+  [[gnu::always_inline]] static Chunk load(const Scalar* from) {
+    Chunk chunk;
+    for (int c = 0; c < Count; ++c) {
+      chunk.part[c] = *reinterpret_cast<const Register*>(from + c * kLanes);
+    }
+    return chunk;
+  }
+  [[gnu::always_inline]] void store(Scalar* to) const {
+    for (int c = 0; c < Count; ++c) *reinterpret_cast<Register*>(to + c * kLanes) = part[c];
+  }
+  [[gnu::always_inline]] void add(Scalar factor, const Chunk& other) {
+    for (int c = 0; c < Count; ++c) part[c] += factor * other.part[c];
+  }
+};
+
+// Rows of B from `row` on: y_below -= B D^-1 b for Rows of them.
+template <class Piece, int Width, int Rows, class Scalar>
+[[gnu::always_inline]] inline void update_below(const Scalar* entries, const std::int32_t* below,
+                                                const Piece (&panel)[Width], Scalar* column,
+                                                std::size_t stride) {
+  Piece sum[Rows];
+#pragma GCC unroll 16
+  for (int r = 0; r < Rows; ++r) {
+    sum[r] = Piece::load(column + static_cast<std::size_t>(below[r]) * stride);
+  }
+#pragma GCC unroll 16
+  for (int k = 0; k < Width; ++k) {
+#pragma GCC unroll 16
+    for (int r = 0; r < Rows; ++r) sum[r].add(entries[r * Width + k], panel[k]);
+  }
+#pragma GCC unroll 16
+  for (int r = 0; r < Rows; ++r) {
+    sum[r].store(column + static_cast<std::size_t>(below[r]) * stride);
+  }
+}
+
+// One panel and one piece of the rows: y_below -= B D^-1 b, then y = D^-1 b.
+template <class Piece, int Width, class Scalar>
+inline void forward_piece(const Scalar* entries, const std::int32_t* below, std::int32_t num_below,
+                          Scalar* own, Scalar* column, std::size_t stride) {
+  Piece panel[Width];
+#pragma GCC unroll 16
+  for (int k = 0; k < Width; ++k) panel[k] = Piece::load(own + k * stride);
+#pragma GCC unroll 16
+  for (int k = 0; k < Width; ++k) {
+    Piece sum{};
+#pragma GCC unroll 16
+    for (int j = 0; j <= k; ++j) sum.add(entries[k * (k + 1) / 2 + j], panel[j]);
+    sum.store(own + k * stride);
+  }
+  entries += Width * (Width + 1) / 2;
+  std::int32_t r = 0;
+  for (; r + kRowBlock <= num_below; r += kRowBlock, entries += kRowBlock * Width) {
+    update_below<Piece, Width, kRowBlock>(entries, below + r, panel, column, stride);
+  }
+  switch (num_below - r) {
+    case 3:
+      return update_below<Piece, Width, 3>(entries, below + r, panel, column, stride);
+    case 2:
+      return update_below<Piece, Width, 2>(entries, below + r, panel, column, stride);
+    case 1:
+      return update_below<Piece, Width, 1>(entries, below + r, panel, column, stride);
+    default:
+      return;
+  }
+}
+
+// Unknowns Begin .. End - 1 of one panel: x = D^-T y - (B D^-1)^T x_below.
+template <class Piece, int Width, int Begin, int End, class Scalar>
+[[gnu::always_inline]] inline void backward_part(const Scalar* entries, const std::int32_t* below,
+                                                 std::int32_t num_below, Scalar* own,
+                                                 const Scalar* column, std::size_t stride) {
+  Piece sum[End - Begin] = {};
+#pragma GCC unroll 16
+  for (int j = Begin; j < Width; ++j) {
+    const Piece y = Piece::load(own + j * stride);
+#pragma GCC unroll 16
+    for (int k = Begin; k < End && k <= j; ++k) sum[k - Begin].add(entries[j * (j + 1) / 2 + k], y);
+  }
+  entries += Width * (Width + 1) / 2;
+  for (std::int32_t r = 0; r < num_below; ++r, entries += Width) {
+    const Piece x = Piece::load(column + static_cast<std::size_t>(below[r]) * stride);
+#pragma GCC unroll 16
+    for (int k = Begin; k < End; ++k) sum[k - Begin].add(entries[k], x);
+  }
+#pragma GCC unroll 16
+  for (int k = Begin; k < End; ++k) sum[k - Begin].store(own + k * stride);
+}
+
+// As many unknowns at a time as there are registers for. A later part needs no y of an earlier one.
+template <class Piece, int Width, int Begin = 0, class Scalar>
+inline void backward_piece(const Scalar* entries, const std::int32_t* below, std::int32_t num_below,
+                           Scalar* own, const Scalar* column, std::size_t stride) {
+  constexpr int kPieceRegisters = sizeof(Piece) / sizeof(Piece::part[0]);
+  constexpr int kParts = (Width * kPieceRegisters + kAccumulators - 1) / kAccumulators;
+  constexpr int kStep = (Width + kParts - 1) / kParts;
+  constexpr int kEnd = Begin + kStep < Width ? Begin + kStep : Width;
+  backward_part<Piece, Width, Begin, kEnd>(entries, below, num_below, own, column, stride);
+  if constexpr (kEnd < Width) {
+    backward_piece<Piece, Width, kEnd>(entries, below, num_below, own, column, stride);
+  }
+}
+
+// Applies a step to the columns begin .. end - 1 in pieces of two registers, one, or, where a
+// register holds more than 8 numbers, a half.
+template <class Scalar, class Step>
+[[gnu::always_inline]] inline void for_pieces(std::size_t begin, std::size_t end, Step step) {
+  using Pair = Chunk<Scalar, kRegisterBytes, 2>;
+  using Single = Chunk<Scalar, kRegisterBytes, 1>;
+  std::size_t i = begin;
+  for (; i + Pair::kWidth <= end; i += Pair::kWidth) step(Pair{}, i);
+  for (; i + Single::kWidth <= end; i += Single::kWidth) step(Single{}, i);
+  if constexpr (Single::kWidth > 8) {
+    if (i < end) step(Chunk<Scalar, kRegisterBytes / 2, 1>{}, i);
+  }
+}
+
+template <class Scalar>
+struct Slice {
+  Scalar* rows;
+  std::size_t stride, begin, end;
+};
+
+template <class Scalar>
+using PanelStep = void (*)(const Panels<Scalar>&, const Panel&, const Slice<Scalar>&);
+
+template <int Width, class Scalar>
+void forward_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
+  for_pieces<Scalar>(slice.begin, slice.end, [&](auto piece, std::size_t i) {
+    forward_piece<decltype(piece), Width>(
+        panels.entries + panel.entries, panels.below + panel.below, panel.num_below,
+        slice.rows + static_cast<std::size_t>(panel.first) * slice.stride + i, slice.rows + i,
+        slice.stride);
+  });
+}
+
+template <int Width, class Scalar>
+void backward_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
+  for_pieces<Scalar>(slice.begin, slice.end, [&](auto piece, std::size_t i) {
+    backward_piece<decltype(piece), Width>(
+        panels.entries + panel.entries, panels.below + panel.below, panel.num_below,
+        slice.rows + static_cast<std::size_t>(panel.first) * slice.stride + i, slice.rows + i,
+        slice.stride);
+  });
+}
+
+// The steps for every width, so that a panel's numbers stay in registers.
+template <class Scalar>
+struct Steps {
+  PanelStep<Scalar> of_width[kMaxWidth];
+};
+
+template <class Scalar, int... Widths>
+constexpr Steps<Scalar> forward_steps(std::integer_sequence<int, Widths...>) {
+  return {{forward_panel<Widths + 1, Scalar>...}};
+}
+
+template <class Scalar, int... Widths>
+constexpr Steps<Scalar> backward_steps(std::integer_sequence<int, Widths...>) {
+  return {{backward_panel<Widths + 1, Scalar>...}};
+}
+
+template <class Scalar>
+void forward(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::size_t begin,
+             std::size_t end) {
+  static constexpr auto kSteps =
+      forward_steps<Scalar>(std::make_integer_sequence<int, kMaxWidth>());
+  const Slice<Scalar> slice{rows, stride, begin, end};
+  for (std::size_t p = 0; p < panels.num_panels; ++p) {
+    const Panel& panel = panels.panels[p];
+    kSteps.of_width[panel.width - 1](panels, panel, slice);
+  }
+}
+
+template <class Scalar>
+void backward(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::size_t begin,
+              std::size_t end) {
+  static constexpr auto kSteps =
+      backward_steps<Scalar>(std::make_integer_sequence<int, kMaxWidth>());
+  const Slice<Scalar> slice{rows, stride, begin, end};
+  for (std::size_t p = panels.num_panels; p-- > 0;) {
+    const Panel& panel = panels.panels[p];
+    kSteps.of_width[panel.width - 1](panels, panel, slice);
+  }
+}
+
+}  // namespace
+
+extern const Kernel<float> kFloat{forward<float>, backward<float>};
+extern const Kernel<double> kDouble{forward<double>, backward<double>};
+
+}  // namespace flbc::panel::FLBC_ISA

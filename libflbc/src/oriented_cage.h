@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cages turned so that the interior lies on the same side of all facets.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! A cage with its parts.
+template <int Dim>
+struct OrientedCage {
+  //! Outer loops run counter-clockwise, outer shells have their normals outwards; holes and
+  //! cavities are the other way round.
+  Cage<Dim> cage;
+  std::vector<Index> shell_of_facet;  //!< loop or shell of each facet, in the order of facets
+  std::vector<bool> is_hole;          //!< per shell: whether an odd number of others enclose it
+  double measure = 0;                 //!< area (2D) or volume (3D) of the interior, > 0
+};
+
+//! \param cage  has passed validate() and does not intersect itself
+template <int Dim>
+OrientedCage<Dim> orient(const Cage<Dim>& cage);
+
+}  // namespace flbc

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Several control points side by side, for the inner loops. The compiler maps a pack to the
+//! registers there are. Everything has internal linkage, so that the copies compiled for several
+//! instruction sets cannot be linked into one another.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+namespace flbc {
+namespace {
+
+//! Rows of control points are padded to a multiple of this, and aligned to as many numbers.
+constexpr std::size_t kRowLanes = 8;
+
+template <class Scalar, int Lanes>
+struct PackOf {
+  typedef Scalar type
+      __attribute__((vector_size(Lanes * sizeof(Scalar)), aligned(kRowLanes * sizeof(Scalar))));
+};
+template <class Scalar, int Lanes>
+using PackN = typename PackOf<Scalar, Lanes>::type;
+
+template <int Lanes, class Scalar>
+inline PackN<Scalar, Lanes> load_pack(const Scalar* from) {
+  return *reinterpret_cast<const PackN<Scalar, Lanes>*>(from);
+}
+
+template <int Lanes, class Scalar>
+inline void store_pack(Scalar* to, PackN<Scalar, Lanes> value) {
+  *reinterpret_cast<PackN<Scalar, Lanes>*>(to) = value;
+}
+
+template <class Scalar, int Lanes>
+inline PackN<Scalar, Lanes> inverse_square_root_exact(PackN<Scalar, Lanes> pack) {
+  PackN<Scalar, Lanes> root;
+  for (int l = 0; l < Lanes; ++l) root[l] = std::sqrt(pack[l]);
+  return Scalar(1) / root;
+}
+
+//! 1 / sqrt(x) for normal x > 0, to rounding of the Scalar or about 1e-7 relative in single
+//! precision: the processor's estimate and one Newton step take a fraction of the time of a root
+//! and a division.
+template <class Scalar, int Lanes>
+inline PackN<Scalar, Lanes> inverse_square_root(PackN<Scalar, Lanes> pack) {
+  if constexpr (sizeof(Scalar) == 8) {
+    return inverse_square_root_exact<Scalar, Lanes>(pack);
+  } else {
+    PackN<float, Lanes> estimate;
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+    if constexpr (Lanes == 16) {
+      // The form without a mask trips a warning inside GCC 12's own header.
+      estimate = (PackN<float, Lanes>)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)pack);
+    } else {
+      estimate = (PackN<float, Lanes>)_mm256_rsqrt14_ps((__m256)pack);
+    }
+#elif defined(__AVX__)
+    if constexpr (Lanes == 16) {
+      return inverse_square_root_exact<Scalar, Lanes>(pack);
+    } else {
+      estimate = (PackN<float, Lanes>)_mm256_rsqrt_ps((__m256)pack);
+    }
+#else
+    return inverse_square_root_exact<Scalar, Lanes>(pack);
+#endif
+    return estimate * (1.5f - 0.5f * pack * estimate * estimate);
+  }
+}
+
+}  // namespace
+}  // namespace flbc

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two methods that split on the weights, from start to weights. They differ in the metric and
+// in what follows from it: the penalty, the start and when to stop.
+#include <cmath>
+#include <memory>
+
+#include "cell_geometry.h"
+#include "flbc/certificate.h"
+#include "flbc/recovery.h"
+#include "laplacian.h"
+#include "method.h"
+#include "splitting/weight_splitting.h"
+#include "stopwatch.h"
+
+namespace flbc {
+namespace {
+
+template <class Scalar, int Dim>
+using Splitting = splitting::WeightSplitting<Scalar, Dim>;
+
+template <int Dim>
+Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
+  Eigen::VectorXd measures(mesh.num_cells());
+  for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = cell_geometry(mesh, s).measure;
+  return measures;
+}
+
+// ---- kValue: quadratic terms weighted by the measure --------------------------------------------
+
+// The metric of the continuous problem, so that the number of iterations depends on the mesh
+// little.
+template <int Dim>
+splitting::Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative) {
+  // How firmly non-negativity is tied to the gradients: flat between 10 and 300.
+  constexpr double kVertexWeight = 100;
+  const double size = size_of(problem.cage.points);
+  splitting::Metric metric;
+  metric.cell = cell_measures(problem.mesh);
+  if (non_negative) metric.vertex = kVertexWeight / (size * size) * lumped_mass(problem.mesh);
+  return metric;
+}
+
+// Mean squared error of weights, estimated from how much an iteration changes them. The factor was
+// measured on the test models, see docs/results.md.
+template <class Scalar, int Dim>
+void iterate_value(Splitting<Scalar, Dim>& splitting, const SolverOptions& options,
+                   double num_weights, SolveReport& report) {
+  constexpr double kErrorPerChange = 400;
+  constexpr double kBalance = 0.3;
+  constexpr int kFewest = 8;
+  const bool adaptive = options.penalty == 0;
+  for (int iteration = 1;; ++iteration) {
+    const double change = splitting.iterate().change;
+    report.iterations = iteration;
+    report.primal_residual = kErrorPerChange * change / num_weights / options.tolerance;
+    const bool adapt =
+        adaptive && (iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40);
+    if (adapt) splitting.adapt_penalty(kBalance);
+    const bool look = iteration % options.check_interval == 0 ||
+                      (iteration >= kFewest && report.primal_residual <= 1) ||
+                      iteration == options.max_iterations;
+    if (look && finished(iteration, options, report)) return;
+  }
+}
+
+// ---- kLbc2014: the constraints Z = grad w scaled by the measure, and W = w ----------------------
+
+template <int Dim>
+splitting::Metric metric_2014(const LbcProblem<Dim>& problem, bool non_negative) {
+  splitting::Metric metric;
+  metric.cell = cell_measures(problem.mesh).array().square();
+  if (non_negative) metric.vertex = Eigen::VectorXd::Ones(problem.mesh.num_vertices());
+  return metric;
+}
+
+// The best penalty makes rho m a multiple of the measure on average: then it acts as kValue's.
+template <int Dim>
+double penalty_2014(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
+  constexpr double kDiameters = 0.01;
+  return kDiameters * size_of(problem.cage.points) * metric.cell.cwiseSqrt().sum() /
+         metric.cell.sum();
+}
+
+// Ends by the thresholds of section 5 of the paper.
+template <class Scalar, int Dim>
+void iterate_2014(Splitting<Scalar, Dim>& splitting, const SolverOptions& options,
+                  SolveReport& report) {
+  const double primal_threshold = options.tolerance * splitting.num_residual_components();
+  const double dual_threshold = 10 * primal_threshold;
+  for (int iteration = 1;; ++iteration) {
+    report.iterations = iteration;
+    if (iteration % options.check_interval != 0 && iteration < options.max_iterations) {
+      splitting.iterate();
+      continue;
+    }
+    const auto residuals = splitting.iterate_measured();
+    report.primal_residual = residuals.primal / primal_threshold;
+    report.dual_residual = residuals.dual / dual_threshold;
+    if (finished(iteration, options, report)) return;
+  }
+}
+
+// -------------------------------------------------------------------------------------------------
+
+template <class Scalar, int Dim>
+Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report) {
+  Stopwatch watch;
+  const bool value = options.method == Method::kValue;
+  const bool non_negative = options.non_negative == NonNegative::kConstraint;
+  const auto metric =
+      value ? measure_metric(problem, non_negative) : metric_2014(problem, non_negative);
+  // A fortieth of the cage's size suits kValue everywhere, roughly; adapt_penalty() does the rest.
+  const double first = value ? size_of(problem.cage.points) / 40 : penalty_2014(problem, metric);
+  auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
+      problem, metric, options.penalty > 0 ? options.penalty : first, options.relaxation);
+  if (value) {
+    constexpr int kRichardsonSteps = 8;
+    splitting->start_from_harmonic(kRichardsonSteps);
+    const double interior =
+        problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
+    iterate_value(*splitting, options, std::max(1.0, interior) * problem.num_control_points(),
+                  report);
+  } else {
+    splitting->start_from_weights(harmonic_coordinates(problem));
+    iterate_2014(*splitting, options, report);
+  }
+  report.numbers_per_cell = splitting->numbers_per_cell();
+  report.penalty = splitting->penalty();
+  report.seconds.solve = watch.lap();
+  Outcome outcome;
+  outcome.weights = splitting->weights();
+  outcome.certify = [splitting, &problem](const WeightMatrix& weights) {
+    return certify(problem, splitting->flux(), weights);
+  };
+  return outcome;
+}
+
+}  // namespace
+
+template <int Dim>
+Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report) {
+  return options.precision == Precision::kSingle ? solve<float>(problem, options, report)
+                                                 : solve<double>(problem, options, report);
+}
+
+template Outcome solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&);
+template Outcome solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&);
+
+}  // namespace flbc

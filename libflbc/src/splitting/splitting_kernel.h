@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The inner loops of the splitting on the weights, on plain arrays. The same source is compiled
+//! for several instruction sets; there is no Eigen here, whose inline functions could clash.
+//!
+//! Every array is element-major, then component, then `stride` control points contiguous (n padded
+//! to a multiple of 8; the padding stays zero). Except for the projection of rows, control points
+//! do not see each other: a thread takes a slice of them through all cells.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace flbc::splitting {
+
+template <class Scalar, int Dim>
+struct Arrays {
+  std::size_t stride;
+  std::size_t num_cells;     // F
+  std::size_t num_interior;  // m
+  // state
+  Scalar* weights;        // V: w, in the order of the mesh
+  Scalar* cell_state;     // F x Dim: y
+  Scalar* vertex_state;   // m: q, in the factor's order; null without non-negativity
+  Scalar* residual;       // m + 1: right-hand side, then solution; the last row is for the boundary
+  double* violation;      // stride: squared constraint violation per control point, if measured
+  Scalar* violation_sum;  // stride: the same, of a few elements
+  // data
+  const std::int32_t* cells;      // F x (Dim + 1) vertices
+  const std::int32_t* cell_rows;  // F x (Dim + 1) rows of `residual`
+  const std::int32_t* vertices;   // m: the vertex of each row
+  const Scalar* hat_gradients;    // F x Dim x Dim: of the corners 1 .. Dim
+  const Scalar* cell_metric;      // F: m_s
+  const Scalar* vertex_metric;    // m: k_v
+  const Scalar* phi;              // F
+  const Scalar* radius_scale;     // F: A_s / (rho m_s)
+  const Scalar* basis;            // (Dim + 1): orthonormal basis Q of [1; c]
+  const Scalar* row_target;       // m x (Dim + 1): Q^T w of every row that is feasible
+  Scalar relaxation;
+};
+
+//! A slice [begin, end) of control points, multiples of 8.
+struct Columns {
+  std::size_t begin;
+  std::size_t end;
+};
+
+//! The loops for one instruction set, in the order of an iteration.
+template <class Scalar, int Dim>
+struct Kernel {
+  using SliceLoop = void (*)(const Arrays<Scalar, Dim>&, Columns);
+  using RowLoop = double (*)(const Arrays<Scalar, Dim>&, std::int32_t begin, std::int32_t end);
+  using FluxLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, const Scalar* scale, Scalar* flux);
+  //! Adds up, per control point, the squared dual |x - y|^2 and the squared |grad (w - start)|^2.
+  using BalanceLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, const Scalar* start,
+                               double* dual, double* motion);
+  //! y = x - factor (x - y), q = w - factor (w - q).
+  using RescaleLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, Scalar factor);
+  //! Residual of the Laplace equation alone: the start from harmonic coordinates.
+  SliceLoop harmonic_residual;
+  //! W-step with its dual step; writes the residual anew.
+  SliceLoop update_vertices;
+  //! Z-step with its dual step; adds to the residual.
+  SliceLoop update_cells;
+  //! update_vertices and update_cells, which also add up the violation of the constraints.
+  SliceLoop update_vertices_measured;
+  SliceLoop update_cells_measured;
+  //! Y-step after the solve: adds the correction, projects rows. \return squared change of weights
+  RowLoop update_weights;
+  //! The dual of the total variation, scale_s clip(2 x - y), F x Dim rows.
+  FluxLoop flux;
+  BalanceLoop balance;
+  RescaleLoop rescale_duals;
+};
+
+//! The best kernel for this processor.
+template <class Scalar, int Dim>
+const Kernel<Scalar, Dim>& select_kernel();
+
+}  // namespace flbc::splitting
