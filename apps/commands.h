@@ -14,6 +14,7 @@ namespace flbc::app {
 
 void add_mesh_command(CLI::App& app, int& exit_status);
 void add_solve_command(CLI::App& app, int& exit_status);
+void add_check_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 

@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   int exit_status = kDone;
   add_mesh_command(app, exit_status);
   add_solve_command(app, exit_status);
+  add_check_command(app, exit_status);
   add_draw_command(app, exit_status);
   add_info_command(app, exit_status);
   refuse_empty_values(app);

@@ -21,11 +21,11 @@ TYPED_TEST_SUITE(InsideTest, Dimensions);
 
 // What a nest of boxes around the origin with the given half sides must answer.
 template <int Dim>
-Location expected(const Vector<Dim>& point, const std::vector<double>& halves) {
+Side expected(const Vector<Dim>& point, const std::vector<double>& halves) {
   const double radius = point.template lpNorm<Eigen::Infinity>();
   int enclosing = 0;
   for (double half : halves) enclosing += radius < half;
-  return enclosing % 2 == 1 ? Location::kInside : Location::kOutside;
+  return enclosing % 2 == 1 ? Side::kInside : Side::kOutside;
 }
 
 TYPED_TEST(InsideTest, NestsOfBoxesWhateverTheirOrientation) {
@@ -59,15 +59,15 @@ TYPED_TEST(InsideTest, PointsOnTheCage) {
   for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
     Vector<Dim> middle = Vector<Dim>::Zero();
     for (int k = 0; k < Dim; ++k) middle += cage.points.col(cage.facets(k, facet)) / Dim;
-    EXPECT_EQ(locator.locate(middle), Location::kOnCage);
-    EXPECT_EQ(locator.locate(middle * (1 + 1e-10)), Location::kOnCage);
-    EXPECT_EQ(locator.locate(middle * (1 - 1e-6)), Location::kInside);
-    EXPECT_EQ(locator.locate(middle * (1 + 1e-6)), Location::kOutside);
+    EXPECT_EQ(locator.locate(middle), Side::kOnCage);
+    EXPECT_EQ(locator.locate(middle * (1 + 1e-10)), Side::kOnCage);
+    EXPECT_EQ(locator.locate(middle * (1 - 1e-6)), Side::kInside);
+    EXPECT_EQ(locator.locate(middle * (1 + 1e-6)), Side::kOutside);
   }
   for (Index corner = 0; corner < cage.size(); ++corner) {
-    EXPECT_EQ(locator.locate(cage.points.col(corner)), Location::kOnCage);
-    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 - 1e-6)), Location::kInside);
-    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 + 1e-6)), Location::kOutside);
+    EXPECT_EQ(locator.locate(cage.points.col(corner)), Side::kOnCage);
+    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 - 1e-6)), Side::kInside);
+    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 + 1e-6)), Side::kOutside);
   }
 }
 

@@ -3,8 +3,12 @@
 
 import math
 
+import matplotlib.ticker
+
 import results
 from tables import after_setup
+
+SMALLEST_ERROR = 1e-10  # below, a curve would show the references' own error
 
 
 def draw_all(plt, out):
@@ -71,7 +75,10 @@ def scaling(plt, rows, comments, path):
             axis.set_xlabel("vertices V of the mesh")
             set_vertex_ticks(axis, [results.value(r, "vertices") for r in rows
                                     if r["model"] == model])
-            axis.legend()
+            plain_ticks(axis.yaxis)
+            axis.legend(loc="upper left")
+        leave_room_above(top, 0.2)
+        leave_room_above(bottom, 0.4)
     footer(figure, comments)
     figure.savefig(path)
     plt.close(figure)
@@ -91,6 +98,21 @@ def set_vertex_ticks(axis, vertices):
     axis.set_xticks([], minor=True)
 
 
+def plain_ticks(axis):
+    """Numbers in full, and on a short axis 1, 2, 5, 10 ...: powers of ten alone would be few."""
+    low, high = axis.get_view_interval()
+    subs = (1, 2, 5) if high < 300 * low else (1,)
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=subs))
+    axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: f"{x:g}"))
+    axis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def leave_room_above(axis, share):
+    """Space for the legend above the curves of a logarithmic axis, relative to their height."""
+    low, high = axis.get_ylim()
+    axis.set_ylim(low, high * (high / low) ** share)
+
+
 def curve_size(rows, model):
     return next(row["control_points"] for row in rows if row["model"] == model)
 
@@ -105,8 +127,10 @@ def convergence(plt, rows, comments, path):
                 axis.loglog([after_setup(r) for r in curve],
                             [results.value(r, "error") for r in curve],
                             label=label, color=colour, marker=marker)
+        axis.set_ylim(bottom=max(axis.get_ylim()[0], SMALLEST_ERROR))
         axis.set_title(f"{model}, {results.thousands(mine[0]['vertices'])} vertices, "
                        f"{mine[0]['control_points']} control points")
+        plain_ticks(axis.xaxis)
         axis.set_xlabel("time of solve and recovery [s]")
         axis.set_ylabel("mean squared error of the weights [1]")
     axes[0, 0].legend()

@@ -12,9 +12,9 @@ namespace flbc::bench {
 namespace {
 
 std::vector<std::string> columns() {
-  return mesh_columns() + run_columns() +
-         std::vector<std::string>{"problem_mebibytes", "solve_mebibytes", "peak_mebibytes",
-                                  "relative_gap"};
+  return joined({mesh_columns(),
+                 run_columns(),
+                 {"problem_mebibytes", "solve_mebibytes", "peak_mebibytes", "relative_gap"}});
 }
 
 std::vector<Index> resolutions(const Context& context, int dim) {

@@ -51,8 +51,8 @@ bool run(const Context& context, const char* figure, const std::vector<Picture>&
          const std::string& about) {
   ResultTable table(
       context, figure,
-      mesh_columns() + std::vector<std::string>{"variant", "picture", "domain", "weights", "cage",
-                                                "control_point", "slices"});
+      joined({mesh_columns(),
+              {"variant", "picture", "domain", "weights", "cage", "control_point", "slices"}}));
   for (const auto& picture : pictures) {
     table.add(in_setting(context, figure, model(picture.model), picture.vertices,
                          [&](const auto& setting) {

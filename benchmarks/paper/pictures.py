@@ -6,17 +6,24 @@ import subprocess
 import results
 
 TITLES = {"with": "with non-negativity", "without": "without"}
+WIDTH = 4.2  # of a picture, in inches
 
 
 def draw_all(plt, models, out, flbc):
     """Draws every figure whose CSV there is; returns the paths."""
     paths = []
-    for figure, columns in (("figure1", 2), ("figure2", 3), ("figure4", 2)):
+    for figure in ("figure1", "figure2", "figure4"):
         rows, _ = results.read(out, figure)
-        if rows:
-            for row in rows:
-                draw(row, models, out, flbc)
-            paths.append(montage(plt, rows, columns, out / f"{figure}.png", out))
+        if not rows:
+            continue
+        for row in rows:
+            draw(row, models, out, flbc)
+        # A line per model; models with a single picture share one.
+        lines = [[row for row in rows if row["model"] == model]
+                 for model in results.in_order(row["model"] for row in rows)]
+        if all(len(line) == 1 for line in lines):
+            lines = [[line[0] for line in lines]]
+        paths.append(montage(plt, lines, out / f"{figure}.png", out))
     return paths
 
 
@@ -32,21 +39,22 @@ def draw(row, models, out, flbc):
     subprocess.run([str(word) for word in command], check=True)
 
 
-def montage(plt, rows, columns, path, out):
-    images = [plt.imread(out / row["picture"]) for row in rows]
-    lines = [list(range(k, min(k + columns, len(rows)))) for k in range(0, len(rows), columns)]
-    width = 4.2
-    heights = [max(images[k].shape[0] / images[k].shape[1] for k in line) * width + 0.35
-               for line in lines]
+def montage(plt, lines, path, out):
+    """Pictures in lines, each with its title, all of the same width."""
+    images = [[plt.imread(out / row["picture"]) for row in line] for line in lines]
+    heights = [max(image.shape[0] / image.shape[1] for image in line) * WIDTH + 0.35
+               for line in images]
+    columns = max(len(line) for line in lines)
     figure, axes = plt.subplots(len(lines), columns, squeeze=False, layout="constrained",
-                                figsize=(width * columns, sum(heights)),
+                                figsize=(WIDTH * columns, sum(heights)),
                                 gridspec_kw={"height_ratios": heights})
     for axis in axes.flat:
         axis.axis("off")
-    for line_number, line in enumerate(lines):
-        for column, k in enumerate(line):
-            axes[line_number, column].imshow(images[k])
-            axes[line_number, column].set_title(title(rows[k]))
+    for k, line in enumerate(lines):
+        for axis, row, image in zip(axes[k], line, images[k]):
+            axis.imshow(image)
+            axis.set_anchor("N")  # titles of a line at one height
+            axis.set_title(title(row))
     figure.savefig(path)
     plt.close(figure)
     return path

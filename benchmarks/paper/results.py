@@ -15,7 +15,7 @@ METHODS = [
 
 
 def read(out, name):
-    """Rows of OUT/name.csv as dictionaries, and its comment lines; (None, []) if it is not there."""
+    """Rows of OUT/name.csv as dictionaries, and its comments; (None, []) if it is not there."""
     path = out / f"{name}.csv"
     if not path.exists():
         return None, []

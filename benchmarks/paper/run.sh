@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Regenerates the paper's tables and figures: numbers, then pictures. See README.md beside this file.
+# Regenerates the paper's tables and figures: numbers, then pictures. See README.md beside it.
 #
 #   benchmarks/paper/run.sh MODELS_FOLDER OUT_FOLDER [--quick] [--only NAME,...] [--threads T]
 set -euo pipefail
@@ -20,5 +20,5 @@ cmake --build --preset release --target flbc_bench_paper flbc_app
 status=0
 build/release/benchmarks/flbc_bench_paper "$models" "$out" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
-/usr/bin/python3 benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
+/usr/bin/python3 -B benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
 exit "$status"

@@ -3,6 +3,7 @@
 //! Columns that several tables have in common.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,11 @@ inline void add_run(Row& row, const std::string& method, double setup_seconds,
   row["total_seconds"] = number(setup_seconds + seconds.solve + seconds.recover);
 }
 
-inline std::vector<std::string> operator+(std::vector<std::string> a,
-                                          const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+//! Column names one after another.
+inline std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> parts) {
+  std::vector<std::string> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace flbc::bench

@@ -11,11 +11,10 @@ namespace flbc::bench {
 namespace {
 
 std::vector<std::string> columns() {
-  return mesh_columns() + std::vector<std::string>{
-                              "seconds_with",          "seconds_without",   "iterations_with",
-                              "iterations_without",    "squared_distance",  "largest_difference",
-                              "min_weight_without",    "relative_gap_with", "relative_gap_without",
-                              "paper_squared_distance"};
+  return joined({mesh_columns(),
+                 {"seconds_with", "seconds_without", "iterations_with", "iterations_without",
+                  "squared_distance", "largest_difference", "min_weight_without",
+                  "relative_gap_with", "relative_gap_without", "paper_squared_distance"}});
 }
 
 double seconds_of(const SolveReport& report) {

@@ -11,12 +11,11 @@ namespace flbc::bench {
 namespace {
 
 std::vector<std::string> columns() {
-  return mesh_columns() + run_columns() +
-         std::vector<std::string>{"penalty",          "error",
-                                  "min_weight",       "mean_influences",
-                                  "relative_gap",     "reference_gap",
-                                  "paper_lbc_error",  "paper_lbc_seconds",
-                                  "paper_flbc_error", "paper_flbc_seconds"};
+  return joined(
+      {mesh_columns(),
+       run_columns(),
+       {"penalty", "error", "min_weight", "mean_influences", "relative_gap", "reference_gap",
+        "paper_lbc_error", "paper_lbc_seconds", "paper_flbc_error", "paper_flbc_seconds"}});
 }
 
 // The paper's own results, for comparison beside each row.

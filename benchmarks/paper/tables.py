@@ -81,7 +81,7 @@ def reach(rows, threshold, column):
     for row in rows:
         error, x = results.value(row, "error"), results.value(row, column)
         if error <= threshold:
-            if previous is None or previous[0] <= error:
+            if previous is None:
                 return x
             t = math.log(previous[0] / threshold) / math.log(previous[0] / error)
             return previous[1] * (x / previous[1]) ** t

@@ -40,7 +40,7 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
   std::vector<char> is_outside(num_points);  // not bool: neighbours are written at the same time
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < num_points; ++p) {
-    is_outside[p] = locator.locate(points.col(p)) == Location::kOutside;
+    is_outside[p] = locator.locate(points.col(p)) == Side::kOutside;
   }
   std::vector<Index> outside;
   for (Index p = 0; p < num_points; ++p) {

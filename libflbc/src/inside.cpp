@@ -77,9 +77,9 @@ CageLocator<Dim>::CageLocator(const Cage<Dim>& cage, double tolerance)
 }
 
 template <int Dim>
-Location CageLocator<Dim>::locate(const Vector<Dim>& point) const {
-  if (is_on_cage(point)) return Location::kOnCage;
-  return is_enclosed(point) ? Location::kInside : Location::kOutside;
+Side CageLocator<Dim>::locate(const Vector<Dim>& point) const {
+  if (is_on_cage(point)) return Side::kOnCage;
+  return is_enclosed(point) ? Side::kInside : Side::kOutside;
 }
 
 template <int Dim>

@@ -45,9 +45,9 @@ template <int Dim>
 void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, double tolerance) {
   const CageLocator<Dim> locator(cage, tolerance);
   for (Index i = 0; i < embedded.cols(); ++i) {
-    const Location location = locator.locate(embedded.col(i));
-    if (location == Location::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
-    if (location == Location::kOnCage) {
+    const Side location = locator.locate(embedded.col(i));
+    if (location == Side::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
+    if (location == Side::kOnCage) {
       refuse_point<Dim>(embedded, i, "it lies on the cage, where it must lie strictly inside");
     }
   }

@@ -58,7 +58,8 @@ SolverOptions resolve(SolverOptions options, int dim) {
   // The paper's penalties (section 5), and those that served best on all models in docs/results.md.
   if (options.penalty == 0 && paper) options.penalty = dim == 2 ? 100 : 10000;
   if (options.penalty == 0 && gradient) options.penalty = dim == 2 ? 1000 : 3000;
-  if (options.tolerance == 0) options.tolerance = value ? 1e-6 : gradient ? 3e-5 : 1e-7;
+  if (options.tolerance == 0)
+    options.tolerance = value ? 1e-7 : gradient ? 3e-5 : lbc2014 ? 5e-8 : 1e-7;
   if (options.relaxation == 0) {
     options.relaxation = value ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
   }

@@ -82,7 +82,7 @@ double RowProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& we
     if (nearest.distance > kOutside * size_) return nearest.distance;
     work.row = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
-      // Not the nearest weights, but feasible: better than none.
+      // Rounding hides the nearest weights: any feasible ones are better than none.
       work.candidate.setZero(weights.size());
       for (int k = 0; k < nearest.size; ++k)
         work.candidate[nearest.support[k]] = nearest.weights[k];

@@ -7,6 +7,7 @@
 #include "flbc/cage.h"
 #include "flbc/cell_field.h"
 #include "flbc/certificate.h"
+#include "flbc/check.h"
 #include "flbc/coordinates.h"
 #include "flbc/distance_weights.h"
 #include "flbc/domain_mesh.h"

@@ -13,7 +13,9 @@ namespace flbc {
 //! sum w c = x. Afterwards no weight is below 0 (nor -0), and sum and reproduction hold to 1e-13,
 //! the latter relative to the size of the control points. Columns that are like that already
 //! stay. A point beside the convex hull of the control points by no more than 1e-9 of their
-//! size counts as the nearest point of the hull.
+//! size counts as the nearest point of the hull. Where rounding hides the nearest weights (points
+//! on the hull's boundary where control points lie in a facet but for 1e-8 of the size or less)
+//! the weights may be other feasible ones.
 //! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
 //! \throws InputError if sizes do not fit, if a number is not finite or if a point lies outside the
 //! convex hull, naming the first such point; the weights of other points may be projected then

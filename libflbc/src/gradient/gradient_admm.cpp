@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -222,10 +223,23 @@ double GradientAdmm<Scalar, Dim>::num_residual_components() const {
 
 template <class Scalar, int Dim>
 CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() {
+  using Rows = Eigen::Map<Eigen::Array<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>>;
+  using ConstRow = Eigen::Map<const Eigen::Array<Scalar, 1, Eigen::Dynamic>>;
+  const auto columns = static_cast<Eigen::Index>(stride_);
   flux_ = AlignedArray<Scalar>(tv_dual_.size());
-  const auto minus_penalty = static_cast<Scalar>(-penalty_);
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < flux_.size(); ++k) flux_[k] = minus_penalty * tv_dual_[k];
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    const std::size_t block = static_cast<std::size_t>(s) * Dim * stride_;
+    Rows flux(flux_.data() + block, Dim, columns);
+    flux = Rows(extrapolated_.data() + block, Dim, columns) -
+           Rows(tv_dual_.data() + block, Dim, columns);
+    const auto length =
+        flux.square().colwise().sum().sqrt().max(std::numeric_limits<Scalar>::min());
+    const ConstRow radius(radius_.data() + s * stride_, columns);
+    const Eigen::Array<Scalar, 1, Eigen::Dynamic> shrink =
+        static_cast<Scalar>(penalty_) * (radius / length).min(Scalar(1));
+    flux.rowwise() *= shrink;
+  }
   return {flux_.data(), stride_, n_};
 }
 

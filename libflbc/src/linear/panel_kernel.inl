@@ -9,6 +9,14 @@
 
 #include <utility>
 
+// Widths are known at compile time, so that sums can stay in registers. The sanitizers' checks of
+// every access would make of that more code than a compiler can digest.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FLBC_UNROLL _Pragma("GCC unroll 1")
+#else
+#define FLBC_UNROLL _Pragma("GCC unroll 16")
+#endif
+
 namespace flbc::panel::FLBC_ISA {
 namespace {
 
@@ -60,16 +68,16 @@ template <class Piece, int Width, int Rows, class Scalar>
                                                 const Piece (&panel)[Width], Scalar* column,
                                                 std::size_t stride) {
   Piece sum[Rows];
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int r = 0; r < Rows; ++r) {
     sum[r] = Piece::load(column + static_cast<std::size_t>(below[r]) * stride);
   }
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int k = 0; k < Width; ++k) {
-#pragma GCC unroll 16
+    FLBC_UNROLL
     for (int r = 0; r < Rows; ++r) sum[r].add(entries[r * Width + k], panel[k]);
   }
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int r = 0; r < Rows; ++r) {
     sum[r].store(column + static_cast<std::size_t>(below[r]) * stride);
   }
@@ -80,12 +88,12 @@ template <class Piece, int Width, class Scalar>
 inline void forward_piece(const Scalar* entries, const std::int32_t* below, std::int32_t num_below,
                           Scalar* own, Scalar* column, std::size_t stride) {
   Piece panel[Width];
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int k = 0; k < Width; ++k) panel[k] = Piece::load(own + k * stride);
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int k = 0; k < Width; ++k) {
     Piece sum{};
-#pragma GCC unroll 16
+    FLBC_UNROLL
     for (int j = 0; j <= k; ++j) sum.add(entries[k * (k + 1) / 2 + j], panel[j]);
     sum.store(own + k * stride);
   }
@@ -112,19 +120,19 @@ template <class Piece, int Width, int Begin, int End, class Scalar>
                                                  std::int32_t num_below, Scalar* own,
                                                  const Scalar* column, std::size_t stride) {
   Piece sum[End - Begin] = {};
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int j = Begin; j < Width; ++j) {
     const Piece y = Piece::load(own + j * stride);
-#pragma GCC unroll 16
+    FLBC_UNROLL
     for (int k = Begin; k < End && k <= j; ++k) sum[k - Begin].add(entries[j * (j + 1) / 2 + k], y);
   }
   entries += Width * (Width + 1) / 2;
   for (std::int32_t r = 0; r < num_below; ++r, entries += Width) {
     const Piece x = Piece::load(column + static_cast<std::size_t>(below[r]) * stride);
-#pragma GCC unroll 16
+    FLBC_UNROLL
     for (int k = Begin; k < End; ++k) sum[k - Begin].add(entries[k], x);
   }
-#pragma GCC unroll 16
+  FLBC_UNROLL
   for (int k = Begin; k < End; ++k) sum[k - Begin].store(own + k * stride);
 }
 
@@ -231,3 +239,5 @@ extern const Kernel<float> kFloat{forward<float>, backward<float>};
 extern const Kernel<double> kDouble{forward<double>, backward<double>};
 
 }  // namespace flbc::panel::FLBC_ISA
+
+#undef FLBC_UNROLL

@@ -76,7 +76,7 @@ splitting::Metric metric_2014(const LbcProblem<Dim>& problem, bool non_negative)
 // The best penalty makes rho m a multiple of the measure on average: then it acts as kValue's.
 template <int Dim>
 double penalty_2014(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
-  constexpr double kDiameters = 0.01;
+  constexpr double kDiameters = 0.0085;
   return kDiameters * size_of(problem.cage.points) * metric.cell.cwiseSqrt().sum() /
          metric.cell.sum();
 }

@@ -52,7 +52,7 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
     : problem_(problem),
       kernel_(select_kernel<Scalar, Dim>()),
       n_(problem.num_control_points()),
-      stride_((static_cast<std::size_t>(n_) + kRowLanes - 1) / kRowLanes * kRowLanes),
+      stride_(row_stride(static_cast<std::size_t>(n_))),
       metric_(std::move(metric)),
       penalty_(penalty),
       relaxation_(relaxation),
