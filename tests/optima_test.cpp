@@ -9,7 +9,10 @@
 #include "flbc/certificate.h"
 #include "flbc/coordinates.h"
 #include "flbc/solver.h"
+#include "splitting/weight_splitting.h"
+#include "support/judge.h"
 #include "support/reference_optimum.h"
+#include "support/simplex.h"
 
 namespace flbc::testing {
 namespace {
@@ -26,50 +29,95 @@ LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
   return problem;
 }
 
+// The penalties suit these small meshes and the long way to an accurate optimum; the automatic ones
+// suit larger meshes and fewer digits.
+template <int Dim>
 SolverOptions accurate(Method method, NonNegative non_negative) {
   SolverOptions options;
   options.method = method;
   options.non_negative = non_negative;
   options.precision = Precision::kDouble;
-  options.tolerance = 1e-17;
-  options.max_iterations = 20000;
-  // The default penalty suits the size and the smoothness of real models, not these.
-  if (method == Method::kGradient) options.penalty = 5e5;
+  options.tolerance = 1e-30;  // never: run to the end
+  options.max_iterations = 4000;
+  options.penalty = 300;
+  if (method == Method::kGradient) {
+    options.max_iterations = 30000;
+    options.penalty = Dim == 2 ? 1e5 : 1e6;
+  }
+  if (method == Method::kLbc2014) {
+    options.max_iterations = 8000;
+    options.penalty = Dim == 2 ? 3 : 0.03;
+  }
   return options;
 }
 
-template <class Variant>
-void expect_optimal(const Solution& solution, const Variant& reference) {
-  EXPECT_NEAR(solution.report.objective, reference.objective, 1e-6 * reference.objective);
-  EXPECT_LT((solution.weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
+template <int Dim, class Variant>
+void expect_optimal(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
+                    const Variant& reference) {
+  const double objective =
+      testing::objective(problem.mesh, weights, problem.phi) / std::pow(problem.scale, Dim - 1);
+  EXPECT_NEAR(objective, reference.objective, 1e-6 * reference.objective);
+  EXPECT_LT((weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
-    expect_optimal(solve(problem, accurate(Method::kValue, NonNegative::kOff)),
-                   reference.unconstrained);
-    expect_optimal(solve(problem, accurate(Method::kValue, NonNegative::kConstraint)),
-                   reference.non_negative);
+    expect_optimal(
+        problem,
+        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kOff)).weights,
+        reference.unconstrained);
+    expect_optimal(
+        problem,
+        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kConstraint))
+            .weights,
+        reference.non_negative);
   }
 }
 
-TYPED_TEST(OptimaTest, TheOriginalSolverFindsBothOptima) {
+TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
+    expect_optimal(problem_of(reference),
+                   solve(problem_of(reference),
+                         accurate<TypeParam::value>(Method::kLbc2014, NonNegative::kOff))
+                       .weights,
+                   reference.unconstrained);
+  }
+}
+
+// As published, W = w weighs 1 whatever the mesh, with which some of these would take millions of
+// iterations; the optimum does not depend on it.
+TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& reference : reference_optima<kDim>()) {
+    SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
-    auto options = accurate(Method::kLbc2014, NonNegative::kOff);
-    expect_optimal(solve(problem, options), reference.unconstrained);
-    options.non_negative = NonNegative::kConstraint;
-    expect_optimal(solve(problem, options), reference.non_negative);
+    splitting::Metric metric;
+    metric.cell.resize(problem.mesh.num_cells());
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      metric.cell[s] = std::pow(simplex_measure<kDim>(cell_corners(problem.mesh, s)), 2);
+    }
+    const double per_cell = metric.cell.mean() / metric.cell.cwiseSqrt().mean();
+    const double size = size_of(problem.cage.points);
+    metric.vertex = Eigen::VectorXd::Constant(
+        problem.mesh.num_vertices(),
+        100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
+    splitting::WeightSplitting<double, kDim> splitting(problem, metric, 300 / per_cell, 1.65);
+    splitting.start_from_harmonic(8);
+    for (int iteration = 0; iteration < 8000; ++iteration) splitting.iterate();
+    expect_optimal(problem, splitting.weights(), reference.non_negative);
   }
 }
 
 TYPED_TEST(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
-    expect_optimal(solve(problem_of(reference), accurate(Method::kGradient, NonNegative::kOff)),
+    expect_optimal(problem_of(reference),
+                   solve(problem_of(reference),
+                         accurate<TypeParam::value>(Method::kGradient, NonNegative::kOff))
+                       .weights,
                    reference.unconstrained);
   }
 }
@@ -95,7 +143,7 @@ TYPED_TEST(OptimaTest, CertificatesHold) {
         EXPECT_NEAR(certificate.relative_gap, 1 - certificate.lower_bound / certificate.objective,
                     1e-12);
         if (method == Method::kValue && iterations == 3000) {
-          EXPECT_LT(certificate.relative_gap, 1e-3);
+          EXPECT_LT(certificate.relative_gap, 1e-4);
         }
       }
     }

@@ -40,20 +40,15 @@ def exponent(x, y):
             sum((a - mean_x) ** 2 for a, _ in points))
 
 
-def axes_per_model(plt, rows, lines):
-    models = results.in_order(row["model"] for row in rows)
-    figure, axes = plt.subplots(lines, len(models), squeeze=False, layout="constrained",
-                                figsize=(5.6 * len(models), 4.2 * lines))
-    return figure, axes, models
-
-
 def footer(figure, comments):
     """The machine, without the line that only explains columns."""
     figure.supxlabel("\n".join(comments[1:]), fontsize=7.5, color="#666666")
 
 
 def scaling(plt, rows, comments, path):
-    figure, axes, models = axes_per_model(plt, rows, 2)
+    models = results.in_order(row["model"] for row in rows)
+    figure, axes = plt.subplots(2, len(models), squeeze=False, layout="constrained",
+                                figsize=(5.6 * len(models), 8.4))
     for column, model in enumerate(models):
         top, bottom = axes[0, column], axes[1, column]
         for name, label, colour, marker in results.METHODS:
@@ -117,12 +112,25 @@ def curve_size(rows, model):
     return next(row["control_points"] for row in rows if row["model"] == model)
 
 
+def meaningful(curve):
+    """The points up to the first below SMALLEST_ERROR."""
+    for k, row in enumerate(curve):
+        if results.value(row, "error") < SMALLEST_ERROR:
+            return curve[:k + 1]
+    return curve
+
+
 def convergence(plt, rows, comments, path):
-    figure, axes, models = axes_per_model(plt, rows, 1)
-    for axis, model in zip(axes[0], models):
+    models = results.in_order(row["model"] for row in rows)
+    # The legend below all curves: there is no corner that none of them passes.
+    figure, axes = plt.subplot_mosaic([models, ["legend"] * len(models)], layout="constrained",
+                                      figsize=(5.6 * len(models), 4.6),
+                                      gridspec_kw={"height_ratios": [1, 0.06]})
+    for model in models:
+        axis = axes[model]
         mine = [row for row in rows if row["model"] == model]
         for name, label, colour, marker in results.METHODS:
-            curve = [row for row in mine if row["method"] == name]
+            curve = meaningful([row for row in mine if row["method"] == name])
             if curve:
                 axis.loglog([after_setup(r) for r in curve],
                             [results.value(r, "error") for r in curve],
@@ -133,7 +141,9 @@ def convergence(plt, rows, comments, path):
         plain_ticks(axis.xaxis)
         axis.set_xlabel("time of solve and recovery [s]")
         axis.set_ylabel("mean squared error of the weights [1]")
-    axes[0, 0].legend()
+    axes["legend"].axis("off")
+    axes["legend"].legend(*axes[models[0]].get_legend_handles_labels(), loc="center",
+                          ncol=len(results.METHODS))
     footer(figure, comments)
     figure.savefig(path)
     plt.close(figure)

@@ -59,7 +59,7 @@ SolverOptions resolve(SolverOptions options, int dim) {
   if (options.penalty == 0 && paper) options.penalty = dim == 2 ? 100 : 10000;
   if (options.penalty == 0 && gradient) options.penalty = dim == 2 ? 1000 : 3000;
   if (options.tolerance == 0)
-    options.tolerance = value ? 1e-7 : gradient ? 3e-5 : lbc2014 ? 5e-8 : 1e-7;
+    options.tolerance = value ? 1e-7 : gradient ? 2.5e-5 : lbc2014 ? 5e-8 : 1e-7;
   if (options.relaxation == 0) {
     options.relaxation = value ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
   }
