@@ -2,11 +2,12 @@
 // Solves real cages and prints, for each: iterations, time per iteration, time of the stages,
 // memory and the quality of the weights.
 //
-//   flbc_bench_models MODELS_FOLDER [--threads T] [--method gradient|paper] [--tolerance T]
+//   flbc_bench_models MODELS_FOLDER [--threads T] [--method value|gradient|paper|lbc2014]
+//   [--tolerance T]
 //                     [--model NAME] [--reference K]
 //
 // With --reference, the last column is the paper's error (5), the mean squared difference inside,
-// from K iterations of the gradient method in double precision.
+// from K iterations of method value in double precision.
 //
 // Each case runs in a process of its own, so that its peak memory is its own.
 #include <sys/resource.h>
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -69,7 +71,7 @@ template <int Dim>
 double error_to_reference(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
                           int iterations) {
   SolverOptions options;
-  options.method = Method::kGradient;
+  options.method = Method::kValue;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-100;
   options.max_iterations = iterations;
@@ -112,6 +114,11 @@ void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
   std::fflush(stdout);
 }
 
+const std::map<std::string, Method> kMethods{{"value", Method::kValue},
+                                             {"gradient", Method::kGradient},
+                                             {"paper", Method::kPaper},
+                                             {"lbc2014", Method::kLbc2014}};
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int k = 2; k < argc; k += 2) {
@@ -121,8 +128,8 @@ Arguments parse(int argc, char** argv) {
       arguments.options.threads = std::stoi(value);
     } else if (name == "--tolerance") {
       arguments.options.tolerance = std::stod(value);
-    } else if (name == "--method" && (value == "gradient" || value == "paper")) {
-      arguments.options.method = value == "paper" ? Method::kPaper : Method::kGradient;
+    } else if (name == "--method" && kMethods.count(value) > 0) {
+      arguments.options.method = kMethods.at(value);
     } else if (name == "--model" && !value.empty()) {
       arguments.only_model = value;
     } else if (name == "--reference") {

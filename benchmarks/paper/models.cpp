@@ -24,7 +24,7 @@ const std::vector<Model>& models() {
        4,
        {5.87e-4, 22.60, 2.2e-4, 16.98, 4.083e-10}},
       {"horse", 3, "3d/horse_cage.obj", 2000, 5850, 27, {1.66e-5, 39.35, 1.21e-5, 21.87}},
-      {"armadillo", 3, "3d/armadillo_cage.obj", 2000, 6640, 53, {5.2e-5, 134.65, 4.16e-5, 120.85}},
+      {"armadillo", 3, "3d/armadillo_cage.obj", 4000, 6640, 53, {5.2e-5, 134.65, 4.16e-5, 120.85}},
       {"shark", 3, "3d/shark_cage.obj", 2000, 6000, 0, {}},
       {"beast", 3, "3d/beast_cage.obj", 2000, 6000, 0, {}},
   };

@@ -22,6 +22,14 @@ class AlignedArray {
     if (bytes > 0) std::memset(data_.get(), 0, bytes);
   }
 
+  //! Numbers that belong to someone else and stay where they are. \param data  aligned to 64 bytes
+  static AlignedArray borrow(Scalar* data, std::size_t size) {
+    AlignedArray array;
+    array.data_ = {data, Free{false}};
+    array.size_ = size;
+    return array;
+  }
+
   Scalar* data() { return data_.get(); }
   const Scalar* data() const { return data_.get(); }
   std::size_t size() const { return size_; }
@@ -30,7 +38,10 @@ class AlignedArray {
 
  private:
   struct Free {
-    void operator()(Scalar* data) const { std::free(data); }
+    bool owned = true;
+    void operator()(Scalar* data) const {
+      if (owned) std::free(data);
+    }
   };
   std::unique_ptr<Scalar[], Free> data_;
   std::size_t size_ = 0;

@@ -23,6 +23,12 @@ double scale_to_radius(Cage<Dim>& cage, DomainMesh<Dim>& mesh) {
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
   auto topology = build_topology(mesh);
+  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme);
+}
+
+template <int Dim>
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                             DistanceScheme scheme) {
   // Before scaling, so that messages give the user's coordinates.
   auto boundary = boundary_values(cage, mesh, topology);
   const double scale = scale_to_radius(cage, mesh);
@@ -36,7 +42,12 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceSchem
   return problem;
 }
 
-template LbcProblem<2> make_problem(Cage<2>, DomainMesh<2>, DistanceScheme);
-template LbcProblem<3> make_problem(Cage<3>, DomainMesh<3>, DistanceScheme);
+#define FLBC_INSTANTIATE(Dim)                                                          \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);   \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
+                                        DistanceScheme);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

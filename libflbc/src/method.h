@@ -8,6 +8,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
+#include "flbc/solver_state.h"
 
 namespace flbc {
 
@@ -20,15 +21,15 @@ struct Outcome {
 };
 
 //! Method::kGradient and kPaper. \param options  resolved \param report  iterations, status,
-//! residuals and seconds are filled in
+//! residuals and seconds are filled in \param storage  memory of the state, may be null
 template <int Dim>
 Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report);
+                           SolveReport& report, StateStorage* storage);
 
 //! Method::kValue and kLbc2014. Parameters as above.
 template <int Dim>
 Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report);
+                           SolveReport& report, StateStorage* storage);
 
 //! Penalties and relaxations without measure take the numbers out of their range, which must never
 //! pass for a result. \throws SolverError unless `finite`

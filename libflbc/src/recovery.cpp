@@ -116,10 +116,10 @@ WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
   return weights;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                              \
-  template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,            \
+#define FLBC_INSTANTIATE(Scalar, Dim)                                               \
+  template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&); \
-  template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,            \
+  template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)

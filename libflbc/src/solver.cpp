@@ -17,7 +17,7 @@ namespace {
 
 template <int Dim>
 Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report) {
+                   SolveReport& report, StateStorage* storage) {
   Stopwatch watch;
   Outcome outcome;
   switch (options.method) {
@@ -31,9 +31,9 @@ Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
       return outcome;
     case Method::kValue:
     case Method::kLbc2014:
-      return solve_by_splitting(problem, options, report);
+      return solve_by_splitting(problem, options, report, storage);
     default:
-      return solve_by_gradients(problem, options, report);
+      return solve_by_gradients(problem, options, report, storage);
   }
 }
 
@@ -63,7 +63,8 @@ Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
 }  // namespace
 
 template <int Dim>
-Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options) {
+Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
+               StateStorage* storage) {
   validate(user_options);
   const auto options = resolve(user_options, Dim);
   const ThreadScope threads(options.threads);
@@ -74,7 +75,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options
   report.control_points = problem.num_control_points();
   report.vertices = problem.mesh.num_vertices();
   report.cells = problem.mesh.num_cells();
-  auto outcome = run_method(problem, options, report);
+  auto outcome = run_method(problem, options, report, storage);
   require_finite(outcome.weights.allFinite(), options, report);
 
   Stopwatch watch;
@@ -104,8 +105,8 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverO
   return solution;
 }
 
-template Solution solve(const LbcProblem<2>&, const SolverOptions&);
-template Solution solve(const LbcProblem<3>&, const SolverOptions&);
+template Solution solve(const LbcProblem<2>&, const SolverOptions&, StateStorage*);
+template Solution solve(const LbcProblem<3>&, const SolverOptions&, StateStorage*);
 template Solution solve(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&);
 template Solution solve(const Cage<3>&, const DomainMesh<3>&, const SolverOptions&);
 

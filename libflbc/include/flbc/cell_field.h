@@ -13,9 +13,9 @@ namespace flbc {
 //! by component, then `stride` control points contiguous, of which the first n count.
 template <class Scalar, int Dim>
 struct CellFieldView {
-  const Scalar* data;
-  std::size_t stride;
-  Index n;
+  const Scalar* data;  //!< of the first cell
+  std::size_t stride;  //!< numbers from one component to the next, >= n
+  Index n;             //!< number of control points
 
   //! Dim x n, on one cell, in double precision.
   Eigen::Matrix<double, Dim, Eigen::Dynamic> cell(Index s) const {

@@ -38,22 +38,24 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
 //! The largest or smallest value of something and where it is.
 template <int Dim>
 struct Extreme {
-  double value = 0;
-  Index point = -1;          //!< -1 if there is nothing to measure
-  Index control_point = -1;  //!< -1 if all control points together give the value
-  Vector<Dim> place = Vector<Dim>::Zero();
+  double value = 0;                         //!< largest or smallest
+  Index point = -1;                         //!< -1 if there is nothing to measure
+  Index control_point = -1;                 //!< -1 if all control points together give the value
+  Vector<Dim> place = Vector<Dim>::Zero();  //!< coordinates of the point
 };
 
 //! What only shows on the mesh of the cage's interior.
 template <int Dim>
 struct MeshCheck {
-  Index interior_vertices = 0;
+  Index interior_vertices = 0;  //!< number of vertices off the boundary
   //! Per control point, the interior vertices at which w_i is below, or above, its values at all
   //! neighbours by more than 1e-6. By the paper's Conjecture 1 local barycentric coordinates
   //! have none.
-  std::vector<Index> local_minima, local_maxima;
-  Extreme<Dim> deepest_minimum, highest_maximum;  //!< the value is the distance from the neighbours
-  double total_variation = 0;  //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
+  std::vector<Index> local_minima;
+  std::vector<Index> local_maxima;  //!< likewise
+  Extreme<Dim> deepest_minimum;     //!< the value is the distance from the neighbours
+  Extreme<Dim> highest_maximum;     //!< likewise
+  double total_variation = 0;       //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
   double harmonic_total_variation = 0;  //!< that of harmonic coordinates on this mesh
   double harmonic_mean_influences = 0;  //!< mean number of their |w_i| > 1e-4 per vertex
   double influence_ratio = 0;           //!< mean influences / those of harmonic coordinates
@@ -62,17 +64,18 @@ struct MeshCheck {
 //! Measures of weights. Points with a weight that is not finite count in `non_finite` only.
 template <int Dim>
 struct WeightCheck {
-  Quality quality{};  //!< as measure_quality() gives it
-  Index points = 0;
-  Index control_points = 0;
+  Quality quality{};         //!< as measure_quality() gives it
+  Index points = 0;          //!< P
+  Index control_points = 0;  //!< n
 
-  std::int64_t non_finite = 0;  //!< number of weights that are not finite
-  Extreme<Dim> first_non_finite;
-  std::int64_t negative = 0;  //!< number of weights below -1e-12, which is more than rounding
-  Extreme<Dim> min_weight, max_weight;
-  Extreme<Dim> partition;     //!< largest |sum_i w_i - 1|
-  Extreme<Dim> reproduction;  //!< largest |sum_i w_i c_i - x| / size of the cage
-  Extreme<Dim> influences;    //!< largest number of |w_i| > 1e-4
+  std::int64_t non_finite = 0;    //!< number of weights that are not finite
+  Extreme<Dim> first_non_finite;  //!< the first of them
+  std::int64_t negative = 0;      //!< number of weights below -1e-12, which is more than rounding
+  Extreme<Dim> min_weight;        //!< smallest weight
+  Extreme<Dim> max_weight;        //!< largest weight
+  Extreme<Dim> partition;         //!< largest |sum_i w_i - 1|
+  Extreme<Dim> reproduction;      //!< largest |sum_i w_i c_i - x| / size of the cage
+  Extreme<Dim> influences;        //!< largest number of |w_i| > 1e-4
 
   Index control_points_found = 0;  //!< control points with which a point coincides
   Extreme<Dim> lagrange;           //!< largest |w_i(c_j) - delta_ij| at those

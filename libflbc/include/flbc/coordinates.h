@@ -27,7 +27,7 @@ double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
 //! A place in a mesh: a cell and barycentric coordinates in it.
 template <int Dim>
 struct Location {
-  Index cell = -1;
+  Index cell = -1;                                //!< -1 = nowhere in the mesh
   Eigen::Matrix<double, Dim + 1, 1> coordinates;  //!< sum to 1; may be below 0 by the tolerance
 };
 
@@ -36,6 +36,7 @@ struct Location {
 template <int Dim>
 class CellLocator {
  public:
+  //! Builds the grid. \param mesh  valid (normalize_and_validate), outlives the locator
   explicit CellLocator(const DomainMesh<Dim>& mesh);
   ~CellLocator();
 

@@ -15,7 +15,10 @@ struct DomainMesh {
   PointList<Dim> points;  //!< Dim x V
   CellList<Dim> cells;    //!< (Dim + 1) x F, positively oriented
 
+  //! V.
   Index num_vertices() const { return static_cast<Index>(points.cols()); }
+
+  //! F.
   Index num_cells() const { return static_cast<Index>(cells.cols()); }
 };
 
@@ -31,7 +34,10 @@ struct MeshTopology {
   //! (Dim + 1) x F, row k: the facet opposite to the cell's vertex k.
   CellList<Dim> cell_facets;
 
+  //! E.
   Index num_facets() const { return static_cast<Index>(facets.cols()); }
+
+  //! Whether the facet has a cell on one side only.
   bool is_boundary(Index facet) const { return sides(1, facet) < 0; }
 };
 

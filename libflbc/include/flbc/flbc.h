@@ -20,5 +20,6 @@
 #include "flbc/recovery.h"
 #include "flbc/report.h"
 #include "flbc/solver.h"
+#include "flbc/solver_state.h"
 #include "flbc/types.h"
 #include "flbc/version.h"

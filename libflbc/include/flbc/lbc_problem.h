@@ -15,13 +15,14 @@ namespace flbc {
 //! not depend on it.
 template <int Dim>
 struct LbcProblem {
-  Cage<Dim> cage;        //!< scaled
-  DomainMesh<Dim> mesh;  //!< scaled
-  MeshTopology<Dim> topology;
-  BoundaryValues<Dim> boundary;
-  Eigen::MatrixXd phi;  //!< n x F, in [0, 1]
-  double scale = 1;     //!< scaled length / original length
+  Cage<Dim> cage;                //!< scaled
+  DomainMesh<Dim> mesh;          //!< scaled
+  MeshTopology<Dim> topology;    //!< of the mesh
+  BoundaryValues<Dim> boundary;  //!< what is known of the weights
+  Eigen::MatrixXd phi;           //!< n x F, in [0, 1]
+  double scale = 1;              //!< scaled length / original length
 
+  //! n.
   Index num_control_points() const { return cage.size(); }
 };
 
@@ -29,5 +30,11 @@ struct LbcProblem {
 //! \throws InputError if mesh and cage do not belong together, SolverError
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme);
+
+//! The same with facets that are known already, in the caller's order, as a half-edge mesh has
+//! them. \param topology  of the mesh
+template <int Dim>
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                             DistanceScheme scheme);
 
 }  // namespace flbc

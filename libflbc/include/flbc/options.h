@@ -40,19 +40,18 @@ enum class Recovery {
 
 //! State of a run, handed to the progress callback.
 struct Progress {
-  int iteration;
+  int iteration;           //!< counted from 1
   double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
   double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
 };
 
 //! Options of solve(). The defaults suit every cage.
 struct SolverOptions {
-  Method method = Method::kAuto;
-  DistanceScheme phi = DistanceScheme::kSquare;
-  Precision precision = Precision::kSingle;
-  Recovery recovery = Recovery::kAuto;
-
-  NonNegative non_negative = NonNegative::kAuto;
+  Method method = Method::kAuto;                  //!< how the coordinates are computed
+  DistanceScheme phi = DistanceScheme::kSquare;   //!< growth of the weight functions phi
+  Precision precision = Precision::kSingle;       //!< of the iteration
+  Recovery recovery = Recovery::kAuto;            //!< for the methods whose unknowns are gradients
+  NonNegative non_negative = NonNegative::kAuto;  //!< what becomes of w >= 0
 
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an

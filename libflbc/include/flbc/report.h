@@ -25,7 +25,7 @@ struct StageSeconds {
 
 //! Properties of weights, measured on the weights themselves.
 struct Quality {
-  double min_weight = 0;
+  double min_weight = 0;              //!< smallest w_i
   double max_partition_error = 0;     //!< max |sum_i w_i - 1|
   double max_reproduction_error = 0;  //!< max |sum_i w_i c_i - x| / size of the cage
   double mean_influences = 0;         //!< mean number of |w_i| > 1e-4 per point
@@ -40,12 +40,12 @@ struct Certificate {
 
 //! Result of solve() beside the weights.
 struct SolveReport {
-  Method method = Method::kAuto;  //!< the method used, never kAuto
-  SolveStatus status = SolveStatus::kConverged;
-  Index control_points = 0;
-  Index vertices = 0;
-  Index cells = 0;
-  int iterations = 0;
+  Method method = Method::kAuto;                 //!< the method used, never kAuto
+  SolveStatus status = SolveStatus::kConverged;  //!< how the run ended
+  Index control_points = 0;                      //!< n
+  Index vertices = 0;                            //!< V
+  Index cells = 0;                               //!< F
+  int iterations = 0;                            //!< 0 for methods that do not iterate
   double primal_residual = 0;  //!< |r_p|, or estimated error, divided by its threshold
   double dual_residual = 0;    //!< |r_d| divided by its threshold
   double penalty = 0;          //!< used last, for a domain scaled to radius 250
@@ -53,8 +53,8 @@ struct SolveReport {
   double objective = 0;
   Certificate certificate{};    //!< if asked for, in the same units
   double numbers_per_cell = 0;  //!< state of the iteration, per cell and control point
-  StageSeconds seconds{};
-  Quality quality{};
+  StageSeconds seconds{};       //!< wall-clock times
+  Quality quality{};            //!< of the weights
 };
 
 }  // namespace flbc

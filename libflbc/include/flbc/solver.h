@@ -6,19 +6,23 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
+#include "flbc/solver_state.h"
 
 namespace flbc {
 
 //! Coordinates at the vertices of the domain mesh.
 struct Solution {
   WeightMatrix weights;  //!< n x V
-  SolveReport report;
+  SolveReport report;    //!< how it went
 };
 
 //! Solves a problem; several calls with different options may share it.
+//! \param storage  where the iteration's state lives, to be kept or to go on from; null for memory
+//! that is freed at the end
 //! \throws OptionError, SolverError
 template <int Dim>
-Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {});
+Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
+               StateStorage* storage = nullptr);
 
 //! One call from cage and mesh to coordinates. \throws InputError, OptionError, SolverError
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "barycentric_constraints.h"
 #include "cell_geometry.h"
 #include "parallel.h"
+#include "state_memory.h"
 
 namespace flbc::gradient {
 namespace {
@@ -34,7 +35,8 @@ Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem
 
 template <class Scalar, int Dim>
 GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double penalty,
-                                        double relaxation, const std::vector<Period<Dim>>& periods)
+                                        double relaxation, const std::vector<Period<Dim>>& periods,
+                                        StateStorage* storage)
     : problem_(problem),
       kernel_(select_kernel<Scalar, Dim>()),
       n_(problem.num_control_points()),
@@ -45,15 +47,18 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
       copies_(Dim + 2 + static_cast<double>(periods.size())) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto facets = static_cast<std::size_t>(problem.topology.num_facets());
-  gradient_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  extrapolated_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  tv_dual_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  facet_dual_ = AlignedArray<Scalar>(facets * (Dim - 1) * stride_);
+  const auto state = [&](StateArray array, std::size_t elements, std::size_t components) {
+    return state_array<Scalar>(storage, array, elements, components, stride_);
+  };
+  gradient_ = state(StateArray::kGradient, cells, Dim);
+  extrapolated_ = state(StateArray::kExtrapolatedGradient, cells, Dim);
+  tv_dual_ = state(StateArray::kTvDual, cells, Dim);
+  facet_dual_ = state(StateArray::kIntegrabilityDual, facets, Dim - 1);
   set_up_facets(problem);
   set_up_boundary_slopes(problem);
   set_up_constraints(problem);
   set_up_radii(problem);
-  set_up_periods(periods);
+  set_up_periods(periods, storage);
 }
 
 template <class Scalar, int Dim>
@@ -126,8 +131,12 @@ void GradientAdmm<Scalar, Dim>::set_up_radii(const LbcProblem<Dim>& problem) {
 }
 
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_periods(const std::vector<Period<Dim>>& periods) {
-  period_dual_ = AlignedArray<Scalar>(periods.size() * stride_);
+void GradientAdmm<Scalar, Dim>::set_up_periods(const std::vector<Period<Dim>>& periods,
+                                               StateStorage* storage) {
+  if (!periods.empty()) {
+    period_dual_ =
+        state_array<Scalar>(storage, StateArray::kPeriodDual, 1, periods.size(), stride_);
+  }
   period_values_ = AlignedArray<double>(periods.size() * stride_);
   for (std::size_t p = 0; p < periods.size(); ++p) {
     for (const double number : periods[p].field.reshaped()) {

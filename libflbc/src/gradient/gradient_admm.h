@@ -8,6 +8,7 @@
 #include "aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/recovery.h"
+#include "flbc/solver_state.h"
 #include "gradient/boundary_periods.h"
 #include "gradient/gradient_kernel.h"
 
@@ -33,8 +34,10 @@ class GradientAdmm {
   //! \param relaxation  in (0, 2), 1 for the paper's iteration
   //! \param periods  what joins the components of the boundary; empty leaves them apart, as the
   //! paper
+  //! \param storage  where the state lives, from which to go on if its penalty() > 0; null for
+  //! memory of its own
   GradientAdmm(const LbcProblem<Dim>& problem, double penalty, double relaxation,
-               const std::vector<Period<Dim>>& periods);
+               const std::vector<Period<Dim>>& periods, StateStorage* storage = nullptr);
 
   //! Starts from the least-norm solution of (8), duals zero.
   void start_from_least_norm();
@@ -66,7 +69,7 @@ class GradientAdmm {
   void set_up_boundary_slopes(const LbcProblem<Dim>& problem);
   void set_up_constraints(const LbcProblem<Dim>& problem);
   void set_up_radii(const LbcProblem<Dim>& problem);
-  void set_up_periods(const std::vector<Period<Dim>>& periods);
+  void set_up_periods(const std::vector<Period<Dim>>& periods, StateStorage* storage);
   double update_periods();
   Arrays<Scalar, Dim> arrays();
 

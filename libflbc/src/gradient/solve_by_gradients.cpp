@@ -34,11 +34,14 @@ void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& opt
 }
 
 template <class Scalar, int Dim>
-Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report) {
+Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+              StateStorage* storage) {
   Stopwatch watch;
   auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
-      problem, options.penalty, options.relaxation, gradient::boundary_periods(problem));
-  if (options.method == Method::kPaper) {
+      problem, options.penalty, options.relaxation, gradient::boundary_periods(problem), storage);
+  if (storage != nullptr && storage->penalty() > 0) {
+    // goes on from what is there
+  } else if (options.method == Method::kPaper) {
     admm->start_from_least_norm();
   } else {
     admm->start_from_weights(harmonic_coordinates(problem));
@@ -46,6 +49,7 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
   iterate(*admm, options, report);
   report.numbers_per_cell = admm->numbers_per_cell();
   report.penalty = options.penalty;
+  if (storage != nullptr) storage->keep_penalty(options.penalty);
   report.seconds.solve = watch.lap();
   Outcome outcome;
   outcome.weights = options.recovery == Recovery::kBreadthFirst
@@ -62,12 +66,14 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
 
 template <int Dim>
 Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report) {
-  return options.precision == Precision::kSingle ? solve<float>(problem, options, report)
-                                                 : solve<double>(problem, options, report);
+                           SolveReport& report, StateStorage* storage) {
+  return options.precision == Precision::kSingle ? solve<float>(problem, options, report, storage)
+                                                 : solve<double>(problem, options, report, storage);
 }
 
-template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&);
-template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&);
+template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*);
+template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*);
 
 }  // namespace flbc

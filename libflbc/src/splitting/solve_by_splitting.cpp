@@ -69,12 +69,11 @@ class ErrorEstimate {
 };
 
 template <class Scalar, int Dim>
-void iterate_value(Splitting<Scalar, Dim>& splitting, const SolverOptions& options,
+void iterate_value(Splitting<Scalar, Dim>& splitting, const SolverOptions& options, bool adaptive,
                    double num_weights, SolveReport& report) {
   constexpr double kBalance = 0.3;
   constexpr int kFewest = 8;
   ErrorEstimate estimate;
-  const bool adaptive = options.penalty == 0;
   for (int iteration = 1;; ++iteration) {
     const double change = splitting.iterate().change / num_weights;
     report.iterations = iteration;
@@ -137,7 +136,8 @@ void iterate_2014(Splitting<Scalar, Dim>& splitting, const SolverOptions& option
 // -------------------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
-Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report) {
+Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+              StateStorage* storage) {
   Stopwatch watch;
   const bool value = options.method == Method::kValue;
   const bool non_negative = options.non_negative == NonNegative::kConstraint;
@@ -145,21 +145,31 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
                             : metric_2014(problem, non_negative, options.penalty > 0 ? 1 : 0);
   // A fortieth of the cage's size suits kValue everywhere, roughly; adapt_penalty() does the rest.
   const double first = value ? size_of(problem.cage.points) / 40 : penalty_2014(problem, metric);
-  auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
-      problem, metric, options.penalty > 0 ? options.penalty : first, options.relaxation);
-  if (value) {
+  const bool resumed = storage != nullptr && storage->penalty() > 0;
+  const double penalty = resumed               ? storage->penalty()
+                         : options.penalty > 0 ? options.penalty
+                                               : first;
+  auto splitting = std::make_shared<Splitting<Scalar, Dim>>(problem, metric, penalty,
+                                                            options.relaxation, storage);
+  if (resumed) {
+    splitting->resume();
+  } else if (value) {
     constexpr int kRichardsonSteps = 8;
     splitting->start_from_harmonic(kRichardsonSteps);
-    const double interior =
-        problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
-    iterate_value(*splitting, options, std::max(1.0, interior) * problem.num_control_points(),
-                  report);
   } else {
     splitting->start_from_weights(harmonic_coordinates(problem));
+  }
+  if (value) {
+    const double interior =
+        problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
+    iterate_value(*splitting, options, options.penalty == 0 && !resumed,
+                  std::max(1.0, interior) * problem.num_control_points(), report);
+  } else {
     iterate_2014(*splitting, options, report);
   }
   report.numbers_per_cell = splitting->numbers_per_cell();
   report.penalty = splitting->penalty();
+  if (storage != nullptr) storage->keep_penalty(report.penalty);
   report.seconds.solve = watch.lap();
   Outcome outcome;
   outcome.weights = splitting->weights();
@@ -173,12 +183,14 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
 
 template <int Dim>
 Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report) {
-  return options.precision == Precision::kSingle ? solve<float>(problem, options, report)
-                                                 : solve<double>(problem, options, report);
+                           SolveReport& report, StateStorage* storage) {
+  return options.precision == Precision::kSingle ? solve<float>(problem, options, report, storage)
+                                                 : solve<double>(problem, options, report, storage);
 }
 
-template Outcome solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&);
-template Outcome solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&);
+template Outcome solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*);
+template Outcome solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*);
 
 }  // namespace flbc

@@ -129,9 +129,9 @@ template <class Scalar, int Dim, bool Measured, int Lanes>
 inline void update_vertex(const Arrays<Scalar, Dim>& arrays, std::size_t row, std::size_t i) {
   using Numbers = PackN<Scalar, Lanes>;
   const Scalar metric = arrays.vertex_metric[row];
-  Scalar* state = arrays.vertex_state + row * arrays.stride + i;
-  const Numbers w =
-      load_pack<Lanes>(arrays.weights + std::size_t(arrays.vertices[row]) * arrays.stride + i);
+  const std::size_t vertex = std::size_t(arrays.vertices[row]) * arrays.stride + i;
+  Scalar* state = arrays.vertex_state + vertex;
+  const Numbers w = load_pack<Lanes>(arrays.weights + vertex);
   Numbers q = load_pack<Lanes>(state);
   const Numbers reflected = Scalar(2) * w - q;
   const Numbers step = (reflected > Numbers{} ? reflected : Numbers{}) - w;
@@ -321,8 +321,9 @@ void rescale_duals(const Arrays<Scalar, Dim>& arrays, Columns columns, Scalar fa
   }
   if (arrays.vertex_state == nullptr) return;
   for (std::size_t row = 0; row < arrays.num_interior; ++row) {
-    const Scalar* weights = arrays.weights + std::size_t(arrays.vertices[row]) * arrays.stride;
-    Scalar* state = arrays.vertex_state + row * arrays.stride;
+    const std::size_t vertex = std::size_t(arrays.vertices[row]) * arrays.stride;
+    const Scalar* weights = arrays.weights + vertex;
+    Scalar* state = arrays.vertex_state + vertex;
     for (std::size_t i = columns.begin; i < columns.end; i += kRowLanes) {
       const Numbers w = load_pack<kRowLanes>(weights + i);
       store_pack<kRowLanes>(state + i, w - factor * (w - load_pack<kRowLanes>(state + i)));

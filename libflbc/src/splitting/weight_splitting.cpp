@@ -11,6 +11,7 @@
 #include "flush_denormals.h"
 #include "pack.h"
 #include "parallel.h"
+#include "state_memory.h"
 
 namespace flbc::splitting {
 namespace {
@@ -48,7 +49,8 @@ Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const 
 
 template <class Scalar, int Dim>
 WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Metric metric,
-                                              double penalty, double relaxation)
+                                              double penalty, double relaxation,
+                                              StateStorage* storage)
     : problem_(problem),
       kernel_(select_kernel<Scalar, Dim>()),
       n_(problem.num_control_points()),
@@ -58,18 +60,19 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
       relaxation_(relaxation),
       cholesky_(system_matrix(problem, metric_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
-  weights_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_);
-  cell_state_ = AlignedArray<Scalar>(cells * Dim * stride_);
+  const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
+  weights_ = state_array<Scalar>(storage, StateArray::kIterate, vertices, 1, stride_);
+  cell_state_ = state_array<Scalar>(storage, StateArray::kSplittingState, cells, Dim, stride_);
   violation_ = AlignedArray<double>(stride_);
   violation_sum_ = AlignedArray<Scalar>(stride_);
-  set_up_rows();
+  set_up_rows(storage);
   set_up_cells();
   set_up_constraints();
   set_radius_scale();
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::set_up_rows() {
+void WeightSplitting<Scalar, Dim>::set_up_rows(StateStorage* storage) {
   const Index boundary_row = cholesky_.size();
   std::vector<Index> row_of(problem_.mesh.num_vertices(), boundary_row);
   vertices_.resize(boundary_row);
@@ -85,7 +88,9 @@ void WeightSplitting<Scalar, Dim>::set_up_rows() {
   }
   residual_ = AlignedArray<Scalar>((vertices_.size() + 1) * stride_);
   if (metric_.vertex.size() == 0) return;
-  vertex_state_ = AlignedArray<Scalar>(vertices_.size() * stride_);
+  vertex_state_ =
+      state_array<Scalar>(storage, StateArray::kNonNegativityDual,
+                          static_cast<std::size_t>(problem_.mesh.num_vertices()), 1, stride_);
   for (const Index v : vertices_) {
     vertex_metric_.push_back(static_cast<Scalar>(metric_.vertex[v]));
   }
@@ -209,22 +214,25 @@ void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weight
   for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
     for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
   }
-  if (vertex_state_.size() > 0) {
-    for (std::size_t row = 0; row < vertices_.size(); ++row) {
-      std::copy_n(weights_.data() + vertices_[row] * stride_, stride_,
-                  vertex_state_.data() + row * stride_);
-    }
-  }
+  std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
   std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
+  remember_start();
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::remember_start() {
   start_ = AlignedArray<Scalar>(weights_.size());
   std::copy_n(weights_.data(), weights_.size(), start_.data());
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
-  // The first step from zero is much the longest; later ones only make up for the vertex metric.
-  constexpr double kSmallChange = 1e-9;
-  std::fill_n(weights_.data(), weights_.size(), Scalar(0));
+void WeightSplitting<Scalar, Dim>::resume() {
+  set_boundary_weights();
+  remember_start();
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::set_boundary_weights() {
   Eigen::VectorXd row(n_);
   for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
     row.setZero();
@@ -232,6 +240,14 @@ void WeightSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
     Scalar* weights = weights_.data() + problem_.boundary.vertices[b] * stride_;
     for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(row[i]);
   }
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
+  // The first step from zero is much the longest; later ones only make up for the vertex metric.
+  constexpr double kSmallChange = 1e-9;
+  std::fill_n(weights_.data(), weights_.size(), Scalar(0));
+  set_boundary_weights();
   const double numbers = static_cast<double>(vertices_.size()) * n_;
   for (int step = 0; step < steps; ++step) {
     if (run(kernel_.harmonic_residual) <= kSmallChange * numbers) break;

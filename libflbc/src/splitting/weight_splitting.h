@@ -9,6 +9,7 @@
 #include "aligned_array.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/solver_state.h"
 #include "linear/panel_cholesky.h"
 #include "splitting/splitting_kernel.h"
 
@@ -47,8 +48,13 @@ struct Residuals {
 template <class Scalar, int Dim>
 class WeightSplitting {
  public:
-  //! \param penalty  rho > 0 \param relaxation  alpha in (0, 2)
-  WeightSplitting(const LbcProblem<Dim>& problem, Metric metric, double penalty, double relaxation);
+  //! \param penalty  rho > 0 \param relaxation  alpha in (0, 2) \param storage  where the state
+  //! lives, null for memory of its own
+  WeightSplitting(const LbcProblem<Dim>& problem, Metric metric, double penalty, double relaxation,
+                  StateStorage* storage = nullptr);
+
+  //! Goes on from the state that the storage holds.
+  void resume();
 
   //! Starts from weights n x V, duals zero where the weights are harmonic.
   void start_from_weights(const WeightMatrix& weights);
@@ -80,10 +86,12 @@ class WeightSplitting {
   double numbers_per_cell() const;
 
  private:
-  void set_up_rows();
+  void set_up_rows(StateStorage* storage);
   void set_up_cells();
   void set_up_constraints();
   void set_radius_scale();
+  void set_boundary_weights();
+  void remember_start();
   Arrays<Scalar, Dim> arrays();
   template <class Body>
   void for_slices(const Body& body);

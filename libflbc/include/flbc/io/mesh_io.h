@@ -12,7 +12,7 @@ namespace flbc::io {
 
 //! A named scalar per vertex, for formats that carry fields.
 struct VertexField {
-  std::string name;
+  std::string name;        //!< as viewers show it
   Eigen::VectorXd values;  //!< V
 };
 

@@ -13,9 +13,10 @@ namespace flbc::io {
 
 //! A file's points, polylines and polygons as they stand, indices from 0.
 struct PolygonSoup {
-  std::vector<Vector<3>> points;
-  std::vector<std::vector<Index>> polygons;
-  std::vector<std::vector<Index>> polylines;
+  std::vector<Vector<3>> points;             //!< missing third coordinates are 0
+  std::vector<std::vector<Index>> polygons;  //!< vertices in order, the first not repeated
+  std::vector<std::vector<Index>>
+      polylines;  //!< vertices in order; closed if the last is the first
 };
 
 //! Reads `v`, `f` and `l` lines (negative indices and v/vt/vn triples included) and ignores the

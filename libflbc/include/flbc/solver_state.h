@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The memory of an iteration, for callers who want to hold it themselves: as properties of a mesh,
+//! or to resume.
+#pragma once
+
+#include <cstddef>
+
+#include "flbc/options.h"
+
+namespace flbc {
+
+//! What the iterations keep between two steps.
+enum class StateArray {
+  kIterate,               //!< w, on vertices (kValue, kLbc2014)
+  kNonNegativityDual,     //!< u + dual of u = w, u >= 0, on vertices (the same)
+  kSplittingState,        //!< z + dual of z = grad w, on cells (the same)
+  kGradient,              //!< g, on cells (kGradient, kPaper)
+  kExtrapolatedGradient,  //!< 2 g - g before, on cells (the same)
+  kTvDual,                //!< dual of Z = G, on cells (the same)
+  kIntegrabilityDual,     //!< duals of X = G S_X and Y = G S_Y, on facets (the same)
+  kPeriodDual             //!< duals of the period constraints, one element for the mesh (the same)
+};
+
+//! Shape of one array: element-major, then `components` rows of `stride` numbers, of which the
+//! first n, one per control point, count and the others stay zero.
+struct StateShape {
+  StateArray array;
+  std::size_t elements;
+  std::size_t components;
+  std::size_t stride;
+  Precision precision;  //!< float or double
+};
+
+//! Provides the memory. The iteration works on it in place, so it must not move during a solve.
+class StateStorage {
+ public:
+  virtual ~StateStorage() = default;
+
+  //! \return memory for the array, aligned to 64 bytes; what an earlier run left there if
+  //! penalty() > 0, else anything
+  virtual void* allocate(const StateShape& shape) = 0;
+
+  //! Penalty of the run that left what is there, from which to go on; 0 = start afresh.
+  virtual double penalty() const = 0;
+
+  //! Called at the end with the penalty used last.
+  virtual void keep_penalty(double penalty) = 0;
+};
+
+}  // namespace flbc
