@@ -3,7 +3,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build
+  g++ cmake ninja-build pkg-config
   libeigen3-dev libsuitesparse-dev        # core
   libopenmesh-dev libcgal-dev libtet1.5-dev  # optional components
   libcli11-dev nlohmann-json3-dev libpng-dev # the program flbc

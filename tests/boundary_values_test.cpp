@@ -59,6 +59,35 @@ TYPED_TEST(BoundaryValuesTest, PointsOnCageEdgesHaveExactZerosElsewhere) {
   EXPECT_EQ(on_edges, kDim == 2 ? 8 : 24);
 }
 
+// What single precision does to coordinates is made good, what is farther away is not touched.
+TYPED_TEST(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto topology = build_topology(sample.mesh);
+    auto rounded = sample.mesh;
+    rounded.points = sample.mesh.points.template cast<float>().template cast<double>();
+    snap_to_cage(sample.cage, topology, 1e-6, rounded);
+    const auto boundary = boundary_values(sample.cage, rounded, topology);
+    const auto expected = demanded_boundary_weights(sample.cage, sample.mesh);
+    for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(sample.cage.size());
+      boundary.scatter(static_cast<Index>(b), row);
+      EXPECT_LT((row - expected.col(boundary.vertices[b])).cwiseAbs().maxCoeff(), 1e-5);
+      const Vector<kDim> reproduced = sample.cage.points * row;
+      EXPECT_LT((reproduced - rounded.points.col(boundary.vertices[b])).norm(), 1e-13);
+    }
+    auto exact = sample.mesh;
+    snap_to_cage(sample.cage, topology, 1e-6, exact);
+    EXPECT_LT((exact.points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-14);
+    auto far = sample.mesh;
+    far.points *= 1.01;
+    const PointList<kDim> before = far.points;
+    snap_to_cage(sample.cage, topology, 1e-6, far);
+    EXPECT_LT((far.points - before).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
 TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kBox, 2);

@@ -37,4 +37,12 @@ template <int Dim>
 BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                     const MeshTopology<Dim>& topology);
 
+//! Moves boundary vertices that lie a little beside the cage onto it, as they do where a mesh was
+//! stored in single precision or as text with few digits: first onto control points, then onto
+//! facets. Vertices within 1e-12 of the cage's size stay.
+//! \param tolerance  how far, relative to the cage's size, a vertex is moved at most
+template <int Dim>
+void snap_to_cage(const Cage<Dim>& cage, const MeshTopology<Dim>& topology, double tolerance,
+                  DomainMesh<Dim>& mesh);
+
 }  // namespace flbc

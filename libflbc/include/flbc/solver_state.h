@@ -25,11 +25,11 @@ enum class StateArray {
 //! Shape of one array: element-major, then `components` rows of `stride` numbers, of which the
 //! first n, one per control point, count and the others stay zero.
 struct StateShape {
-  StateArray array;
-  std::size_t elements;
-  std::size_t components;
-  std::size_t stride;
-  Precision precision;  //!< float or double
+  StateArray array;        //!< which one
+  std::size_t elements;    //!< number of vertices, cells or facets, 1 for the mesh
+  std::size_t components;  //!< rows per element
+  std::size_t stride;      //!< numbers per row, >= n
+  Precision precision;     //!< float or double
 };
 
 //! Provides the memory. The iteration works on it in place, so it must not move during a solve.

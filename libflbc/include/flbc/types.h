@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The matrix orientation and the index type of the whole library: points are columns.
+//! Eigen's matrices cross the interface, and how Eigen allocates them depends on the instruction
+//! set and on AddressSanitizer: give a program such flags (-march=native) only if the library was
+//! compiled with them too.
 #pragma once
 
 #include <cstdint>

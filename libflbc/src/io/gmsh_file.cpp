@@ -196,14 +196,7 @@ class GmshReader {
   std::vector<Vertices> cells_;
 };
 
-}  // namespace
-
-DomainMesh<3> read_gmsh(const std::string& path) {
-  return GmshReader(path).read();
-}
-
-void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh) {
-  TextWriter writer(out);
+void write_gmsh_2(TextWriter& writer, const DomainMesh<3>& mesh) {
   writer << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   writer << "$Nodes\n" << mesh.num_vertices() << "\n";
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
@@ -218,6 +211,46 @@ void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh) {
     write_cell(writer, mesh, s, 1);
   }
   writer << "$EndElements\n";
+}
+
+void write_gmsh_4(TextWriter& writer, const DomainMesh<3>& mesh) {
+  writer << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  // No points, curves and surfaces, but one volume, with tag 1 and the bounding box, to which all
+  // nodes and elements belong; each in one block.
+  writer << "$Entities\n0 0 0 1\n1";
+  if (mesh.num_vertices() > 0) {
+    for (const double x : mesh.points.rowwise().minCoeff().eval()) writer << " " << x;
+    for (const double x : mesh.points.rowwise().maxCoeff().eval()) writer << " " << x;
+  } else {
+    writer << " 0 0 0 0 0 0";
+  }
+  writer << " 0 0\n$EndEntities\n";
+  const Index num_nodes = mesh.num_vertices();
+  writer << "$Nodes\n1 " << num_nodes << " 1 " << num_nodes << "\n3 1 0 " << num_nodes << "\n";
+  for (Index v = 0; v < num_nodes; ++v) writer << v + std::int64_t{1} << "\n";
+  for (Index v = 0; v < num_nodes; ++v) {
+    write_point(writer, mesh, v);
+    writer << "\n";
+  }
+  const Index num_cells = mesh.num_cells();
+  writer << "$EndNodes\n$Elements\n1 " << num_cells << " 1 " << num_cells << "\n3 1 "
+         << kTetrahedron << " " << num_cells << "\n";
+  for (Index s = 0; s < num_cells; ++s) {
+    writer << s + std::int64_t{1};
+    write_cell(writer, mesh, s, 1);
+  }
+  writer << "$EndElements\n";
+}
+
+}  // namespace
+
+DomainMesh<3> read_gmsh(const std::string& path) {
+  return GmshReader(path).read();
+}
+
+void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh, GmshVersion version) {
+  TextWriter writer(out);
+  version == GmshVersion::k41 ? write_gmsh_4(writer, mesh) : write_gmsh_2(writer, mesh);
   writer.flush();
 }
 

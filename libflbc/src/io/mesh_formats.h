@@ -16,16 +16,24 @@
 namespace flbc::io {
 
 DomainMesh<3> read_medit(const std::string& path);
+
+//! The scalars per vertex in a .sol file of MEDIT's.
+std::vector<VertexField> read_medit_solution(const std::string& path, Index num_vertices);
+
 DomainMesh<3> read_gmsh(const std::string& path);
 
 //! \param path the .node or the .ele file; the other one lies beside it
 DomainMesh<3> read_tetgen(const std::string& path);
 
+//! \param fields  receives the scalars per vertex; null passes them over
+template <int Dim>
+DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fields);
+
 void write_medit(std::ostream& out, const DomainMesh<3>& mesh);
-void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh);
+void write_medit_solution(std::ostream& out, const std::vector<VertexField>& fields);
+void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh, GmshVersion version);
 void write_tetgen(const std::string& path, const DomainMesh<3>& mesh);
 
-//! \throws InputError if a field does not have a value per vertex
 template <int Dim>
 void write_vtu(std::ostream& out, const DomainMesh<Dim>& mesh,
                const std::vector<VertexField>& fields);

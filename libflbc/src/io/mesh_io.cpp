@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/mesh_io.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <ostream>
+#include <set>
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -55,26 +58,39 @@ PolygonSoup to_soup(const DomainMesh<2>& mesh) {
   return soup;
 }
 
+std::string solution_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".sol").string();
+}
+
+DomainMesh<3> read_medit_with(const std::string& path, std::vector<VertexField>* fields) {
+  auto mesh = read_medit(path);
+  const std::string solution = solution_path(path);
+  if (fields && std::filesystem::exists(solution)) {
+    *fields = read_medit_solution(solution, mesh.num_vertices());
+  }
+  return mesh;
+}
+
+// \param fields  may be null
 template <int Dim>
-DomainMesh<Dim> parse(const std::string& path) {
+DomainMesh<Dim> parse(const std::string& path, std::vector<VertexField>* fields) {
   const std::string extension = extension_of(path);
+  if (extension == "vtu") return read_vtu<Dim>(path, fields);
   if constexpr (Dim == 2) {
     if (extension == "obj") return from_soup(path, read_obj(path));
     if (extension == "off") return from_soup(path, read_off(path));
-    fail_extension<Dim>("read", path, ".obj or .off");
+    fail_extension<Dim>("read", path, ".obj, .off or .vtu");
   } else {
-    if (extension == "mesh") return read_medit(path);
+    if (extension == "mesh") return read_medit_with(path, fields);
     if (extension == "node" || extension == "ele") return read_tetgen(path);
     if (extension == "msh") return read_gmsh(path);
-    fail_extension<Dim>("read", path, ".mesh, .node, .ele or .msh");
+    fail_extension<Dim>("read", path, ".mesh, .node, .ele, .msh or .vtu");
   }
 }
 
-}  // namespace
-
 template <int Dim>
-DomainMesh<Dim> read_domain(const std::string& path) {
-  DomainMesh<Dim> mesh = parse<Dim>(path);
+DomainMesh<Dim> read_and_validate(const std::string& path, std::vector<VertexField>* fields) {
+  DomainMesh<Dim> mesh = parse<Dim>(path, fields);
   try {
     normalize_and_validate(mesh);
   } catch (const InputError& error) {
@@ -83,12 +99,62 @@ DomainMesh<Dim> read_domain(const std::string& path) {
   return mesh;
 }
 
+void check_fields(const std::string& path, const std::vector<VertexField>& fields,
+                  Index num_vertices) {
+  std::set<std::string> names;
+  for (const VertexField& field : fields) {
+    const auto fail = [&](const std::string& defect) {
+      throw InputError("cannot write \"" + path + "\": the field \"" + field.name + "\" " + defect);
+    };
+    if (field.values.size() != num_vertices) {
+      fail("has " + std::to_string(field.values.size()) + " values for " +
+           std::to_string(num_vertices) + " vertices");
+    }
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; };
+    if (field.name.empty() || std::any_of(field.name.begin(), field.name.end(), is_control)) {
+      fail("needs a name without control characters");
+    }
+    if (!names.insert(field.name).second) fail("occurs twice");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+DomainMesh<Dim> read_domain(const std::string& path) {
+  return read_and_validate<Dim>(path, nullptr);
+}
+
+template <int Dim>
+DomainMesh<Dim> read_domain(const std::string& path, std::vector<VertexField>& fields) {
+  std::vector<VertexField> read;
+  auto mesh = read_and_validate<Dim>(path, &read);
+  fields = std::move(read);
+  return mesh;
+}
+
 template <int Dim>
 void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
-                  const std::vector<VertexField>& fields) {
+                  const std::vector<VertexField>& fields, GmshVersion gmsh_version) {
   const std::string extension = extension_of(path);
+  check_fields(path, fields, mesh.num_vertices());
   if (extension == "vtu") {
     return write_file(path, [&](std::ostream& out) { write_vtu(out, mesh, fields); });
+  }
+  if constexpr (Dim == 3) {
+    if (extension == "mesh") {
+      // Neither of the two files appears if one of them cannot be written.
+      return write_file(path, [&](std::ostream& out) {
+        write_medit(out, mesh);
+        out.flush();
+        if (!out || fields.empty()) return;
+        write_file(solution_path(path),
+                   [&](std::ostream& solution) { write_medit_solution(solution, fields); });
+      });
+    }
+  }
+  if (!fields.empty()) {
+    fail_extension<Dim>("write fields with", path, Dim == 2 ? ".vtu" : ".vtu or .mesh");
   }
   if constexpr (Dim == 2) {
     if (extension == "obj") return write_obj(path, to_soup(mesh));
@@ -96,21 +162,20 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
     fail_extension<Dim>("write", path, ".obj, .off or .vtu");
   } else {
     if (extension == "node" || extension == "ele") return write_tetgen(path, mesh);
-    if (extension == "mesh") {
-      return write_file(path, [&](std::ostream& out) { write_medit(out, mesh); });
-    }
     if (extension == "msh") {
-      return write_file(path, [&](std::ostream& out) { write_gmsh(out, mesh); });
+      return write_file(path, [&](std::ostream& out) { write_gmsh(out, mesh, gmsh_version); });
     }
     fail_extension<Dim>("write", path, ".mesh, .node, .ele, .msh or .vtu");
   }
 }
 
-template DomainMesh<2> read_domain(const std::string&);
-template DomainMesh<3> read_domain(const std::string&);
-template void write_domain(const std::string&, const DomainMesh<2>&,
-                           const std::vector<VertexField>&);
-template void write_domain(const std::string&, const DomainMesh<3>&,
-                           const std::vector<VertexField>&);
+#define FLBC_INSTANTIATE(Dim)                                                          \
+  template DomainMesh<Dim> read_domain(const std::string&);                            \
+  template DomainMesh<Dim> read_domain(const std::string&, std::vector<VertexField>&); \
+  template void write_domain(const std::string&, const DomainMesh<Dim>&,               \
+                             const std::vector<VertexField>&, GmshVersion);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::io

@@ -58,8 +58,12 @@ std::string out_of_range_message(std::int64_t index, const char* things, std::in
          std::to_string(first + static_cast<std::int64_t>(count) - 1);
 }
 
-TextReader::TextReader(const std::string& path, std::string text, Syntax syntax)
-    : name_(path == "-" ? "standard input" : path), text_(std::move(text)), syntax_(syntax) {
+TextReader::TextReader(const std::string& path, std::string text, Syntax syntax,
+                       std::int64_t first_line)
+    : name_(path == "-" ? "standard input" : path),
+      text_(std::move(text)),
+      syntax_(syntax),
+      line_(first_line) {
   // Some editors mark UTF-8 with these three bytes.
   if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) position_ = 3;
 }

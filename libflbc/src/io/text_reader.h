@@ -21,8 +21,9 @@ class TextReader {
     bool continued_lines = false;  //!< a backslash at the end of a line joins the next line to it
   };
 
-  //! \param path the file's name for messages \param text the file's content
-  TextReader(const std::string& path, std::string text, Syntax syntax);
+  //! \param path the file's name for messages \param text the file's content, or a part of it
+  //! \param first_line in which the text begins
+  TextReader(const std::string& path, std::string text, Syntax syntax, std::int64_t first_line = 1);
 
   //! Moves to the next line that has a word. \return false at the end of the file
   bool next_line();
@@ -96,7 +97,7 @@ class TextReader {
   std::string text_;
   Syntax syntax_;
   std::size_t position_ = 0;
-  std::int64_t line_ = 1;
+  std::int64_t line_;
   bool started_ = false;
 };
 

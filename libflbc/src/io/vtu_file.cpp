@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's XML format for unstructured grids, as text.
+// Writes VTK's XML format for unstructured grids, as text.
 #include <ostream>
 
-#include "flbc/errors.h"
 #include "mesh_formats.h"
 
 namespace flbc::io {
@@ -89,11 +88,6 @@ void write_fields(TextWriter& writer, const std::vector<VertexField>& fields) {
 template <int Dim>
 void write_vtu(std::ostream& out, const DomainMesh<Dim>& mesh,
                const std::vector<VertexField>& fields) {
-  for (const VertexField& field : fields) {
-    if (field.values.size() == mesh.num_vertices()) continue;
-    throw InputError("the field \"" + field.name + "\" has " + std::to_string(field.values.size()) +
-                     " values for " + std::to_string(mesh.num_vertices()) + " vertices");
-  }
   TextWriter writer(out);
   writer << "<?xml version=\"1.0\"?>\n"
          << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

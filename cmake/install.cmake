@@ -1,0 +1,62 @@
+# What `cmake --install` puts where; included when all targets are known. Nothing that is installed
+# knows the prefix, so that a tree may be moved.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)
+
+# An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that a
+# distribution may put the components with copyleft licences into packages of their own.
+function(flbc_install_library target component)
+  if(NOT TARGET ${target})
+    return()
+  endif()
+  install(TARGETS ${target} EXPORT flbc_${component}
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT flbc_${component} NAMESPACE flbc:: FILE flbc-${component}.cmake
+    DESTINATION ${package_dir})
+endfunction()
+flbc_install_library(flbc core)
+flbc_install_library(flbc_cgal cgal)
+flbc_install_library(flbc_tetgen tetgen)
+flbc_install_library(flbc_openmesh openmesh)
+if(TARGET flbc_app)
+  install(TARGETS flbc_app)
+endif()
+
+# ---- headers -------------------------------------------------------------------------------------
+install(DIRECTORY libflbc/include/flbc $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+if(TARGET flbc_openmesh)
+  install(DIRECTORY openmesh_bindings DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN "*.h" PATTERN examples EXCLUDE)
+endif()
+
+# ---- the CMake package ---------------------------------------------------------------------------
+configure_package_config_file(cmake/flbcConfig.cmake.in flbcConfig.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(flbcConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/flbcConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/flbcConfigVersion.cmake
+  DESTINATION ${package_dir})
+install(FILES cmake/FindCHOLMOD.cmake cmake/FindTetGen.cmake DESTINATION ${package_dir}/modules)
+
+# ---- pkg-config ----------------------------------------------------------------------------------
+file(RELATIVE_PATH FLBC_PC_PREFIX
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" FLBC_PC_PREFIX ${FLBC_PC_PREFIX})
+file(RELATIVE_PATH FLBC_PC_LIBDIR ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH FLBC_PC_INCLUDEDIR ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+set(FLBC_PC_LIBS_PRIVATE ${OpenMP_CXX_FLAGS})
+if(FLBC_WITH_CHOLMOD)
+  find_package(CHOLMOD REQUIRED)
+  cmake_path(GET CHOLMOD_LIBRARY PARENT_PATH cholmod_dir)
+  if(NOT cholmod_dir IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
+    string(APPEND FLBC_PC_LIBS_PRIVATE " -L${cholmod_dir}")
+  endif()
+  string(APPEND FLBC_PC_LIBS_PRIVATE " -lcholmod")
+endif()
+configure_file(cmake/flbc.pc.in flbc.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,11 @@
+# What the whole repository and libflbc/ alone, as somebody's sub-directory, have in common.
+include_guard(DIRECTORY)
+include(${CMAKE_CURRENT_LIST_DIR}/version.cmake)
+
+option(FLBC_WITH_CGAL "2D meshing and self-intersection checks with CGAL (GPL-3)" ON)
+option(FLBC_WITH_TETGEN "3D meshing with TetGen (AGPL-3)" ON)
+option(FLBC_WITH_CHOLMOD "Factor with CHOLMOD (LGPL-2.1 / GPL-2) instead of Eigen" ON)
+
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+set(CMAKE_CXX_EXTENSIONS OFF)
+include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)

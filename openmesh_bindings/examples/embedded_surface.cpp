@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A cage made into a TetMesh with the model's vertices as mesh vertices: weights without
+// interpolation, as properties, and the model deformed by them.
+//   embedded_surface CAGE.obj MODEL.obj OUT.off
+#include <iostream>
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include <flbc/io/cage_io.h>
+#include <flbc/meshing.h>
+#include <openmesh_bindings/lbc.h>
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+};
+using Model = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
+
+int main(int argc, char** argv) try {
+  if (argc != 4) {
+    std::cerr << "usage: embedded_surface CAGE.obj MODEL.obj OUT.off\n";
+    return 1;
+  }
+  const auto cage =
+      std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_obj(argv[1]), argv[1]));
+  Model model;
+  if (!OpenMesh::IO::read_mesh(model, argv[2])) return 4;
+
+  flbc::MeshingOptions<3> meshing;  // as few vertices as cells of good shape take
+  meshing.embedded_points.resize(3, model.n_vertices());
+  for (const auto v : model.vertices()) {
+    meshing.embedded_points.col(v.idx()) << model.point(v)[0], model.point(v)[1], model.point(v)[2];
+  }
+  auto mesh = flbc::openmesh::TetMesh::from(flbc::tetrahedralize(cage, meshing));
+  const auto report = flbc::solve(mesh, cage);
+
+  // The mesher puts control points first, then the embedded ones.
+  const auto weights = flbc::openmesh::get_weights(mesh);
+  flbc::openmesh::set_weights(model,
+                              weights.middleCols(cage.size(), meshing.embedded_points.cols()));
+
+  auto pose = cage;
+  pose.points.row(2) *= 1.5;
+  flbc::openmesh::deform(model, pose);
+  std::cout << mesh.n_cells() << " tetrahedra, " << mesh.n_faces() << " faces, "
+            << report.iterations << " iterations, smallest weight " << report.quality.min_weight
+            << '\n';
+  return OpenMesh::IO::write_mesh(model, argv[3]) ? 0 : 4;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}

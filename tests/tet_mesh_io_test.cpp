@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "openmesh_bindings/tet_mesh_io.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "flbc/errors.h"
+#include "support/io_files.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::openmesh {
+namespace {
+
+using flbc::testing::bit_equal;
+using flbc::testing::expect_error;
+using flbc::testing::FolderTest;
+using Names = std::vector<std::string>;
+
+class TetMeshFile : public FolderTest {
+ protected:
+  // Coordinates with all their digits.
+  static TetMesh awkward_mesh() {
+    auto mesh = flbc::testing::samples<3>().front().mesh;
+    for (Index v = 0; v < mesh.num_vertices(); ++v) {
+      mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<3>::Constant(1e-9 * v);
+    }
+    return TetMesh::from(mesh);
+  }
+
+  static std::vector<io::VertexField> fields_of(const TetMesh& mesh) {
+    Eigen::VectorXd values = mesh.domain().points.row(0).transpose() / 7.0;
+    const auto awkward = flbc::testing::awkward_numbers();
+    for (std::size_t k = 0; k < awkward.size(); ++k) values[static_cast<Index>(k)] = awkward[k];
+    return {{"weight 0", values}, {"<b> & \"c\" \\ # d ", -values}, {"\xc3\xa9", values / 3e9}};
+  }
+
+  static void expect_equal(const TetMesh& a, const TetMesh& b) {
+    EXPECT_TRUE(bit_equal(a.domain().points, b.domain().points));
+    EXPECT_EQ(a.domain().cells, b.domain().cells);
+    EXPECT_EQ(a.n_faces(), b.n_faces());
+  }
+
+  static void expect_equal(const std::vector<io::VertexField>& a,
+                           const std::vector<io::VertexField>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].name, b[k].name);
+      EXPECT_TRUE(bit_equal(a[k].values, b[k].values)) << a[k].name;
+    }
+  }
+
+  void expect_reference_tetrahedron(const std::string& name, const std::string& content) const {
+    SCOPED_TRACE(name);
+    const auto mesh = read_tet_mesh(make(name, content));
+    ASSERT_EQ(mesh.n_vertices(), 4u);
+    ASSERT_EQ(mesh.n_cells(), 1u);
+    EXPECT_EQ(mesh.n_faces(), 4u);
+    Eigen::Matrix<double, 3, 4> expected;
+    expected << Vector<3>::Zero(), Eigen::Matrix3d::Identity();
+    EXPECT_TRUE(bit_equal(mesh.domain().points, expected));
+  }
+};
+
+TEST_F(TetMeshFile, EveryFormatIsBitEqual) {
+  const TetMesh mesh = awkward_mesh();
+  for (const char* name : {"a.mesh", "a.node", "a.ele", "a.msh", "a.vtu", "B.VTU"}) {
+    SCOPED_TRACE(name);
+    write_tet_mesh(path(name), mesh);
+    expect_equal(read_tet_mesh(path(name)), mesh);
+  }
+}
+
+TEST_F(TetMeshFile, BothVersionsOfGmsh) {
+  const TetMesh mesh = awkward_mesh();
+  write_tet_mesh(path("2.msh"), mesh, {}, io::GmshVersion::k22);
+  write_tet_mesh(path("4.msh"), mesh, {}, io::GmshVersion::k41);
+  EXPECT_EQ(content("2.msh").substr(0, 16), "$MeshFormat\n2.2 ");
+  EXPECT_EQ(content("4.msh").substr(0, 16), "$MeshFormat\n4.1 ");
+  expect_equal(read_tet_mesh(path("2.msh")), mesh);
+  expect_equal(read_tet_mesh(path("4.msh")), mesh);
+}
+
+TEST_F(TetMeshFile, Gmsh4DescribesItsVolume) {
+  const auto box = flbc::testing::make_sample<3>(flbc::testing::Shape::kBox, 2).mesh;
+  write_tet_mesh(path("d.msh"), TetMesh::from(box), {}, io::GmshVersion::k41);
+  std::istringstream file(content("d.msh"));
+  std::string line;
+  while (line != "$Entities") ASSERT_TRUE(std::getline(file, line));
+  int points = -1, curves = -1, surfaces = -1, volumes = -1, tag = -1, groups = -1, faces = -1;
+  Vector<3> low, high;
+  file >> points >> curves >> surfaces >> volumes >> tag;
+  for (double& x : low) file >> x;
+  for (double& x : high) file >> x;
+  file >> groups >> faces >> line;
+  EXPECT_EQ(std::vector<int>({points, curves, surfaces, volumes, tag, groups, faces}),
+            std::vector<int>({0, 0, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(low, box.points.rowwise().minCoeff());
+  EXPECT_EQ(high, box.points.rowwise().maxCoeff());
+  EXPECT_EQ(line, "$EndEntities");
+}
+
+TEST_F(TetMeshFile, FieldsTravelAlong) {
+  const TetMesh mesh = awkward_mesh();
+  const auto fields = fields_of(mesh);
+  for (const char* name : {"a.vtu", "b.mesh"}) {
+    SCOPED_TRACE(name);
+    write_tet_mesh(path(name), mesh, fields);
+    std::vector<io::VertexField> read = {{"old", {}}};
+    expect_equal(read_tet_mesh(path(name), read), mesh);
+    expect_equal(read, fields);
+    expect_equal(read_tet_mesh(path(name)), mesh);
+  }
+  EXPECT_EQ(names(), (Names{"a.vtu", "b.mesh", "b.sol"}));
+  std::vector<io::VertexField> read = fields;
+  write_tet_mesh(path("c.mesh"), mesh);
+  read_tet_mesh(path("c.mesh"), read);
+  EXPECT_TRUE(read.empty());
+  EXPECT_EQ(names(), (Names{"a.vtu", "b.mesh", "b.sol", "c.mesh"}));
+}
+
+TEST_F(TetMeshFile, SolutionsOfOthers) {
+  write_tet_mesh(path("d.mesh"), TetMesh::from({Eigen::Matrix<double, 3, 4>::Identity().eval(),
+                                                CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
+  make("d.sol",
+       "MeshVersionFormatted\n2\n\nDimension\n3\n# by hand\nSolAtTetrahedra 1 1 1 5\n"
+       "SolAtVertices\n4\n2 1 1\n1 2 3\n4 5 6 7 8\n\nEnd\n");
+  std::vector<io::VertexField> fields;
+  read_tet_mesh(path("d.mesh"), fields);
+  expect_equal(fields, {{"solution 0", Eigen::Vector4d(1, 3, 5, 7)},
+                        {"solution 1", Eigen::Vector4d(2, 4, 6, 8)}});
+}
+
+TEST_F(TetMeshFile, MalformedSolutions) {
+  write_tet_mesh(path("d.mesh"), TetMesh::from({Eigen::Matrix<double, 3, 4>::Identity().eval(),
+                                                CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
+  struct Malformed {
+    std::string content, place, message;
+  };
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+  const std::vector<Malformed> cases = {
+      {"", ":1: ", "MeshVersionFormatted"},
+      {head, ":2: ", "no section SolAtVertices"},
+      {"MeshVersionFormatted 2\nDimension 2\n", ":2: ", "the dimension is 2"},
+      {head + "SolAtVertices\n5\n1 1\n1 2 3 4 5\n", ":4: ", "values for 5 vertices"},
+      {head + "SolAtVertices\n4\n1 2\n1 2 3 4 5 6 7 8 9 10 11 12\n", ":5: ", "only scalars"},
+      {head + "SolAtVertices\n4\n1 1\n1 2 3       \n", ":6: ", "after 3 of 4"},
+      {head + "SolAtVertices\n4\n1 1\n1 2 nan 4\n", ":6: ", "expected a finite number"},
+      {head + "SolAtVertices\n4\n2000000000 1 1 1 1 1 1 1\n", ":5: ", "too short"},
+      {head + "SolAtVertices\n-1\n", ":4: ", ""},
+      {head + "7\n", ":3: ", "expected a keyword"}};
+  for (const Malformed& malformed : cases) {
+    SCOPED_TRACE(malformed.content);
+    make("d.sol", malformed.content);
+    std::vector<io::VertexField> fields = {{"old", {}}};
+    expect_error<InputError>([&] { read_tet_mesh(path("d.mesh"), fields); },
+                             {path("d.sol") + malformed.place, malformed.message});
+    EXPECT_EQ(fields.size(), 1u);
+    EXPECT_EQ(read_tet_mesh(path("d.mesh")).n_cells(), 1u);  // who asks for no fields needs none
+  }
+}
+
+TEST_F(TetMeshFile, MeditWritesBothFilesOrNone) {
+  const TetMesh mesh = awkward_mesh();
+  std::filesystem::create_directory(path("d.sol"));
+  expect_error<IoError>([&] { write_tet_mesh(path("d.mesh"), mesh, fields_of(mesh)); },
+                        {path("d.sol"), "Is a directory"});
+  EXPECT_EQ(names(), Names{"d.sol"});
+}
+
+// The parts of a .vtu file with the reference tetrahedron.
+std::string vtu(const std::string& points, const std::string& cells, const std::string& rest = {}) {
+  return "<VTKFile type=\"UnstructuredGrid\">\n<UnstructuredGrid>\n"
+         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<Points>\n" +
+         points + "</Points>\n<Cells>\n" + cells + "</Cells>\n" + rest +
+         "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+const std::string kPoints =
+    "<DataArray Name=\"P\" format=\"ascii\">0 0 0 1 0 0\n0 1 0 0 0 1</DataArray>\n";
+const std::string kCells =
+    "<DataArray Name=\"connectivity\">0 1 2 3</DataArray>\n"
+    "<DataArray Name=\"offsets\">4</DataArray>\n<DataArray Name=\"types\">10</DataArray>\n";
+
+TEST_F(TetMeshFile, VtuVariants) {
+  expect_reference_tetrahedron("plain.vtu", vtu(kPoints, kCells));
+  // Another order, other quotes, comments, cells of the boundary, arrays that are no business here.
+  expect_reference_tetrahedron(
+      "other.vtu",
+      "<?xml version='1.0'?>\n<!DOCTYPE x>\n<!-- <VTKFile> -->\n"
+      "<VTKFile type = 'UnstructuredGrid' note='a > b'>\n<UnstructuredGrid>\n"
+      "<FieldData><DataArray format='binary'>AAAA</DataArray></FieldData>\r\n"
+      "<Piece NumberOfCells=' 3 ' NumberOfPoints='4'>\r\n"
+      "<CellData><DataArray Name='c' format='binary'>AAAA</DataArray></CellData>\n"
+      "<PointData/>\n<Cells><DataArray Name='types'>5 10 1</DataArray>\n"
+      "<DataArray Name='offsets'>3 7\n8</DataArray>\n<DataArray Name='faces'>1</DataArray>\n"
+      "<DataArray Name='connectivity'>0 1 2\n0 1\n2 3 0</DataArray></Cells>\n"
+      "<Points>" +
+          kPoints + "</Points></Piece></UnstructuredGrid>\n<AppendedData>_\x01\x02<");
+}
+
+TEST_F(TetMeshFile, VtuFieldsOfOthers) {
+  const std::string file = make(
+      "d.vtu",
+      vtu(kPoints, kCells,
+          "<PointData>\n<DataArray Name=\"&lt;&#65;&#x42;&apos;&gt;\">1 2 3\n4</DataArray>\n"
+          "<DataArray Name=\"v\" NumberOfComponents=\"3\" format=\"appended\"/>\n</PointData>\n"));
+  std::vector<io::VertexField> fields;
+  read_tet_mesh(file, fields);
+  expect_equal(fields, {{"<AB'>", Eigen::Vector4d(1, 2, 3, 4)}});
+}
+
+TEST_F(TetMeshFile, MalformedVtu) {
+  struct Malformed {
+    std::string content, place, message;
+  };
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    const auto place = text.find(what);
+    EXPECT_NE(place, std::string::npos) << what;
+    return text.replace(place, what.size(), by);
+  };
+  const std::string good = vtu(kPoints, kCells);
+  const std::string in_cells = ": cell 0: ";
+  const std::vector<Malformed> cases = {
+      {"", ":1: ", "not a VTK file"},
+      {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a VTK file"},
+      {"<html>", ":1: ", "not a VTK file"},
+      {"<VTKFile type=\"PolyData\">", ":1: ", "\"PolyData\""},
+      {"<VTKFile type=UnstructuredGrid>", ":1: ", "without a value in quotes"},
+      {"<VTKFile\ntype=\"Unstr", ":1: ", "the file ends inside a tag"},
+      {"<!-- ", ":1: ", "inside a comment"},
+      {"<VTKFile type=\"UnstructuredGrid\">\n", ":2: ", "the file ends before"},
+      {"<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>", ":1: ", "ends before"},
+      {replaced(good, "NumberOfPoints", "Points"), ":3: ", "no attribute NumberOfPoints"},
+      {replaced(good, "\"4\"", "\"four\""), ":3: ", "\"four\""},
+      {replaced(good, "\"4\"", "\"2000000000\""), ":6: ", "has 12 numbers, not 6000000000"},
+      {replaced(good, "ascii", "appended"), ":5: ", "ASCII"},
+      {replaced(good, "\n0 1 0 0", "\n0 x 0 0"), ":6: ", "expected a number, found \"x\""},
+      {replaced(good, "\n0 1 0 0", "\n0 nan 0 0"), ":6: ", "expected a finite number"},
+      {replaced(good, "\n0 1 0 0", "\n0 1 0"), ":6: ", "has 11 numbers, not 12"},
+      {replaced(good, ">0 1 2 3", ">0 1 2 4"), in_cells, "points are numbered 0 to 3"},
+      {replaced(good, ">0 1 2 3", ">0 1 2 -1"), in_cells, "the index -1 is out of range"},
+      {replaced(good, ">0 1 2 3", ">0 1 2 2"), ": ", "cell 0 of the domain mesh"},
+      {replaced(good, ">4<", ">5<"), in_cells, "offset 5"},
+      {replaced(good, ">4<", ">3<"), in_cells, "3 points, not 4"},
+      {replaced(good, ">10<", ">12<"), in_cells, "type 12 are not supported"},
+      {replaced(good, ">10<", ">5<"), ": ", "no cells"},
+      {replaced(good, "\"types\"", "\"kinds\""), ":14: ", "\"types\""},
+      {replaced(good, "</Piece>", "</Piece><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/>"),
+       ":13: ", "more than one piece"},
+      {replaced(good, "\"P\"", "\"&nbsp;\""), ":5: ", "unknown entity"},
+      {replaced(good, "\"P\"", "\"&#0;\""), ":5: ", "unknown entity"},
+      {replaced(good, "\"P\"", "\"&amp\""), ":5: ", "has no end"}};
+  for (const Malformed& malformed : cases) {
+    SCOPED_TRACE(malformed.content);
+    const std::string file = make("d.vtu", malformed.content);
+    expect_error<InputError>([&] { read_tet_mesh(file); },
+                             {file + malformed.place, malformed.message});
+  }
+  EXPECT_EQ(read_tet_mesh(make("d.vtu", good)).n_cells(), 1u);
+}
+
+TEST_F(TetMeshFile, OtherFilesAreRefused) {
+  const TetMesh mesh = awkward_mesh();
+  expect_error<OptionError>([&] { read_tet_mesh(path("d.obj")); }, {"d.obj", ".mesh"});
+  expect_error<OptionError>([&] { write_tet_mesh(path("d.obj"), mesh); }, {"d.obj", ".mesh"});
+  expect_error<IoError>([&] { read_tet_mesh(path("missing.vtu")); }, {"missing.vtu", "No such"});
+  expect_error<OptionError>([&] { write_tet_mesh(path("d.msh"), mesh, fields_of(mesh)); },
+                            {"d.msh", "fields"});
+  EXPECT_TRUE(names().empty());
+}
+
+}  // namespace
+}  // namespace flbc::openmesh
