@@ -18,6 +18,7 @@ namespace flbc::openmesh {
 //! Dimension of the domain that a mesh type stands for: 2 for triangle meshes, 3 for TetMesh.
 template <class Mesh>
 inline constexpr int kDimension = 2;
+//! Tetrahedral meshes.
 template <>
 inline constexpr int kDimension<TetMesh> = 3;
 

@@ -36,6 +36,7 @@ struct PropertyOptions {
 
 namespace openmesh {
 
+//! What the two overloads of flbc::solve() below have in common.
 template <int Dim, class Mesh>
 SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& user_options,
                      const PropertyOptions& properties) {

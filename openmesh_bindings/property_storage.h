@@ -19,16 +19,17 @@ namespace flbc::openmesh {
 template <class Mesh>
 struct PropertyHandles {
   template <class T>
-  using Cell = OpenMesh::FPropHandleT<T>;
+  using Cell = OpenMesh::FPropHandleT<T>;  //!< cells are the mesh's faces
   template <class T>
-  using Facet = OpenMesh::EPropHandleT<T>;
+  using Facet = OpenMesh::EPropHandleT<T>;  //!< facets are its edges
 };
+//! The same for tetrahedral meshes.
 template <>
 struct PropertyHandles<TetMesh> {
   template <class T>
-  using Cell = CPropHandleT<T>;
+  using Cell = CPropHandleT<T>;  //!< cells are cells
   template <class T>
-  using Facet = OpenMesh::FPropHandleT<T>;
+  using Facet = OpenMesh::FPropHandleT<T>;  //!< facets are the mesh's faces
 };
 
 //! The name of a state's property, without prefix.
@@ -54,6 +55,7 @@ inline const char* name_of(StateArray array) {
   return "period_dual";
 }
 
+//! Gives the solver properties to work on, and knows whether an earlier run left any.
 template <class Mesh>
 class PropertyStorage : public StateStorage {
  public:

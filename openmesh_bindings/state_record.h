@@ -28,6 +28,7 @@ template <int Dim>
 StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                      const SolverOptions& options);
 
+//! One line.
 std::string to_json(const StateRecord& record);
 
 //! \return a record with penalty 0 where the text makes no sense: then nothing can be resumed

@@ -85,14 +85,19 @@ class TetProperty {
   PropHandle handle_;
 };
 
+//! Property of vertices.
 template <class T>
 using TetVProp = TetProperty<OpenMesh::VPropHandleT<T>>;
+//! Property of edges.
 template <class T>
 using TetEProp = TetProperty<OpenMesh::EPropHandleT<T>>;
+//! Property of faces.
 template <class T>
 using TetFProp = TetProperty<OpenMesh::FPropHandleT<T>>;
+//! Property of cells.
 template <class T>
 using TetCProp = TetProperty<CPropHandleT<T>>;
+//! Property of the mesh itself.
 template <class T>
 using TetMProp = TetProperty<OpenMesh::MPropHandleT<T>>;
 
