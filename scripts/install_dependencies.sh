@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libeigen3-dev libsuitesparse-dev        # core
+  libeigen3-dev libsuitesparse-dev libopenblas0-serial  # core; OpenBLAS halves factoring
   libopenmesh-dev libcgal-dev libtet1.5-dev  # optional components
   libcli11-dev nlohmann-json3-dev libpng-dev # the program flbc
   libgtest-dev                            # tests

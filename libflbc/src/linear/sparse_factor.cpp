@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/sparse_factor.h"
 
+#include <cmath>
 #include <new>
 #include <string>
 
@@ -191,11 +192,24 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
 
 #endif
 
+// Not every BLAS notices numbers that are none, and goes on with them.
+bool has_positive_diagonal(const SparseFactor& factor) {
+  for (const Supernode& supernode : factor.supernodes) {
+    for (Index k = 0; k < supernode.width; ++k) {
+      const double pivot = supernode.values[std::size_t(k) * supernode.num_rows + k];
+      if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 SparseFactor factor_sparse(const Eigen::SparseMatrix<double>& matrix) {
   if (matrix.rows() == 0) return {};
-  return factor_nonempty(matrix);
+  auto factor = factor_nonempty(matrix);
+  if (!has_positive_diagonal(factor)) fail(matrix.rows(), "not positive definite");
+  return factor;
 }
 
 }  // namespace flbc
