@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and computes coordinates of a 2D and a 3D sample: weights at the
-# mesh and at the model, reports and pictures under out/.
+# mesh and at the model, deformed models, reports and pictures under out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,9 +19,18 @@ solve_and_draw() {
     --model meshes/"$1"/"$2"_model.obj
   "$flbc" draw "$out"_domain."$3" --weights "$out"_weights.npy --cage "$cage" \
     --control-point "$4" -o "$out".png
+  "$flbc" deform meshes/"$1"/"$2"_model.obj --weights "$out"_model_weights.mtx --rest "$cage" \
+    --cage meshes/"$1"/"$2"_cage_pose.obj -o "$out"_posed.obj
 }
 solve_and_draw 2d figure obj 32 10000
 solve_and_draw 3d limb mesh 20 4000
 
+# The 2D domain in its pose, coloured by the same weight.
+"$flbc" deform out/figure_domain.obj --weights out/figure_weights.npy \
+  --rest meshes/2d/figure_cage.obj --cage meshes/2d/figure_cage_pose.obj -o out/figure_domain_posed.obj
+"$flbc" draw out/figure_domain_posed.obj --weights out/figure_weights.npy \
+  --cage meshes/2d/figure_cage_pose.obj --control-point 32 -o out/figure_posed.png
+
 echo
-echo "Weights, reports and pictures are in out/; look at out/figure.png and out/limb.png."
+echo "Weights, reports, deformed models and pictures are in out/; look at out/figure.png, out/limb.png"
+echo "and, deformed, out/figure_posed.png and out/limb_posed.obj."

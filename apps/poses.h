@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The poses of a cage, from cage files or an animation.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc::app {
+
+//! A pose and where it is from.
+template <int Dim>
+struct Pose {
+  std::string name;         //!< the file, for keyframes with the number: for messages
+  std::int64_t number;      //!< in the names of sequences
+  PointList<Dim> points{};  //!< Dim x n
+};
+
+//! The files behind the patterns, each once per mention, and their numbers: those of the pattern if
+//! there is nothing but one pattern, else counted from 0.
+struct CageFiles {
+  std::vector<std::string> paths{};
+  std::vector<std::int64_t> numbers{};
+};
+CageFiles find_cages(const std::vector<std::string>& cages);
+
+//! 2 or 3: as io::to_cage() decides, but by the points only where facets would not do, because
+//! poses need none.
+int dimension_of_cage(const std::string& path);
+
+//! The control points of a cage, which need not be a sound one: a pose may intersect itself.
+template <int Dim>
+PointList<Dim> load_control_points(const std::string& path);
+
+//! One pose per file.
+template <int Dim>
+std::vector<Pose<Dim>> load_poses(const CageFiles& files);
+
+//! One pose per keyframe; in 2D displacements along z are passed over.
+//! \throws InputError if the file is for another number of control points than `rest` (Dim x n) has
+template <int Dim>
+std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest);
+
+}  // namespace flbc::app

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Few influences per point: weights for engines that read at most K of them, and small files.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! What to leave of every point's weights.
+struct SparsifyOptions {
+  //! Most influences per point, Dim + 1 or more: fewer cannot reproduce a point inside the hull.
+  Index max_influences = std::numeric_limits<Index>::max();
+  //! In [0, 1). Weights below it are dropped first, as far as the rest still reproduces the point.
+  //! The weights that remain are moved for that and may come to lie below it.
+  double threshold = 0;
+};
+
+//! \throws OptionError naming the option that is out of range
+template <int Dim>
+void validate(const SparsifyOptions& options);
+
+//! Replaces every column by one with at most `max_influences` weights other than 0, with w >= 0,
+//! sum w = 1 and sum w c = x. Sum and reproduction hold to 1e-13, the latter relative to the size
+//! of the control points. |w - given|^2 is the expected squared error of the point under random
+//! independent displacements of the control points; it is the least for the influences kept. These
+//! are chosen by removing one after the other, each time the one that costs least, and by exchange
+//! with others that were given 1e-3 or more; mostly, though not always, that is the best choice of
+//! all. Columns that are like that already stay; without options the result is that of
+//! project_non_negative. The given weights may be negative and need not reproduce.
+//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! \return n x P
+//! \throws OptionError as validate(), InputError if sizes do not fit, if a number is not finite or
+//! if a point lies outside the convex hull of the control points, naming the first such point
+template <int Dim>
+WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                      const WeightMatrix& weights, const SparsifyOptions& options);
+
+//! Weights other than 0 per point.
+struct Influences {
+  double mean = 0;
+  Index max = 0;
+};
+Influences count_influences(const WeightMatrix& weights);
+
+//! Root of the mean square, and largest.
+struct ErrorNorms {
+  double rms = 0;
+  double max = 0;
+};
+
+//! Of the differences of all single weights, both n x P. \throws InputError if sizes differ
+ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
+
+//! Of the distances between points deformed with either weights, over all points and poses, in
+//! units of the poses. \param poses  Dim x n each, the displaced control points
+//! \throws InputError if sizes do not fit
+template <int Dim>
+ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
+                             const WeightMatrix& after);
+
+//! Poses in which every control point is displaced by 10 % of the cage's size in a random direction
+//! of its own. The same ones on every machine.
+template <int Dim>
+std::vector<PointList<Dim>> independent_poses(const PointList<Dim>& control_points, int count);
+
+//! Poses made by random smooth maps, a linear and a quadratic part of about 10 % of the cage's size
+//! each. The same ones on every machine.
+template <int Dim>
+std::vector<PointList<Dim>> smooth_poses(const PointList<Dim>& control_points, int count);
+
+}  // namespace flbc

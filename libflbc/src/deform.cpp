@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/deform.h"
+
+#include <cmath>
+#include <string>
+
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+// Below this many points waking threads up takes longer than the work.
+constexpr Eigen::Index kParallelPoints = 2000;
+
+void check_sizes(Eigen::Index in_weights, Eigen::Index in_pose) {
+  if (in_weights == in_pose) return;
+  throw InputError("the weights are for " + std::to_string(in_weights) +
+                   " control points, but the pose has " + std::to_string(in_pose));
+}
+
+}  // namespace
+
+template <int Dim>
+PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points) {
+  check_sizes(weights.rows(), control_points.cols());
+  // A coordinate per column: the sums then run over contiguous numbers.
+  const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
+  const Eigen::Index count = weights.cols();
+  PointList<Dim> points(Dim, count);
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    for (int d = 0; d < Dim; ++d) points(d, p) = coordinates.col(d).dot(weights.col(p));
+  }
+  return points;
+}
+
+SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
+    : num_control_points_(static_cast<Index>(weights.rows())),
+      starts_(static_cast<std::size_t>(weights.cols()) + 1, 0) {
+  if (!(threshold >= 0)) {
+    throw OptionError("the threshold of sparse weights must be 0 or more, not " +
+                      std::to_string(threshold));
+  }
+  const Eigen::Index count = weights.cols();
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    starts_[p + 1] = (weights.col(p).array().abs() > threshold).count();
+  }
+  for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
+  control_points_.resize(starts_.back());
+  values_.resize(starts_.back());
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    std::int64_t entry = starts_[p];
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      if (!(std::abs(weights(i, p)) > threshold)) continue;
+      control_points_[entry] = static_cast<std::uint32_t>(i);
+      values_[entry++] = weights(i, p);
+    }
+  }
+}
+
+template <int Dim>
+PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points) {
+  check_sizes(weights.num_control_points(), control_points.cols());
+  const Eigen::Index count = weights.num_points();
+  PointList<Dim> points(Dim, count);
+  const auto* starts = weights.starts().data();
+  const auto* of = weights.control_points().data();
+  const auto* values = weights.values().data();
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    Vector<Dim> point = Vector<Dim>::Zero();
+    for (auto entry = starts[p]; entry < starts[p + 1]; ++entry) {
+      point += values[entry] * control_points.col(of[entry]);
+    }
+    points.col(p) = point;
+  }
+  return points;
+}
+
+template <int Dim>
+Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>& after) {
+  if (before.cols() != after.cols()) {
+    throw InputError("there are " + std::to_string(before.cols()) + " points before and " +
+                     std::to_string(after.cols()) + " after the move");
+  }
+  return (after - before).colwise().norm().transpose();
+}
+
+template PointList<2> deform(const WeightMatrix&, const PointList<2>&);
+template PointList<3> deform(const WeightMatrix&, const PointList<3>&);
+template PointList<2> deform(const SparseWeights&, const PointList<2>&);
+template PointList<3> deform(const SparseWeights&, const PointList<3>&);
+template Eigen::VectorXd displacements(const PointList<2>&, const PointList<2>&);
+template Eigen::VectorXd displacements(const PointList<3>&, const PointList<3>&);
+
+}  // namespace flbc

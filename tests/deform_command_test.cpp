@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc deform as its users and their scripts see it.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "flbc/deform.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+// All lines but those of vertices.
+std::string without_vertices(const std::string& path) {
+  std::istringstream text(slurp(path));
+  std::string rest;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("v ", 0) != 0) rest += line + '\n';
+  }
+  return rest;
+}
+
+template <int Dim>
+PointList<Dim> points_of(const std::string& path) {
+  return io::to_points<Dim>(io::read_obj(path), path);
+}
+
+class DeformCommand : public CommandLineTest {
+ protected:
+  // Harmonic coordinates of a sample at its model (w.npy) and on a mesh (v.npy, domain_file).
+  void solve(const std::string& name, const std::string& domain_file) const {
+    const auto command = "solve " + sample(name + "_cage.obj") + " --method harmonic -q -o ";
+    ASSERT_EQ(run(command + path("w.npy") + " --vertices 1500 --save-domain " + path(domain_file) +
+                  " --model " + sample(name + "_model.obj"))
+                  .status,
+              0);
+    ASSERT_EQ(run(command + path("v.npy") + " --domain " + path(domain_file)).status, 0);
+  }
+
+  // A tetrahedron as cage, whose weights are known: x, y, z and what is left to 1.
+  std::string tetrahedron(const std::string& vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+                          const std::string& name = "cage.obj") const {
+    return file(name, vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  }
+  std::string linear_weights(const PointList<3>& points) const {
+    WeightMatrix weights(4, points.cols());
+    weights << 1 - points.colwise().sum().array(), points;
+    io::write_weights(path("w.npy"), weights);
+    return path("w.npy");
+  }
+
+  Ended expect_deform(const std::string& arguments, int status, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    auto result = run("deform " + arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+    return result;
+  }
+
+  template <int Dim>
+  void expect_sample_deforms(const std::string& name, const std::string& domain_file) const {
+    SCOPED_TRACE(name);
+    ASSERT_NO_FATAL_FAILURE(solve(name, domain_file));
+    const auto cage = sample(name + "_cage.obj");
+    const auto model = sample(name + "_model.obj");
+    const auto pose = sample(name + "_cage_pose.obj");
+    const auto rest = points_of<Dim>(model);
+    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --cage ";
+    const auto size = std::to_string(rest.cols()) + " points, 1 pose, ";
+
+    expect_deform(command + cage + " -o " + path("same.obj"), 0, size);
+    EXPECT_LT((points_of<Dim>(path("same.obj")) - rest).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(without_vertices(path("same.obj")), without_vertices(model));
+
+    expect_deform(command + pose + " -o " + path("o.obj") + " --displacement " + path("d.npy"), 0,
+                  "largest displacement");
+    const auto moved = points_of<Dim>(path("o.obj"));
+    const auto weights = io::read_weights(path("w.npy"));
+    EXPECT_LT((moved - points_of<Dim>(pose) * weights).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_EQ(without_vertices(path("o.obj")), without_vertices(model));
+    const auto lengths = io::read_weights(path("d.npy"));
+    ASSERT_EQ(lengths.rows(), 1);
+    EXPECT_LT((lengths.row(0) - (moved - rest).colwise().norm()).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_GT(lengths.maxCoeff(), 0.1);
+
+    auto soup = io::read_obj(cage);
+    for (auto& point : soup.points) {
+      point.head<2>() = Vector<2>(2 * point.x() - point.y() + 3, point.x() + 0.5 * point.y());
+    }
+    io::write_obj(path("affine.obj"), soup);
+    expect_deform(command + path("affine.obj") + " -o " + path("o.obj"), 0, size);
+    PointList<Dim> expected = rest;
+    expected.row(0) = (2 * rest.row(0) - rest.row(1)).array() + 3;
+    expected.row(1) = rest.row(0) + 0.5 * rest.row(1);
+    EXPECT_LT((points_of<Dim>(path("o.obj")) - expected).cwiseAbs().maxCoeff(), 1e-12);
+
+    const auto output = path("moved_" + domain_file);
+    expect_deform(path(domain_file) + " --weights " + path("v.npy") + " --cage " + pose + " -o " +
+                      output + " -q",
+                  0, "");
+    const auto domain = io::read_domain<Dim>(path(domain_file));
+    const auto moved_domain = io::read_domain<Dim>(output);
+    EXPECT_EQ(moved_domain.num_cells(), domain.num_cells());
+    const auto expected_domain = deform(io::read_weights(path("v.npy")), points_of<Dim>(pose));
+    EXPECT_LT((moved_domain.points - expected_domain).cwiseAbs().maxCoeff(), 1e-13);
+  }
+};
+
+TEST_F(DeformCommand, Sample2D) {
+  expect_sample_deforms<2>("2d/figure", "d.obj");
+}
+TEST_F(DeformCommand, Sample3D) {
+  expect_sample_deforms<3>("3d/limb", "d.mesh");
+}
+
+const char* const kModel =
+    "# made by hand\r\n"
+    "mtllib a.mtl\n"
+    "v 0.25 0.25 0.5 1 0 0 # red\n"
+    "\tv  0.5\t0.25 0.5\n"
+    "v 0.5 0.5 \\\n 0.5\n"
+    "v 0.25 0.5 0.5 0.5 0.5 0.5\r\n"
+    "vt 0.125 0.5\n"
+    "vn 0 0 -2\n"
+    "g top\nusemtl red\ns off\n"
+    "f 1/1/-1 2/1/1 3/1/1 4/1/1\n"
+    "l 1 3\n"
+    "# no line break at the end";
+
+// As kModel.
+PointList<3> model_points() {
+  PointList<3> points(3, 4);
+  points << 0.25, 0.5, 0.5, 0.25,  //
+      0.25, 0.25, 0.5, 0.5,        //
+      0.5, 0.5, 0.5, 0.5;
+  return points;
+}
+
+TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
+  const auto model = file("model.obj", kModel);
+  const auto command = model + " --weights " + linear_weights(model_points()) + " -o " +
+                       path("o.obj") + " -q --cage ";
+  // Turned about the x axis by a right angle, and moved by 2 along it: y becomes z, z becomes -y.
+  expect_deform(command + tetrahedron("v 2 0 0\nv 3 0 0\nv 2 0 1\nv 2 -1 0\n"), 0, "");
+  std::string expected = kModel;
+  const auto replace = [&](const std::string& before, const std::string& after) {
+    ASSERT_NE(expected.find(before), std::string::npos);
+    expected.replace(expected.find(before), before.size(), after);
+  };
+  replace("0.25 0.25 0.5 1", "2.25 -0.5 0.25 1");
+  replace("0.5\t0.25 0.5\n", "2.5\t-0.5 0.25\n");
+  replace("0.5 0.5 \\\n 0.5", "2.5 -0.5 \\\n 0.5");
+  replace("0.25 0.5 0.5 0.5 0.5 0.5", "2.25 -0.5 0.5 0.5 0.5 0.5");
+  const auto result = slurp(path("o.obj"));
+  // The normal was on the other side of the face than its corners say, and stays there.
+  std::istringstream at_normal(result.substr(result.find("vn ") + 3));
+  Vector<3> found;
+  at_normal >> found[0] >> found[1] >> found[2];
+  EXPECT_LT((found - Vector<3>(0, 2, 0)).norm(), 1e-14) << result;
+  const auto end = result.find("\ng top");
+  ASSERT_NE(end, std::string::npos);
+  replace("vn 0 0 -2", result.substr(result.find("vn "), end - result.find("vn ")));
+  EXPECT_EQ(result, expected);
+}
+
+TEST_F(DeformCommand, LinesThatContinueOthers) {
+  const auto command = " --weights " + linear_weights(model_points().leftCols(1)) + " --cage " +
+                       tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o " +
+                       path("o.obj");
+  expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command, 0, "");
+  EXPECT_EQ(slurp(path("o.obj")), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
+  // Readers that pass normals over take the second line for a vertex.
+  expect_deform(file("model.obj", "v 0.25 0.25 0.5\nvn 0 0 1\\\nv 1 2 3\n") + command, 2,
+                "a normal (\"vn\") is continued on another line");
+}
+
+TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {
+  const auto model = file("model.obj", std::string(kModel) + "\nvn 1 2 3\n");
+  expect_deform(model + " --weights " + linear_weights(model_points()) + " --cage " +
+                    tetrahedron("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n") + " -o " + path("o.obj"),
+                0, "1 normals belong to no face");
+  EXPECT_NE(slurp(path("o.obj")).find("\nvn 1 2 3\n"), std::string::npos);
+  EXPECT_NE(slurp(path("o.obj")).find("v 0.5 0.5 1 1 0 0 # red"), std::string::npos);
+}
+
+TEST_F(DeformCommand, ColoursAndNormalsOfOff) {
+  const auto cage = tetrahedron("v 0 0 0\nv 0 1 0\nv -1 0 0\nv 0 0 1\n");  // turned about z
+  const auto weights = linear_weights(model_points());
+  const auto coloured = file("model.off",
+                             "COFF 4 1 0\n# red\n0.25 0.25 0.5 255 0 0 255\n0.5 0.25 0.5 9 9 9 9\n"
+                             "0.5 0.5 0.5 8 8 8 8\n0.25 0.5 0.5 7 7 7 7\n4 0 1 2 3 1 0 0\n");
+  expect_deform(coloured + " -q --weights " + weights + " --cage " + cage + " -o " + path("o.off"),
+                0, "");
+  EXPECT_EQ(slurp(path("o.off")),
+            "COFF 4 1 0\n# red\n-0.25 0.25 0.5 255 0 0 255\n-0.25 0.5 0.5 9 9 9 9\n"
+            "-0.5 0.5 0.5 8 8 8 8\n-0.5 0.25 0.5 7 7 7 7\n4 0 1 2 3 1 0 0\n");
+
+  const auto with_normals = file("n.off",
+                                 "NOFF\n4 1 0\n0.25 0.25 0.5 0.6 0 0.8\n0.5 0.25 0.5 0 0 1\n"
+                                 "0.5 0.5 0.5 0 0 1\n0.25 0.5 0.5 0 0 1\n4 0 1 2 3\n");
+  // Turned about x: z becomes -y.
+  tetrahedron("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n");
+  expect_deform(
+      with_normals + " -q --weights " + weights + " --cage " + cage + " -o " + path("o.off"), 0,
+      "");
+  std::istringstream text(slurp(path("o.off")));
+  std::string word;
+  for (int k = 0; k < 4; ++k) text >> word;
+  for (int v = 0; v < 4; ++v) {
+    Vector<3> point;
+    Vector<3> normal;
+    text >> point[0] >> point[1] >> point[2] >> normal[0] >> normal[1] >> normal[2];
+    EXPECT_EQ(point.y(), -0.5);
+    // That of the first vertex was not upright.
+    const Vector<3> expected = v == 0 ? Vector<3>(0.6, -0.8, 0) : Vector<3>(0, -1, 0);
+    EXPECT_LT((normal - expected).norm(), 1e-14);
+  }
+}
+
+TEST_F(DeformCommand, In2DZStays) {
+  const auto cage = file("cage.obj", "v 0 0\nv 4 0\nv 0 4\nl 1 2 3 1\n");
+  const auto model = file("model.obj", "v 1 1 7\nvn 0 0 1\nv 2 1 7\nv 1 2 7.000\nf 1//1 2//1 3//1");
+  WeightMatrix weights(3, 3);
+  weights << 0.5, 0.25, 0.25,  //
+      0.25, 0.5, 0.25,         //
+      0.25, 0.25, 0.5;
+  io::write_weights(path("w.npy"), weights);
+  const auto pose = file("pose.obj", "v 10 0 3\nv 14 0 3\nv 10 -4 3\nl 1 2 3 1\n");
+  expect_deform(model + " --weights " + path("w.npy") + " --rest " + cage + " --cage " + pose +
+                    " -o " + path("o.obj"),
+                0, "3 points, 1 pose");
+  EXPECT_EQ(slurp(path("o.obj")),
+            "v 11 -1 7\nvn 0 0 1\nv 12 -1 7\nv 11 -2 7.000\nf 1//1 2//1 3//1");
+}
+
+TEST_F(DeformCommand, Sequences) {
+  const auto rest = tetrahedron();
+  for (int k = 1; k <= 3; ++k) {
+    const auto x = std::to_string(k);
+    tetrahedron(
+        "v " + x + " 0 0\nv " + std::to_string(k + 1) + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\n",
+        "pose_0" + x + ".obj");
+  }
+  const auto model = file("model.obj", kModel);
+  const auto command = model + " --weights " + linear_weights(model_points()) + " -o ";
+  const auto pattern = " --cage " + path("pose_%02d.obj");
+  expect_deform(
+      command + path("o_%d.obj") + pattern + " --rest " + rest + " --displacement " + path("d.npy"),
+      0, "4 points, 3 poses");
+  for (int k = 1; k <= 3; ++k) {
+    const auto output = path("o_" + std::to_string(k) + ".obj");
+    ASSERT_TRUE(std::filesystem::exists(output));
+    PointList<3> expected = model_points();
+    expected.row(0).array() += k;
+    EXPECT_EQ(points_of<3>(output), expected);
+  }
+  const auto lengths = io::read_weights(path("d.npy"));
+  ASSERT_EQ(lengths.rows(), 3);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(lengths.row(k).sum(), 4 * (k + 1));
+
+  expect_deform(command + path("s%03d.obj") + " -q --cage " + path("pose_03.obj") + " --cage " +
+                    path("pose_01.obj"),
+                0, "");
+  EXPECT_EQ(points_of<3>(path("s000.obj"))(0, 0), 3.25);
+  EXPECT_EQ(points_of<3>(path("s001.obj"))(0, 0), 1.25);
+
+  expect_deform(command + path("o.obj") + pattern, 1, "there are 3 poses");
+  expect_deform(command + path("o%d_%d.obj") + pattern, 1, "one %d");
+  expect_deform(command + path("o_%d.obj") + " --cage " + path("absent_%d.obj"), 4, "absent_0.obj");
+  expect_deform(command + path("pose_%02d.obj") + pattern, 1, "would replace this file");
+}
+
+TEST_F(DeformCommand, Keyframes) {
+  const auto rest = tetrahedron();
+  const auto model = file("model.obj", kModel);
+  const auto weights = " --weights " + linear_weights(model_points());
+  const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
+  const auto keys =
+      file("keys.txt", "k 0\nk 1.5\n" + zeros + "c 1 0 0 0\nc 1 1 0 0\nc 1 0 1 0\nc 1 0 0 1\n");
+  const auto command = model + weights + " --keyframes ";
+  expect_deform(command + keys + " --rest " + rest + " -o " + path("o_%d.obj"), 0, "2 poses");
+  EXPECT_EQ(points_of<3>(path("o_0.obj")), model_points());
+  EXPECT_EQ(points_of<3>(path("o_1.obj")), 2 * model_points());
+
+  const auto output = " -o " + path("k_%d.obj");
+  expect_deform(command + keys + output, 1, "--keyframes needs --rest");
+  expect_deform(command + keys + " --cage " + rest + output, 1, "--cage");
+  const auto few = file("few.txt", "k 0\nc 0 0 0 0\n");
+  expect_deform(command + few + " --rest " + rest + output, 2,
+                "few.txt: the keyframes are for 1 control points, but the rest cage has 4");
+  const auto uneven = file("uneven.txt", "k 0\nk 1\n" + zeros + "c 1 0 0 0\n");
+  expect_deform(command + uneven + " --rest " + rest + output, 2,
+                "keyframe 1 has 1 control points, keyframe 0 has 4");
+  const auto unknown = file("unknown.txt", "k 0\n" + zeros + "c 1 0 0 0\n");
+  expect_deform(command + unknown + " --rest " + rest + output, 2, "unknown.txt:6: ");
+  EXPECT_FALSE(std::filesystem::exists(path("k_0.obj")));
+}
+
+TEST_F(DeformCommand, KeyframesOfARealModel) {
+  if (!has_model("3d/arm_cageAnim.txt")) GTEST_SKIP() << "the real models are absent";
+  const auto cage = model_path("3d/arm_cage.obj");
+  const auto model = model_path("3d/arm.obj");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
+                " --model " + model)
+                .status,
+            0);
+  expect_deform(model + " --weights " + path("w.npy") + " --rest " + cage + " --keyframes " +
+                    model_path("3d/arm_cageAnim.txt") + " -o " + path("arm_%d.obj"),
+                0, "2089 points, 3 poses");
+  const auto rest = points_of<3>(model);
+  const double size = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
+  const auto distance = [&](const std::string& name) {
+    return (points_of<3>(path(name)) - rest).colwise().norm().maxCoeff() / size;
+  };
+  EXPECT_LT(distance("arm_0.obj"), 1e-12);
+  EXPECT_GT(distance("arm_1.obj"), 0.05);
+  EXPECT_LT(distance("arm_2.obj"), 1e-12);
+}
+
+TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
+  const auto rest = tetrahedron();
+  const auto model = file("model.obj", kModel);
+  PointList<3> points = model_points();
+  points(1, 2) += 1e-3;
+  const auto command = model + " --weights " + linear_weights(points) + " --cage " + rest + " -o " +
+                       path("o.obj") + " -q";
+  expect_deform(command + " --rest " + rest, 2,
+                "w.npy: the weights do not belong to this model: with " + rest +
+                    " they put vertex 2 of " + model + " at (0.5, 0.501, 0.5), not at (0.5, 0.5, ");
+  EXPECT_FALSE(std::filesystem::exists(path("o.obj")));
+  expect_deform(command, 0, "");
+  EXPECT_TRUE(std::filesystem::exists(path("o.obj")));
+}
+
+TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
+  const auto cage = tetrahedron();
+  const auto model = file("model.obj", kModel);
+  const auto weights = " --weights " + linear_weights(model_points());
+  const auto output = " -o " + path("o.obj");
+  const auto refused = [&](const std::string& arguments, int status, const std::string& words) {
+    expect_deform(arguments, status, words);
+    EXPECT_FALSE(std::filesystem::exists(path("o.obj")));
+  };
+  refused(model + weights + " --cage " + sample("3d/limb_cage.obj") + output, 2,
+          "w.npy: has weights for 4 control points, but " + sample("3d/limb_cage.obj") + " has 54");
+  refused(cage + weights + " --cage " + cage + " --cage " + sample("3d/limb_cage.obj") + " -o " +
+              path("o_%d.obj"),
+          2, "limb_cage.obj has 54");
+  EXPECT_FALSE(std::filesystem::exists(path("o_0.obj")));
+  refused(sample("3d/limb_model.obj") + weights + " --cage " + cage + output, 2,
+          "w.npy: has weights of 4 points, but " + sample("3d/limb_model.obj") + " has 3352");
+  refused(model + weights + output, 1, "a pose is missing");
+  refused(model + weights + " --cage " + cage + " -o " + model, 1, "would replace this file");
+  refused(model + weights + " --cage " + cage + output + " --displacement " + path("d.npy"), 1,
+          "--displacement needs --rest");
+  refused(model + weights + " --cage " + cage + " -o " + path("o.off"), 1, "must be one too");
+  refused(file("model.ply", "ply\n") + weights + " --cage " + cage + " -o " + path("o.ply"), 1,
+          "only models in .obj and .off files");
+  refused(path("missing.obj") + weights + " --cage " + cage + output, 4, "missing.obj");
+  refused(model + weights + " --cage " + cage + " -o " + path("absent/o.obj"), 4, "absent");
+  refused(file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//2\n") + weights +
+              " --cage " + cage + output,
+          2, "bad.obj:5: the index 2 is out of range; normals are numbered 1 to 1");
+  // The .ele file would come to lie over the one that is read.
+  const auto node = file("mesh.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  const auto ele = file("mesh.ele", "1 4 0\n0 0 1 2 3\n");
+  refused(node + weights + " --cage " + cage + " -o " + ele, 1, "would replace this file");
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/deform.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+template <class T>
+class Deform : public ::testing::Test {
+ protected:
+  static constexpr Index kControlPoints = 7;
+
+  // Weights that sum to 1, half of them zero; some are negative.
+  static WeightMatrix make_weights(Index num_points) {
+    WeightMatrix weights = WeightMatrix::Zero(kControlPoints, num_points);
+    for (Index p = 0; p < num_points; ++p) {
+      double sum = 0;
+      for (Index i = p % 2; i < kControlPoints; i += 2) {
+        weights(i, p) = std::sin(1.0 + 3 * i + 0.37 * p);
+        if (i + 2 < kControlPoints) sum += weights(i, p);
+      }
+      weights(p % 2 == 0 ? 6 : 5, p) = 1 - sum;
+    }
+    return weights;
+  }
+
+  static PointList<T::value> make_pose() {
+    PointList<T::value> pose(T::value, kControlPoints);
+    for (Index k = 0; k < pose.size(); ++k)
+      pose(k % T::value, k / T::value) = std::cos(2.0 + 5 * k);
+    return pose;
+  }
+};
+
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Deform, Dimensions);
+
+TYPED_TEST(Deform, SumsWeightsTimesControlPoints) {
+  constexpr int kDim = TypeParam::value;
+  const Index num_points = 5003;  // more than one thread takes
+  const auto weights = TestFixture::make_weights(num_points);
+  const auto pose = TestFixture::make_pose();
+  const PointList<kDim> moved = deform(weights, pose);
+  const PointList<kDim> sparse = deform(SparseWeights(weights), pose);
+  ASSERT_EQ(moved.cols(), num_points);
+  ASSERT_EQ(sparse.cols(), num_points);
+  for (Index p = 0; p < num_points; ++p) {
+    Vector<kDim> expected = Vector<kDim>::Zero();
+    for (Index i = 0; i < pose.cols(); ++i) expected += weights(i, p) * pose.col(i);
+    ASSERT_NEAR((moved.col(p) - expected).norm(), 0, 1e-14) << p;
+    ASSERT_NEAR((sparse.col(p) - expected).norm(), 0, 1e-14) << p;
+  }
+}
+
+TYPED_TEST(Deform, FollowsAffineMapsOfTheCage) {
+  constexpr int kDim = TypeParam::value;
+  const auto weights = TestFixture::make_weights(300);
+  const auto pose = TestFixture::make_pose();
+  Eigen::Matrix<double, kDim, kDim> linear;
+  for (int k = 0; k < kDim * kDim; ++k) linear(k) = std::sin(4.0 * k);
+  const Vector<kDim> shift = Vector<kDim>::LinSpaced(3, -2);
+  const PointList<kDim> mapped_pose = (linear * pose).colwise() + shift;
+  const PointList<kDim> expected = (linear * deform(weights, pose)).colwise() + shift;
+  EXPECT_LT((deform(weights, mapped_pose) - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TYPED_TEST(Deform, MeasuresDisplacements) {
+  constexpr int kDim = TypeParam::value;
+  const PointList<kDim> pose = TestFixture::make_pose();
+  PointList<kDim> moved = pose;
+  moved(0, 2) += 3;
+  moved(1, 2) -= 4;
+  const auto lengths = displacements(pose, moved);
+  EXPECT_NEAR(lengths[2], 5, 1e-14);
+  EXPECT_NEAR(lengths.sum(), 5, 1e-14);
+  EXPECT_THROW(displacements(pose, PointList<kDim>(kDim, 3)), InputError);
+}
+
+TYPED_TEST(Deform, RefusesPosesOfAnotherCage) {
+  constexpr int kDim = TypeParam::value;
+  const auto weights = TestFixture::make_weights(4);
+  const PointList<kDim> pose = PointList<kDim>::Zero(kDim, 8);
+  const auto expect_refused = [&](const auto& any) {
+    try {
+      deform(any, pose);
+      FAIL() << "an error was expected";
+    } catch (const InputError& error) {
+      EXPECT_STREQ(error.what(), "the weights are for 7 control points, but the pose has 8");
+    }
+  };
+  expect_refused(weights);
+  expect_refused(SparseWeights(weights));
+  EXPECT_EQ(deform(WeightMatrix(8, 0), pose).cols(), 0);
+  EXPECT_EQ(deform(SparseWeights(WeightMatrix(8, 0)), pose).cols(), 0);
+}
+
+TEST(SparseWeights, KeepWhatIsAboveTheThresholdBitByBit) {
+  WeightMatrix weights(3, 4);
+  weights << 0.1, 0, 0, 1e-5,  //
+      -0.3, 1, 0, -1e-5,       //
+      1.2, 0, 0, 1;
+  const SparseWeights all(weights);
+  EXPECT_EQ(all.num_points(), 4);
+  EXPECT_EQ(all.num_control_points(), 3);
+  EXPECT_EQ(all.starts(), (std::vector<std::int64_t>{0, 3, 4, 4, 7}));
+  EXPECT_EQ(all.control_points(), (std::vector<std::uint32_t>{0, 1, 2, 1, 0, 1, 2}));
+  EXPECT_EQ(all.values(), (std::vector<double>{0.1, -0.3, 1.2, 1, 1e-5, -1e-5, 1}));
+  const SparseWeights large(weights, 0.1);  // not above, but at the threshold: dropped
+  EXPECT_EQ(large.starts(), (std::vector<std::int64_t>{0, 2, 3, 3, 4}));
+  EXPECT_EQ(large.values(), (std::vector<double>{-0.3, 1.2, 1, 1}));
+  EXPECT_EQ(SparseWeights().num_points(), 0);
+  EXPECT_THROW(SparseWeights(weights, -1), OptionError);
+  EXPECT_THROW(SparseWeights(weights, std::nan("")), OptionError);
+}
+
+}  // namespace
+}  // namespace flbc
