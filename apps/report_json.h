@@ -22,11 +22,6 @@ struct RunContext {
   Quality delivered{};  //!< of the rows written: the model's if there is one
 };
 
-const char* name_of(Method method);
-const char* name_of(SolveStatus status);
-const char* name_of(DistanceScheme scheme);
-const char* name_of(Recovery recovery);
-
 //! \param options  as given; what the solver made of them is written too
 std::string report_json(const SolveReport& report, const SolverOptions& options,
                         const RunContext& context);

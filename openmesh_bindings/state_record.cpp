@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flbc/names.h"
+
 namespace flbc::openmesh {
 namespace {
 
@@ -22,40 +24,6 @@ std::string to_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
-}
-
-const char* name_of(Method method) {
-  switch (method) {
-    case Method::kValue:
-      return "value";
-    case Method::kGradient:
-      return "gradient";
-    case Method::kPaper:
-      return "paper";
-    case Method::kLbc2014:
-      return "lbc2014";
-    case Method::kHarmonic:
-      return "harmonic";
-    case Method::kMeanValue:
-      return "meanvalue";
-    case Method::kAuto:
-      break;
-  }
-  return "auto";
-}
-
-const char* name_of(DistanceScheme scheme) {
-  switch (scheme) {
-    case DistanceScheme::kSquare:
-      return "square";
-    case DistanceScheme::kLinear:
-      return "linear";
-    case DistanceScheme::kSquareRoot:
-      return "sqrt";
-    case DistanceScheme::kConstant:
-      break;
-  }
-  return "constant";
 }
 
 }  // namespace
