@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as its users and their scripts see it: files, messages, exit status.
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,6 +12,7 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
+#include "support/command_line.h"
 #include "support/model_cages.h"
 
 namespace flbc::testing {
@@ -23,62 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Ended {
-  int status;
-  std::string output;
-  std::string errors;
-};
-
-std::string slurp(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// A folder of its own for every test, so that tests may run side by side.
-class CommandLine : public ::testing::Test {
+class CommandLine : public CommandLineTest {
  protected:
-  void SetUp() override {
-    std::string name = ::testing::TempDir() + "/flbc_cli_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  static std::string sample(const std::string& name) {
-    return std::string(FLBC_MESHES_DIR) + "/" + name;
-  }
-
-  Ended run(const std::string& arguments) const {
-    const auto out = path("stdout.txt");
-    const auto err = path("stderr.txt");
-    const std::string command =
-        std::string(FLBC_PROGRAM) + " " + arguments + " >" + out + " 2>" + err + " </dev/null";
-    const int status = std::system(command.c_str());
-    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return result;
-  }
-
   // Expects exit status and words in the one message, and that no file is left behind.
   void expect_failure(const std::string& arguments, int status, const std::string& words) const {
     SCOPED_TRACE(arguments);
-    const auto before = std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    const auto before = std::distance(fs::directory_iterator(path("")), fs::directory_iterator());
     const auto result = run(arguments);
     EXPECT_EQ(result.status, status) << result.errors;
     EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
     EXPECT_EQ(result.output, "");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), before);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("")), fs::directory_iterator()), before);
   }
-
-  std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name)) << content;
-    return path(name);
-  }
-
- private:
-  fs::path folder_;
 };
 
 // Solves a shipped sample at its model and on its mesh, and checks the files against each other.
@@ -193,7 +146,8 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
 
 TEST_F(CommandLine, HelpAndVersion) {
   EXPECT_EQ(run("--version").output.substr(0, 5), "flbc ");
-  for (const char* command : {"", "mesh ", "solve ", "check ", "deform ", "sparsify ", "draw ", "info "}) {
+  for (const char* command :
+       {"", "mesh ", "solve ", "check ", "deform ", "sparsify ", "draw ", "info "}) {
     const auto result = run(std::string(command) + "--help");
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.output.find("Usage"), std::string::npos);
