@@ -36,7 +36,8 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
       std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale};
   Eigen::MatrixXd distances;
   if (scheme != DistanceScheme::kConstant) {
-    distances = geodesic_distances(problem.mesh, problem.boundary.control_vertices);
+    distances =
+        geodesic_distances(problem.mesh, problem.topology, problem.boundary.control_vertices);
   }
   problem.phi = distance_weights(scheme, distances, problem.mesh, problem.num_control_points());
   return problem;

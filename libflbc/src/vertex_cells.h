@@ -34,6 +34,10 @@ class VertexCells {
     return {cells_.data() + start_[vertex], cells_.data() + start_[vertex + 1]};
   }
 
+  //! The same as plain arrays: where the cells of each vertex begin, V + 1, and the cells.
+  const Index* starts() const { return start_.data(); }
+  const Index* cells() const { return cells_.data(); }
+
  private:
   std::vector<Index> start_;
   std::vector<Index> cells_;
