@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linear/aggregation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace flbc {
+namespace {
+
+// Couplings weaker than that, relative to the diagonal, hold nothing together.
+constexpr double kStrong = 0.02;
+
+class StrongCouplings {
+ public:
+  explicit StrongCouplings(const RowMatrix& matrix)
+      : matrix_(matrix), diagonal_(matrix.diagonal()) {}
+
+  template <class Action>
+  void for_each(Index row, const Action& action) const {
+    for (RowMatrix::InnerIterator it(matrix_, row); it; ++it) {
+      const auto column = static_cast<Index>(it.col());
+      if (column == row) continue;
+      if (std::abs(it.value()) <= kStrong * std::sqrt(diagonal_[row] * diagonal_[column])) continue;
+      action(column, std::abs(it.value()));
+    }
+  }
+
+ private:
+  const RowMatrix& matrix_;
+  Eigen::VectorXd diagonal_;
+};
+
+constexpr Index kNone = -1;
+
+// Groups of an unknown and all that are coupled to it, as long as these are free.
+void found_groups(const StrongCouplings& couplings, std::vector<Index>& group, Index& num_groups) {
+  for (Index row = 0; row < static_cast<Index>(group.size()); ++row) {
+    bool free = group[row] == kNone;
+    couplings.for_each(row, [&](Index column, double) { free = free && group[column] == kNone; });
+    if (!free) continue;
+    group[row] = num_groups;
+    couplings.for_each(row, [&](Index column, double) { group[column] = num_groups; });
+    ++num_groups;
+  }
+}
+
+// What is left joins the group it is coupled to most.
+void join_groups(const StrongCouplings& couplings, std::vector<Index>& group) {
+  const std::vector<Index> founded = group;
+  for (Index row = 0; row < static_cast<Index>(group.size()); ++row) {
+    if (group[row] != kNone) continue;
+    double strongest = 0;
+    couplings.for_each(row, [&](Index column, double coupling) {
+      if (founded[column] == kNone || coupling <= strongest) return;
+      strongest = coupling;
+      group[row] = founded[column];
+    });
+  }
+}
+
+void group_the_rest(const StrongCouplings& couplings, std::vector<Index>& group,
+                    Index& num_groups) {
+  for (Index row = 0; row < static_cast<Index>(group.size()); ++row) {
+    if (group[row] != kNone) continue;
+    group[row] = num_groups;
+    couplings.for_each(row, [&](Index column, double) {
+      if (group[column] == kNone) group[column] = num_groups;
+    });
+    ++num_groups;
+  }
+}
+
+}  // namespace
+
+std::vector<Index> aggregate(const RowMatrix& matrix, Index& num_groups) {
+  const StrongCouplings couplings(matrix);
+  std::vector<Index> group(matrix.rows(), kNone);
+  num_groups = 0;
+  found_groups(couplings, group, num_groups);
+  join_groups(couplings, group);
+  group_the_rest(couplings, group, num_groups);
+  return group;
+}
+
+RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
+  Index num_groups = 0;
+  const auto group = aggregate(matrix, num_groups);
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  // Gershgorin's bound of the largest eigenvalue of D^-1 A.
+  double largest = 0;
+  for (Index row = 0; row < matrix.rows(); ++row) {
+    double sum = 0;
+    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) sum += std::abs(it.value());
+    largest = std::max(largest, sum / diagonal[row]);
+  }
+  const double omega = 4 / (3 * std::min(largest, 2.0));
+
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(matrix.nonZeros() + matrix.rows());
+  for (Index row = 0; row < matrix.rows(); ++row) {
+    entries.emplace_back(row, group[row], 1.0);
+    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
+      entries.emplace_back(row, group[it.col()], -omega * it.value() / diagonal[row]);
+    }
+  }
+  RowMatrix prolongation(matrix.rows(), num_groups);
+  prolongation.setFromTriplets(entries.begin(), entries.end());
+  return prolongation;
+}
+
+}  // namespace flbc

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! An approximate solver for sparse symmetric positive definite systems with many right-hand sides
+//! at once, in time and memory proportional to the size of the matrix: what a direct solver is for
+//! large meshes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "aligned_array.h"
+#include "flbc/types.h"
+#include "linear/aggregation.h"
+#include "linear/multigrid_kernel.h"
+#include "linear/panel_cholesky.h"
+
+namespace flbc {
+
+//! One symmetric cycle B^-1 b of algebraic multigrid: a Gauss-Seidel sweep, the solution on coarser
+//! unknowns, the sweep in reverse. It is linear, and 0 < B^-1 A <= 1 in the energy norm: in place
+//! of an exact solve in a splitting method it keeps convergence.
+template <class Scalar>
+class Multigrid {
+ public:
+  //! \param matrix  symmetric positive definite, both triangles
+  //! \param stride  of the right-hand sides, a multiple of 8
+  Multigrid(RowMatrix matrix, std::size_t stride);
+
+  //! Number of unknowns.
+  Index size() const { return size_; }
+
+  //! One cycle for the columns begin .. end - 1, multiples of 8, in the calling thread and in
+  //! place. Slices of several threads must not overlap. A column's result is the same, to the last
+  //! bit, whatever the slice. \param rows  size() rows of `stride` numbers, aligned to 64 bytes
+  void cycle_slice(Scalar* rows, std::size_t begin, std::size_t end);
+
+  //! Stored numbers of all matrices, relative to those of the given one.
+  double operator_complexity() const { return complexity_; }
+
+  int num_levels() const { return static_cast<int>(levels_.size()) + 1; }
+
+ private:
+  struct LevelData {
+    std::vector<Index> starts, columns, upper;
+    std::vector<Scalar> values, inverse_diagonal;
+    std::vector<Index> prolongation_starts, prolongation_columns;
+    std::vector<Scalar> prolongation_values;
+    Index coarse_size;
+    AlignedArray<Scalar> right_side;  // none on the finest level
+    AlignedArray<Scalar> solution;
+
+    LevelData(const RowMatrix& matrix, const RowMatrix& prolongation);
+    multigrid::Level<Scalar> view() const;
+  };
+
+  const std::size_t stride_;
+  const multigrid::Kernel<Scalar>& kernel_;
+  Index size_ = 0;
+  double complexity_ = 0;
+  std::vector<LevelData> levels_;
+  std::optional<PanelCholesky<Scalar>> coarsest_;
+  AlignedArray<Scalar> coarsest_rows_;
+};
+
+}  // namespace flbc

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The inner loops of the multigrid cycle on plain arrays. The same source is compiled for several
+//! instruction sets; there is no Eigen here, whose inline functions could clash.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace flbc::multigrid {
+
+//! A sparse matrix by rows, columns ascending.
+template <class Scalar>
+struct Rows {
+  const std::int32_t* starts;
+  const std::int32_t* columns;
+  const Scalar* values;
+};
+
+//! One level: its matrix A = L + D + L^T and the prolongation P from the next coarser level.
+template <class Scalar>
+struct Level {
+  std::int32_t size;
+  std::int32_t coarse_size;
+  Rows<Scalar> off_diagonal;       // L + L^T
+  const std::int32_t* upper;       // where the entries right of the diagonal begin in each row
+  const Scalar* inverse_diagonal;  // D^-1
+  Rows<Scalar> prolongation;       // size x coarse_size
+};
+
+//! Arrays of rows of `stride` numbers, of which the columns begin .. end - 1, multiples of 8, are
+//! worked on.
+template <class Scalar>
+struct Vectors {
+  Scalar* right_side;
+  Scalar* solution;
+  Scalar* coarse;  // right-hand side of the coarser level; its solution on the way up
+  std::size_t stride, begin, end;
+};
+
+//! The loops for one instruction set.
+template <class Scalar>
+struct Kernel {
+  using Sweep = void (*)(const Level<Scalar>&, const Vectors<Scalar>&);
+  //! solution = (L + D)^-1 right_side, coarse = P^T (right_side - A solution).
+  Sweep descend;
+  //! solution += P coarse, then a Gauss-Seidel sweep in the opposite order. The solution comes to
+  //! stand in place of right_side, too.
+  Sweep ascend;
+};
+
+//! The best kernel for this processor.
+template <class Scalar>
+const Kernel<Scalar>& select_kernel();
+
+}  // namespace flbc::multigrid
