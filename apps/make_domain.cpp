@@ -47,6 +47,26 @@ DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage,
   });
 }
 
+template <int Dim>
+CoarseMesher<Dim> coarse_mesher() {
+#ifndef FLBC_WITH_CGAL
+  if (Dim == 2) return {};
+#endif
+#ifndef FLBC_WITH_TETGEN
+  if (Dim == 3) return {};
+#endif
+  // A mesher that fails on so few vertices must not keep the solve waiting.
+  constexpr double kTimeLimit = 60;
+  return [](const Cage<Dim>& cage, Index vertices) {
+    MeshingOptions<Dim> options;
+    options.vertices = vertices;
+    options.time_limit = kTimeLimit;
+    return mesh_cage(cage, options);
+  };
+}
+
+template CoarseMesher<2> coarse_mesher();
+template CoarseMesher<3> coarse_mesher();
 template DomainMesh<2> make_domain(const std::string&, const Cage<2>&, Index, const std::string&,
                                    const PointList<2>&);
 template DomainMesh<3> make_domain(const std::string&, const Cage<3>&, Index, const std::string&,

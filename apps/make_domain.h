@@ -6,6 +6,7 @@
 #include <string>
 
 #include "flbc/cage.h"
+#include "flbc/coarse_to_fine.h"
 #include "flbc/meshing.h"
 
 namespace flbc::app {
@@ -20,5 +21,10 @@ constexpr Index kDefaultVertices = 10000;
 template <int Dim>
 DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage, Index vertices,
                             const std::string& embedded_file, const PointList<Dim>& model);
+
+//! Meshes of the cage's interior for a start from coarser ones; empty if the program was built
+//! without the mesher for this dimension.
+template <int Dim>
+CoarseMesher<Dim> coarse_mesher();
 
 }  // namespace flbc::app

@@ -20,6 +20,7 @@ class ProgressBar {
  private:
   bool visible_;
   bool drawn_ = false;
+  int finer_levels_ = 0;
   double first_excess_ = 0;  // log of residual / threshold when first shown
 };
 

@@ -8,6 +8,24 @@
 
 namespace flbc::app {
 
+namespace {
+
+nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& level : levels) {
+    json.push_back({{"vertices", level.vertices},
+                    {"cells", level.cells},
+                    {"iterations", level.iterations},
+                    {"seconds",
+                     {{"mesh", level.mesh_seconds},
+                      {"setup", level.setup_seconds},
+                      {"solve", level.solve_seconds}}}});
+  }
+  return json;
+}
+
+}  // namespace
+
 std::string report_json(const SolveReport& report, const SolverOptions& given,
                         const RunContext& context) {
   const auto options = resolve(given, context.dim);
@@ -33,6 +51,7 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
                      {"solve", report.seconds.solve},
                      {"recover", report.seconds.recover},
                      {"certify", report.seconds.certify}};
+  json["coarse_levels"] = levels_json(report.coarse_levels);
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;
   json["max_reproduction_error"] = context.delivered.max_reproduction_error;
@@ -47,6 +66,7 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
                      {"vertices", context.wanted_vertices},
                      {"method", name_of(given.method)},
                      {"non_negative", name_of(options.non_negative)},
+                     {"coarse_to_fine", context.coarse_to_fine},
                      {"certify", options.certify},
                      {"phi", name_of(options.phi)},
                      {"recovery", name_of(options.recovery)},

@@ -19,6 +19,7 @@ struct RunContext {
   bool embed = false;
   Index wanted_vertices = 0;
   double mesh_seconds = 0;
+  std::string coarse_to_fine = "auto";
   Quality delivered{};  //!< of the rows written: the model's if there is one
 };
 

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "domain_formats.h"
 #include "exit_status.h"
+#include "flbc/coarse_to_fine.h"
 #include "flbc/coordinates.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -23,6 +24,12 @@
 namespace flbc::app {
 namespace {
 
+enum class CoarseToFine { kAuto, kOn, kOff };
+
+const char* name_of(CoarseToFine choice) {
+  return choice == CoarseToFine::kAuto ? "auto" : choice == CoarseToFine::kOn ? "on" : "off";
+}
+
 struct SolveArguments {
   std::string cage;
   std::string output;
@@ -34,6 +41,7 @@ struct SolveArguments {
   Index vertices = 0;
   bool quiet = false;
   bool verbose = false;
+  CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
   SolverOptions options;
 };
 
@@ -77,6 +85,24 @@ WeightMatrix select_rows(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   return interpolate(domain, weights, places);
 }
 
+// Starts from coarser meshes where that pays and a mesher was built in.
+template <int Dim>
+Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                      const SolverOptions& options, CoarseToFine coarse_to_fine) {
+  const auto mesher = coarse_mesher<Dim>();
+  CoarseLevels levels;
+  if (coarse_to_fine == CoarseToFine::kOn) {
+    constexpr Index kCoarsest = 500;
+    levels.coarsest = kCoarsest;
+    if (!mesher) {
+      throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
+                        std::to_string(Dim) + "D");
+    }
+  }
+  if (coarse_to_fine == CoarseToFine::kOff || !mesher) return solve(cage, domain, options);
+  return solve_coarse_to_fine(cage, domain, mesher, options, levels);
+}
+
 void print_summary(const SolveArguments& arguments, const SolveReport& report, int dim,
                    const Quality& delivered) {
   std::cerr << arguments.output << ": " << report.control_points << " control points, "
@@ -103,6 +129,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   context.model = arguments.model;
   context.embed = arguments.embed;
   context.wanted_vertices = arguments.vertices;
+  context.coarse_to_fine = name_of(arguments.coarse_to_fine);
   const auto domain = get_domain(cage, model, arguments, context.mesh_seconds);
   const auto places = place_model(domain, model, arguments);
 
@@ -114,8 +141,9 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       bar.show(progress);
       return true;
     };
-    solution = naming(arguments.domain.empty() ? arguments.cage : arguments.domain,
-                      [&] { return solve(cage, domain, options); });
+    solution = naming(arguments.domain.empty() ? arguments.cage : arguments.domain, [&] {
+      return solve_domain(cage, domain, options, arguments.coarse_to_fine);
+    });
   }
   const auto rows = select_rows(cage, domain, solution.weights, model, places, arguments);
   context.delivered =
@@ -140,10 +168,12 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
 }
 
 const std::map<std::string, Method> kMethods{
-    {"auto", Method::kAuto},           {"value", Method::kValue},
-    {"gradient", Method::kGradient},   {"paper", Method::kPaper},
-    {"lbc2014", Method::kLbc2014},     {"harmonic", Method::kHarmonic},
+    {"auto", Method::kAuto},          {"value", Method::kValue},
+    {"gradient", Method::kGradient},  {"paper", Method::kPaper},
+    {"lbc2014", Method::kLbc2014},    {"harmonic", Method::kHarmonic},
     {"meanvalue", Method::kMeanValue}};
+const std::map<std::string, CoarseToFine> kCoarseToFine{
+    {"auto", CoarseToFine::kAuto}, {"on", CoarseToFine::kOn}, {"off", CoarseToFine::kOff}};
 const std::map<std::string, NonNegative> kNonNegative{{"auto", NonNegative::kAuto},
                                                       {"constraint", NonNegative::kConstraint},
                                                       {"project", NonNegative::kProject},
@@ -202,6 +232,8 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   add_choice(*command, "--method", a.options.method, kMethods, "how to solve (auto)");
   add_choice(*command, "--non-negative", a.options.non_negative, kNonNegative,
              "what becomes of negative weights (by method)");
+  add_choice(*command, "--coarse-to-fine", a.coarse_to_fine, kCoarseToFine,
+             "start from coarser meshes of the cage (auto: where it pays)");
   command->add_flag("--certify", a.options.certify, "prove how near the optimum the weights are");
   add_choice(*command, "--phi", a.options.phi, kSchemes, "growth of the distance weights (square)");
   add_choice(*command, "--recovery", a.options.recovery, kRecoveries,
@@ -211,7 +243,8 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("--tolerance", a.options.tolerance,
                       "accuracy wanted (by method: value 1e-6, gradient 3e-5, others 1e-7)");
   command->add_option("--max-iterations", a.options.max_iterations, "limit of iterations (20000)");
-  command->add_option("--penalty", a.options.penalty, "penalty of the augmented Lagrangian (by method)");
+  command->add_option("--penalty", a.options.penalty,
+                      "penalty of the augmented Lagrangian (by method)");
   command->add_option("--relaxation", a.options.relaxation,
                       "over-relaxation in (0, 2) (by method)");
   command->add_option("--threads", a.options.threads, "number of threads (all)");

@@ -4,7 +4,8 @@
 //
 //   flbc_bench_models MODELS_FOLDER [--threads T] [--method value|gradient|paper|lbc2014]
 //   [--tolerance T]
-//                     [--model NAME] [--reference K]
+//                     [--model NAME] [--reference K] [--linear-solver direct|multigrid]
+//                     [--vertices N]
 //
 // With --reference, the last column is the paper's error (5), the mean squared difference inside,
 // from K iterations of method value in double precision.
@@ -64,6 +65,7 @@ struct Arguments {
   SolverOptions options;
   std::string only_model;        // empty: all
   int reference_iterations = 0;  // 0: no reference
+  Index vertices = 0;            // 0: by model
 };
 
 // The error (5) of the paper against a long run.
@@ -93,7 +95,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 template <int Dim>
 void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const auto mesh = mesh_of(cage, test.vertices);
+  const auto mesh = mesh_of(cage, arguments.vertices > 0 ? arguments.vertices : test.vertices);
   const double mesh_seconds = seconds_since(start);
   const auto before_setup = std::chrono::steady_clock::now();
   const auto problem = make_problem(cage, mesh, arguments.options.phi);
@@ -119,6 +121,10 @@ const std::map<std::string, Method> kMethods{{"value", Method::kValue},
                                              {"paper", Method::kPaper},
                                              {"lbc2014", Method::kLbc2014}};
 
+const std::map<std::string, LinearSolver> kSolvers{{"auto", LinearSolver::kAuto},
+                                                   {"direct", LinearSolver::kDirect},
+                                                   {"multigrid", LinearSolver::kMultigrid}};
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int k = 2; k < argc; k += 2) {
@@ -132,6 +138,10 @@ Arguments parse(int argc, char** argv) {
       arguments.options.method = kMethods.at(value);
     } else if (name == "--model" && !value.empty()) {
       arguments.only_model = value;
+    } else if (name == "--linear-solver" && kSolvers.count(value) > 0) {
+      arguments.options.linear_solver = kSolvers.at(value);
+    } else if (name == "--vertices") {
+      arguments.vertices = std::stoi(value);
     } else if (name == "--reference") {
       arguments.reference_iterations = std::stoi(value);
     } else {

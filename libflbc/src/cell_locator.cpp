@@ -22,6 +22,7 @@ struct CellLocator<Dim>::Grid {
   Box count;
   std::vector<std::size_t> start;
   std::vector<Index> cells;
+  std::vector<Eigen::Matrix<double, Dim, Dim + 1>> hat_gradients;  // of every cell
 
   explicit Grid(const DomainMesh<Dim>& mesh) {
     low = mesh.points.rowwise().minCoeff();
@@ -37,6 +38,10 @@ struct CellLocator<Dim>::Grid {
       for_boxes_of(mesh, s, [&](std::size_t box) { ++start[box + 1]; });
     }
     for (std::size_t box = 1; box < start.size(); ++box) start[box] += start[box - 1];
+    hat_gradients.resize(mesh.num_cells());
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      hat_gradients[s] = cell_geometry(mesh, s).hat_gradients;
+    }
     cells.resize(start.back());
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
     for (Index s = 0; s < mesh.num_cells(); ++s) {
@@ -97,16 +102,18 @@ Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double toleranc
   double least_outside = tolerance;
   const Vector<Dim> margin = Vector<Dim>::Constant(tolerance);
   const auto consider = [&](Index cell) {
-    const auto geometry = cell_geometry(mesh_, cell);
+    if (best.cell >= 0 && least_outside == 0) return;  // found
+    const auto& hat_gradients = grid_->hat_gradients[cell];
     Location<Dim> location;
     location.cell = cell;
     location.coordinates =
-        geometry.hat_gradients.transpose() * (point - mesh_.points.col(mesh_.cells(0, cell)));
+        hat_gradients.transpose() * (point - mesh_.points.col(mesh_.cells(0, cell)));
     location.coordinates[0] += 1;
     // A coordinate below zero, times the height over its facet, is the distance from that facet.
     double outside = 0;
     for (int k = 0; k <= Dim; ++k) {
-      outside = std::max(outside, -location.coordinates[k] / geometry.hat_gradients.col(k).norm());
+      if (location.coordinates[k] >= 0) continue;
+      outside = std::max(outside, -location.coordinates[k] / hat_gradients.col(k).norm());
     }
     if (outside < least_outside || (best.cell < 0 && outside <= tolerance)) {
       least_outside = outside;

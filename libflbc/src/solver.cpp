@@ -16,28 +16,6 @@ namespace flbc {
 namespace {
 
 template <int Dim>
-Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage) {
-  Stopwatch watch;
-  Outcome outcome;
-  switch (options.method) {
-    case Method::kHarmonic:
-      outcome.weights = harmonic_coordinates(problem);
-      report.seconds.solve = watch.lap();
-      return outcome;
-    case Method::kMeanValue:
-      outcome.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
-      report.seconds.solve = watch.lap();
-      return outcome;
-    case Method::kValue:
-    case Method::kLbc2014:
-      return solve_by_splitting(problem, options, report, storage);
-    default:
-      return solve_by_gradients(problem, options, report, storage);
-  }
-}
-
-template <int Dim>
 std::vector<Index> interior_vertices(const LbcProblem<Dim>& problem) {
   std::vector<Index> interior;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
@@ -63,21 +41,38 @@ Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
 }  // namespace
 
 template <int Dim>
-Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
-               StateStorage* storage) {
-  validate(user_options);
-  const auto options = resolve(user_options, Dim);
-  const ThreadScope threads(options.threads);
-
-  Solution solution;
-  auto& report = solution.report;
+Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+  Stopwatch watch;
+  report = {};
   report.method = options.method;
   report.control_points = problem.num_control_points();
   report.vertices = problem.mesh.num_vertices();
   report.cells = problem.mesh.num_cells();
-  auto outcome = run_method(problem, options, report, storage);
+  Outcome outcome;
+  switch (options.method) {
+    case Method::kHarmonic:
+      outcome.weights = harmonic_coordinates(problem);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kMeanValue:
+      outcome.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kValue:
+    case Method::kLbc2014:
+      outcome = solve_by_splitting(problem, options, report, storage, relay);
+      break;
+    default:
+      outcome = solve_by_gradients(problem, options, report, storage, relay);
+  }
   require_finite(outcome.weights.allFinite(), options, report);
+  return outcome;
+}
 
+template <int Dim>
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Outcome outcome,
+                SolveReport report) {
   Stopwatch watch;
   if (options.non_negative != NonNegative::kOff) {
     project_non_negative(problem.cage.points, problem.mesh.points, outcome.weights,
@@ -86,11 +81,20 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options
   report.seconds.recover += watch.lap();
   if (options.certify) report.certificate = certify(problem, outcome);
   report.seconds.certify = watch.lap();
-  report.objective =
-      objective(problem.mesh, problem.phi, outcome.weights) / std::pow(problem.scale, Dim - 1);
+  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, outcome.weights));
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, outcome.weights);
-  solution.weights = std::move(outcome.weights);
-  return solution;
+  return {std::move(outcome.weights), std::move(report)};
+}
+
+template <int Dim>
+Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
+               StateStorage* storage) {
+  validate(user_options);
+  const auto options = resolve(user_options, Dim);
+  const ThreadScope threads(options.threads);
+  SolveReport report;
+  auto outcome = run_method(problem, options, report, storage, Relay<Dim>{});
+  return finish(problem, options, std::move(outcome), std::move(report));
 }
 
 template <int Dim>
@@ -105,6 +109,12 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverO
   return solution;
 }
 
+template Outcome run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            Relay<2>);
+template Outcome run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            Relay<3>);
+template Solution finish(const LbcProblem<2>&, const SolverOptions&, Outcome, SolveReport);
+template Solution finish(const LbcProblem<3>&, const SolverOptions&, Outcome, SolveReport);
 template Solution solve(const LbcProblem<2>&, const SolverOptions&, StateStorage*);
 template Solution solve(const LbcProblem<3>&, const SolverOptions&, StateStorage*);
 template Solution solve(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&);

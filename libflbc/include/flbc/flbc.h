@@ -8,6 +8,7 @@
 #include "flbc/cell_field.h"
 #include "flbc/certificate.h"
 #include "flbc/check.h"
+#include "flbc/coarse_to_fine.h"
 #include "flbc/coordinates.h"
 #include "flbc/deform.h"
 #include "flbc/distance_weights.h"

@@ -31,6 +31,13 @@ enum class NonNegative {
 //! Arithmetic of the iteration; set-up and recovery are always in double precision.
 enum class Precision { kSingle, kDouble };
 
+//! How Method::kValue and kLbc2014 solve their linear systems.
+enum class LinearSolver {
+  kAuto,      //!< by what is faster: kMultigrid for kValue on large meshes, else kDirect
+  kDirect,    //!< one factorisation, exact solves
+  kMultigrid  //!< a cycle of algebraic multigrid per iteration: time and memory grow as the mesh
+};
+
 //! How weights are recovered from gradients.
 enum class Recovery {
   kAuto,          //!< kBreadthFirst for Method::kPaper, else kLeastSquares
@@ -43,6 +50,7 @@ struct Progress {
   int iteration;           //!< counted from 1
   double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
   double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
+  int finer_levels = 0;    //!< meshes still to come after this one (coarse_to_fine.h)
 };
 
 //! Options of solve(). The defaults suit every cage.
@@ -52,6 +60,7 @@ struct SolverOptions {
   Precision precision = Precision::kSingle;       //!< of the iteration
   Recovery recovery = Recovery::kAuto;            //!< for the methods whose unknowns are gradients
   NonNegative non_negative = NonNegative::kAuto;  //!< what becomes of w >= 0
+  LinearSolver linear_solver = LinearSolver::kAuto;  //!< for the methods that split on the weights
 
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an

@@ -3,6 +3,8 @@
 //! What a run tells about itself.
 #pragma once
 
+#include <vector>
+
 #include "flbc/options.h"
 #include "flbc/types.h"
 
@@ -38,6 +40,16 @@ struct Certificate {
   double relative_gap = 0;  //!< (objective - lower_bound) / objective
 };
 
+//! A coarser mesh that was solved for a start (coarse_to_fine.h).
+struct LevelReport {
+  Index vertices = 0;        //!< of the coarse mesh
+  Index cells = 0;           //!< of the coarse mesh
+  int iterations = 0;        //!< on it
+  double mesh_seconds = 0;   //!< for making it
+  double setup_seconds = 0;  //!< topology, boundary values, phi
+  double solve_seconds = 0;  //!< the start and the iteration
+};
+
 //! Result of solve() beside the weights.
 struct SolveReport {
   Method method = Method::kAuto;                 //!< the method used, never kAuto
@@ -51,10 +63,11 @@ struct SolveReport {
   double penalty = 0;          //!< used last, for a domain scaled to radius 250
   //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
   double objective = 0;
-  Certificate certificate{};    //!< if asked for, in the same units
-  double numbers_per_cell = 0;  //!< state of the iteration, per cell and control point
-  StageSeconds seconds{};       //!< wall-clock times
-  Quality quality{};            //!< of the weights
+  Certificate certificate{};                 //!< if asked for, in the same units
+  double numbers_per_cell = 0;               //!< state of the iteration, per cell and control point
+  StageSeconds seconds{};                    //!< wall-clock times
+  Quality quality{};                         //!< of the weights
+  std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start
 };
 
 }  // namespace flbc

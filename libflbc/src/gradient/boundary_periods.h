@@ -19,7 +19,8 @@ namespace flbc::gradient {
 template <int Dim>
 struct Period {
   PointList<Dim> field;    //!< Dim x F, A_s grad psi(s), scaled to norm 1 over all cells
-  Eigen::VectorXd values;  //!< n, the right-hand side for each control point
+  Eigen::VectorXd values;  //!< n, the right-hand side for each control point, scaled alike
+  double norm = 1;         //!< by which both were divided
 };
 
 //! One period for each boundary component after the first; none for a connected boundary.

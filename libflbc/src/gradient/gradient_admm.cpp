@@ -143,6 +143,7 @@ void GradientAdmm<Scalar, Dim>::set_up_periods(const std::vector<Period<Dim>>& p
       period_fields_.push_back(static_cast<Scalar>(number));
     }
     for (Index i = 0; i < n_; ++i) period_values_[p * stride_ + i] = periods[p].values[i];
+    period_norms_.push_back(periods[p].norm);
   }
 }
 
@@ -202,6 +203,58 @@ void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) 
       }
     }
   }
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
+                                                 const VectorsAt<Dim>& flux_density,
+                                                 const VectorsAt<Dim>& facet_pull,
+                                                 const Eigen::MatrixXd& period_factors) {
+  start_from_weights(weights);
+  // Rows of an array from those of a matrix, a column each.
+  const auto store = [&](AlignedArray<Scalar>& array, Index element, const auto& columns) {
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+      const std::size_t row = static_cast<std::size_t>(element * columns.cols() + k) * stride_;
+      for (Index i = 0; i < n_; ++i) array[row + i] = static_cast<Scalar>(columns(i, k) / penalty_);
+    }
+  };
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    store(tv_dual_, s, (-cell_geometry(problem_.mesh, s).measure * flux_density(s)).eval());
+  }
+#pragma omp parallel for schedule(static)
+  for (Index f = 0; f < problem_.topology.num_facets(); ++f) {
+    store(facet_dual_, f, (facet_pull(f) * tangent_basis(problem_, f)).eval());
+  }
+  for (std::size_t p = 0; p < num_periods_; ++p) {
+    const auto column = static_cast<Eigen::Index>(p);
+    store(period_dual_, static_cast<Index>(p),
+          (period_norms_[p] * period_factors.col(column)).eval());
+  }
+}
+
+template <class Scalar, int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> GradientAdmm<Scalar, Dim>::facet_pull(
+    Index facet) const {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> dual(n_, Dim - 1);
+  for (int t = 0; t < Dim - 1; ++t) {
+    const Scalar* row =
+        facet_dual_.data() + (static_cast<std::size_t>(facet) * (Dim - 1) + t) * stride_;
+    for (Index i = 0; i < n_; ++i) dual(i, t) = penalty_ * static_cast<double>(row[i]);
+  }
+  return dual * tangent_basis(problem_, facet).transpose();
+}
+
+template <class Scalar, int Dim>
+Eigen::MatrixXd GradientAdmm<Scalar, Dim>::period_factors() const {
+  Eigen::MatrixXd factors(n_, num_periods_);
+  for (std::size_t p = 0; p < num_periods_; ++p) {
+    for (Index i = 0; i < n_; ++i) {
+      factors(i, static_cast<Eigen::Index>(p)) =
+          penalty_ * static_cast<double>(period_dual_[p * stride_ + i]) / period_norms_[p];
+    }
+  }
+  return factors;
 }
 
 template <class Scalar, int Dim>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aligned_array.h"
+#include "coarse_to_fine/flux_potential.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/recovery.h"
 #include "flbc/solver_state.h"
@@ -45,6 +46,12 @@ class GradientAdmm {
   //! Starts from the gradients of given weights (n x V), duals zero.
   void start_from_weights(const WeightMatrix& weights);
 
+  //! Starts from weights and duals that were found elsewhere. \param weights  n x V \param
+  //! flux_density  p / A of a cell, n x Dim, at most phi long \param facet_pull  see facet_pull()
+  //! \param period_factors  n x P
+  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
+                        const VectorsAt<Dim>& facet_pull, const Eigen::MatrixXd& period_factors);
+
   //! One iteration: X- and Y-step, Z-step, G-step, duals. \return what is needed for residuals()
   Change iterate();
 
@@ -60,6 +67,12 @@ class GradientAdmm {
   //! The dual of the total variation, -mu u of Z = G: at an optimum phi A times the direction of
   //! the gradient. With over-relaxation it may be longer than phi A meanwhile.
   CellFieldView<Scalar, Dim> flux();
+
+  //! mu u of a facet's constraint on its first side: tangential, n x Dim.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(Index facet) const;
+
+  //! The periods' duals as factors of their functions' gradients in p / A, n x P.
+  Eigen::MatrixXd period_factors() const;
 
   //! Numbers of state held per cell and control point; phi is one more.
   double numbers_per_cell() const;
@@ -96,6 +109,7 @@ class GradientAdmm {
   std::vector<Index> boundary_slot_;
   std::vector<Scalar> period_fields_;
   AlignedArray<double> period_values_;
+  std::vector<double> period_norms_;
   Scalar target_[Dim * (Dim + 1)];
 };
 

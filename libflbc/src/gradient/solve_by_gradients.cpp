@@ -34,8 +34,20 @@ void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& opt
 }
 
 template <class Scalar, int Dim>
+MeshState<Dim> keep_state(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcProblem<Dim>& problem,
+                          double penalty) {
+  MeshState<Dim> state;
+  state.penalty = penalty;
+  state.flux_density = flux_densities(problem, admm.flux());
+  state.potential =
+      flux_potential<Dim>(problem, [&](Index facet) { return admm.facet_pull(facet); });
+  state.periods = admm.period_factors();
+  return state;
+}
+
+template <class Scalar, int Dim>
 Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
-              StateStorage* storage) {
+              StateStorage* storage, Relay<Dim> relay) {
   Stopwatch watch;
   auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
       problem, options.penalty, options.relaxation, gradient::boundary_periods(problem), storage);
@@ -43,6 +55,10 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
     // goes on from what is there
   } else if (options.method == Method::kPaper) {
     admm->start_from_least_norm();
+  } else if (relay.start) {
+    admm->start_from_duals(
+        relay.start->weights(), [&](Index s) { return relay.start->flux_density(s); },
+        [&](Index facet) { return relay.start->facet_pull(facet); }, relay.start->periods());
   } else {
     admm->start_from_weights(harmonic_coordinates(problem));
   }
@@ -56,6 +72,10 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
                         ? integrate_breadth_first(problem, admm->gradients())
                         : integrate_least_squares(problem, admm->gradients());
   report.seconds.recover = watch.lap();
+  if (relay.finish) {
+    *relay.finish = keep_state(*admm, problem, options.penalty);
+    relay.finish->weights = outcome.weights;
+  }
   outcome.certify = [admm, &problem](const WeightMatrix& weights) {
     return certify(problem, admm->flux(), weights);
   };
@@ -66,14 +86,15 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
 
 template <int Dim>
 Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage) {
-  return options.precision == Precision::kSingle ? solve<float>(problem, options, report, storage)
-                                                 : solve<double>(problem, options, report, storage);
+                           SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+  return options.precision == Precision::kSingle
+             ? solve<float>(problem, options, report, storage, relay)
+             : solve<double>(problem, options, report, storage, relay);
 }
 
 template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*);
+                                    StateStorage*, Relay<2>);
 template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*);
+                                    StateStorage*, Relay<3>);
 
 }  // namespace flbc

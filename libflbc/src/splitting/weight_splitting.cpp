@@ -50,7 +50,7 @@ Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const 
 template <class Scalar, int Dim>
 WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Metric metric,
                                               double penalty, double relaxation,
-                                              StateStorage* storage)
+                                              LinearSolver linear_solver, StateStorage* storage)
     : problem_(problem),
       kernel_(select_kernel<Scalar, Dim>()),
       n_(problem.num_control_points()),
@@ -58,7 +58,7 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
       metric_(std::move(metric)),
       penalty_(penalty),
       relaxation_(relaxation),
-      cholesky_(system_matrix(problem, metric_)) {
+      solver_(system_matrix(problem, metric_), stride_, linear_solver) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
   weights_ = state_array<Scalar>(storage, StateArray::kIterate, vertices, 1, stride_);
@@ -73,13 +73,13 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
 
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::set_up_rows(StateStorage* storage) {
-  const Index boundary_row = cholesky_.size();
+  const Index boundary_row = solver_.size();
   std::vector<Index> row_of(problem_.mesh.num_vertices(), boundary_row);
   vertices_.resize(boundary_row);
   Index unknown = 0;
   for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
     if (problem_.boundary.slot[v] >= 0) continue;
-    row_of[v] = cholesky_.position()[unknown++];
+    row_of[v] = solver_.position()[unknown++];
     vertices_[row_of[v]] = v;
   }
   cell_rows_.resize(problem_.mesh.cells.size());
@@ -195,7 +195,7 @@ double WeightSplitting<Scalar, Dim>::run(const Body& residual) {
     const Slice slice = slice_of(stride_, omp_get_thread_num(), omp_get_num_threads());
     if (slice.begin < slice.end) {
       residual(state, Columns{slice.begin, slice.end});
-      cholesky_.solve_slice(residual_.data(), stride_, slice.begin, slice.end);
+      solver_.solve_slice(residual_.data(), stride_, slice.begin, slice.end);
     }
 #pragma omp barrier
 #pragma omp for schedule(static)
@@ -210,10 +210,15 @@ double WeightSplitting<Scalar, Dim>::run(const Body& residual) {
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+void WeightSplitting<Scalar, Dim>::set_weights(const WeightMatrix& weights) {
   for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
     for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
   }
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+  set_weights(weights);
   std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
   std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
   remember_start();
@@ -253,6 +258,65 @@ void WeightSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
     if (run(kernel_.harmonic_residual) <= kSmallChange * numbers) break;
   }
   start_from_weights(weights());
+}
+
+// Sets y = grad w - p and q = w + vertex_dual where `add` is zero, else adds to them.
+template <class Scalar, int Dim>
+template <class CellVectors>
+void WeightSplitting<Scalar, Dim>::set_states(Scalar add, const WeightMatrix& weights,
+                                              const CellVectors& cell_vectors) {
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> vectors = cell_vectors(s);
+    for (int d = 0; d < Dim; ++d) {
+      Scalar* row = cell_state_.data() + (static_cast<std::size_t>(s) * Dim + d) * stride_;
+      for (Index i = 0; i < n_; ++i) row[i] = add * row[i] + static_cast<Scalar>(vectors(i, d));
+    }
+  }
+  if (vertex_state_.size() == 0) return;
+  for (const Index v : vertices_) {
+    Scalar* row = vertex_state_.data() + v * stride_;
+    for (Index i = 0; i < n_; ++i) row[i] = add * row[i] + static_cast<Scalar>(weights(i, v));
+  }
+}
+
+// Every iteration leaves weights whose gradients are the feasible ones nearest to the state. Duals
+// from elsewhere would move the weights to get there; so what they would do is taken from the state
+// instead, at the price of one solve.
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
+                                                    const VectorsAt<Dim>& flux_density,
+                                                    const WeightMatrix& vertex_dual) {
+  const auto gradients = [&](Index s, const WeightMatrix& of) {
+    return weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), of);
+  };
+  set_weights(weights);
+  set_states(
+      0, vertex_dual.size() > 0 ? WeightMatrix(weights + vertex_dual) : weights, [&](Index s) {
+        return (gradients(s, weights) - static_cast<double>(radius_scale_[s]) * flux_density(s))
+            .eval();
+      });
+  run([&](Arrays<Scalar, Dim> state, Columns columns) {
+    state.relaxation = 0;  // the residual alone
+    kernel_.update_vertices(state, columns);
+    kernel_.update_cells(state, columns);
+  });
+  const WeightMatrix back = weights - this->weights();
+  set_states(1, back, [&](Index s) { return gradients(s, back); });
+  set_weights(weights);
+}
+
+template <class Scalar, int Dim>
+WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const {
+  if (vertex_state_.size() == 0) return {};
+  WeightMatrix dual = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
+  for (const Index v : vertices_) {
+    for (Index i = 0; i < n_; ++i) {
+      const std::size_t place = v * stride_ + i;
+      dual(i, v) = static_cast<double>(vertex_state_[place] - weights_[place]);
+    }
+  }
+  return dual;
 }
 
 template <class Scalar, int Dim>
@@ -309,6 +373,7 @@ double WeightSplitting<Scalar, Dim>::weight_change_norm2(const AlignedArray<Scal
 
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::adapt_penalty(double ratio) {
+  if (start_.size() == 0) return;
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
   for_slices([&](const Arrays<Scalar, Dim>& state, Columns columns) {

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "aligned_array.h"
+#include "coarse_to_fine/flux_potential.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
-#include "linear/panel_cholesky.h"
+#include "linear/spd_solver.h"
 #include "splitting/splitting_kernel.h"
 
 namespace flbc::splitting {
@@ -48,9 +49,10 @@ struct Residuals {
 template <class Scalar, int Dim>
 class WeightSplitting {
  public:
-  //! \param penalty  rho > 0 \param relaxation  alpha in (0, 2) \param storage  where the state
-  //! lives, null for memory of its own
+  //! \param penalty  rho > 0 \param relaxation  alpha in (0, 2) \param linear_solver  kDirect or
+  //! kMultigrid \param storage  where the state lives, null for memory of its own
   WeightSplitting(const LbcProblem<Dim>& problem, Metric metric, double penalty, double relaxation,
+                  LinearSolver linear_solver = LinearSolver::kDirect,
                   StateStorage* storage = nullptr);
 
   //! Goes on from the state that the storage holds.
@@ -63,16 +65,25 @@ class WeightSplitting {
   //! factor there is.
   void start_from_harmonic(int steps);
 
+  //! Starts from weights and duals that were found elsewhere. \param weights  n x V, feasible
+  //! \param flux_density  p / A of a cell, n x Dim, at most phi long \param vertex_dual  q - w, n x
+  //! V; empty for none
+  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
+                        const WeightMatrix& vertex_dual);
+
   Step iterate();
 
   //! The same, with the norms.
   Residuals iterate_measured();
 
   //! Balances the penalty against how far the weights have moved since the start, and keeps the
-  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|.
+  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|. Not after start_from_duals().
   void adapt_penalty(double ratio);
 
   double penalty() const { return penalty_; }
+
+  //! q - w, n x V, zero on the boundary; empty if w may be negative.
+  WeightMatrix vertex_dual() const;
 
   double num_residual_components() const;
 
@@ -90,8 +101,11 @@ class WeightSplitting {
   void set_up_cells();
   void set_up_constraints();
   void set_radius_scale();
+  void set_weights(const WeightMatrix& weights);
   void set_boundary_weights();
   void remember_start();
+  template <class CellVectors>
+  void set_states(Scalar add, const WeightMatrix& weights, const CellVectors& cell_vectors);
   Arrays<Scalar, Dim> arrays();
   template <class Body>
   void for_slices(const Body& body);
@@ -108,7 +122,7 @@ class WeightSplitting {
   const double relaxation_;
   std::vector<Index> vertices_;   // interior vertices in the factor's order
   std::vector<Index> cell_rows_;  // per corner of a cell its row, boundary vertices share the last
-  PanelCholesky<Scalar> cholesky_;
+  SpdSolver<Scalar> solver_;
   // state
   AlignedArray<Scalar> weights_;
   AlignedArray<Scalar> cell_state_;

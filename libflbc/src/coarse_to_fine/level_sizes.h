@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Which coarser meshes pay.
+#pragma once
+
+#include <vector>
+
+#include "flbc/coarse_to_fine.h"
+
+namespace flbc {
+
+//! Numbers of vertices of the coarse meshes for a mesh of `finest` vertices, ascending; none where
+//! they do not pay. \param method  kValue or kGradient
+template <int Dim>
+std::vector<Index> level_sizes(Index finest, Index control_points, Method method,
+                               const CoarseLevels& levels);
+
+}  // namespace flbc

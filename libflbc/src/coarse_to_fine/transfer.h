@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From the state on one mesh to the start on a finer one of the same cage.
+#pragma once
+
+#include <vector>
+
+#include "coarse_to_fine/flux_potential.h"
+#include "coarse_to_fine/mesh_state.h"
+#include "flbc/coordinates.h"
+#include "flbc/lbc_problem.h"
+
+namespace flbc {
+
+//! Evaluates a coarse mesh's state where the fine mesh needs it, in the lengths of the fine
+//! problem. The meshes need not be nested, nor their problems scaled alike. Keeps references to all
+//! three arguments.
+template <int Dim>
+class Transfer {
+ public:
+  Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state, const LbcProblem<Dim>& fine);
+
+  //! The penalty that acts on the fine mesh as the coarse one's did there.
+  double penalty() const { return enlargement_ * state_.penalty; }
+
+  //! Interpolated, but exact on the boundary, n x V.
+  WeightMatrix weights() const;
+
+  //! In a fine cell: that of the coarse cell which contains its middle, no longer than phi. n x Dim
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+
+  //! Interpolated, n x V; empty if the coarse one is. \param penalty  of the fine iteration
+  WeightMatrix vertex_dual(double penalty) const;
+
+  //! mu u on a fine facet's first side, n x Dim.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(Index facet) const;
+
+  //! n x P.
+  Eigen::MatrixXd periods() const { return enlargement_ * state_.periods; }
+
+ private:
+  std::vector<Location<Dim>> locate(const PointList<Dim>& fine_points) const;
+
+  const LbcProblem<Dim>& coarse_;
+  const MeshState<Dim>& state_;
+  const LbcProblem<Dim>& fine_;
+  double enlargement_;  // fine length / coarse length
+  std::vector<Location<Dim>> vertices_;
+  std::vector<Location<Dim>> cells_;
+  std::vector<Location<Dim>> facets_;  // empty without potential
+};
+
+}  // namespace flbc
