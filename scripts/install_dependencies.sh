@@ -6,7 +6,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libsuitesparse-dev libopenblas0-serial  # core; OpenBLAS halves factoring
   libopenmesh-dev libcgal-dev libtet1.5-dev  # optional components
-  libcli11-dev nlohmann-json3-dev libpng-dev # the program flbc
+  libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev  # the program flbc
   libgtest-dev                            # tests
 )
 

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gltf/skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "flbc/errors.h"
+#include "gltf/glb_writer.h"
+
+namespace flbc::gltf {
+namespace {
+
+constexpr Eigen::Index kMaxJoints = std::numeric_limits<std::uint16_t>::max();
+using RowVector = Eigen::Matrix<Index, 1, Eigen::Dynamic>;
+
+// Up to here every whole number is a float.
+constexpr Eigen::Index kMaxExactFloat = 1 << 24;
+
+void require_equal(Eigen::Index found, Eigen::Index expected, const char* what) {
+  if (found == expected) return;
+  throw InputError("the skin needs " + std::string(what) + " for " + std::to_string(expected) +
+                   ", but there are some for " + std::to_string(found));
+}
+
+template <int Dim>
+void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
+           const WeightMatrix& weights, const Surface& surface, const SkinOptions& options) {
+  if (options.max_influences != 4 && options.max_influences != 8) {
+    throw OptionError("a skin has at most 4 or 8 influences per vertex, not " +
+                      std::to_string(options.max_influences));
+  }
+  if (control_points.cols() > kMaxJoints) {
+    throw InputError("the cage has " + std::to_string(control_points.cols()) +
+                     " control points, but a skin can have " + std::to_string(kMaxJoints) +
+                     " joints at most");
+  }
+  require_equal(weights.rows(), control_points.cols(), "weights of control points");
+  require_equal(weights.cols(), points.cols(), "weights of points");
+  const auto num_vertices = static_cast<Eigen::Index>(surface.sources.size());
+  require_equal(surface.normals.cols(), num_vertices, "normals of vertices");
+  const auto is_of = [](const auto& indices, Eigen::Index size) {
+    return std::all_of(indices.begin(), indices.end(),
+                       [&](Index index) { return index >= 0 && index < size; });
+  };
+  if (surface.triangles.cols() == 0 || !is_of(surface.triangles.reshaped(), num_vertices) ||
+      !is_of(surface.sources, points.cols())) {
+    throw InputError("the surface of the skin is empty, or not one of these points");
+  }
+}
+
+// In space, in single precision. \param owner  for messages
+template <int Dim>
+Eigen::Matrix3Xf to_floats(const PointList<Dim>& points, const std::string& owner) {
+  Eigen::Matrix3Xf result = Eigen::Matrix3Xf::Zero(3, points.cols());
+  result.topRows<Dim>() = points.template cast<float>();
+  for (Eigen::Index k = 0; k < result.cols(); ++k) {
+    if (result.col(k).allFinite()) continue;
+    throw InputError("vertex " + std::to_string(k) + " of " + owner +
+                     " has a coordinate that is too large for single precision, which glTF has");
+  }
+  return result;
+}
+
+// A channel for every joint that is elsewhere in some pose.
+template <int Dim>
+std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::Matrix3Xf& rest) {
+  std::vector<Eigen::Matrix3Xf> poses;
+  for (const auto& pose : animation.poses) {
+    poses.push_back(to_floats<Dim>(pose, "the cage in pose " + std::to_string(poses.size())));
+  }
+  std::vector<Channel> channels;
+  for (Index i = 0; i < static_cast<Index>(rest.cols()); ++i) {
+    Channel channel{i, Eigen::Matrix3Xf(3, poses.size())};
+    for (std::size_t k = 0; k < poses.size(); ++k) channel.translations.col(k) = poses[k].col(i);
+    const bool moves = (channel.translations.colwise() - rest.col(i)).cwiseAbs().sum() > 0;
+    if (moves) channels.push_back(std::move(channel));
+  }
+  return channels;
+}
+
+bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
+  for (std::size_t v = 0; v < sources.size(); ++v) {
+    if (sources[v] != static_cast<Index>(v)) return false;
+  }
+  return static_cast<Eigen::Index>(sources.size()) == num_points;
+}
+
+template <int Dim>
+GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                    const JointWeights& stored, const Surface& surface,
+                    const Animation<Dim>& animation) {
+  const auto& sources = surface.sources;
+  GlbScene scene;
+  scene.positions = to_floats<Dim>(points, "the model")(Eigen::all, sources);
+  scene.normals = surface.normals.cast<float>();
+  scene.texture_coordinates = surface.texture_coordinates.cast<float>();
+  scene.colors = surface.colors.cast<float>();
+  scene.triangles = surface.triangles;
+  if (!is_identity(sources, points.cols()) && points.cols() <= kMaxExactFloat) {
+    const auto count = static_cast<Eigen::Index>(sources.size());
+    scene.sources = Eigen::Map<const RowVector>(sources.data(), count).cast<float>();
+  }
+  scene.weights = {stored.format, stored.joints(Eigen::all, sources),
+                   stored.numbers(Eigen::all, sources)};
+  scene.joints = to_floats<Dim>(control_points, "the cage");
+  scene.times.assign(animation.times.begin(), animation.times.end());
+  scene.channels = channels_of(animation, scene.joints);
+  return scene;
+}
+
+// What storing costs the points that are vertices.
+template <int Dim>
+void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
+             const WeightMatrix& weights, const JointWeights& stored,
+             const std::vector<Index>& sources, const Animation<Dim>& animation,
+             ExportedSkin& result) {
+  auto used = sources;
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const PointList<Dim> exact = points(Eigen::all, used);
+  const PointList<Dim> rounded = exact.template cast<float>().template cast<double>();
+  result.position_change = (rounded - exact).colwise().norm().maxCoeff();
+
+  const WeightMatrix before = weights(Eigen::all, used);
+  const WeightMatrix after = to_weights(stored, control_points.cols())(Eigen::all, used);
+  result.given_influences = count_influences(before).max;
+  result.influences = count_influences(after).max;
+  constexpr int kRandomPoses = 20;
+  const auto poses =
+      animation.poses.empty() ? smooth_poses(control_points, kRandomPoses) : animation.poses;
+  result.deformation_error = deformation_error(poses, before, after);
+}
+
+}  // namespace
+
+template <int Dim>
+void validate(const Animation<Dim>& animation, Eigen::Index num_control_points) {
+  require_equal(static_cast<Eigen::Index>(animation.times.size()),
+                static_cast<Eigen::Index>(animation.poses.size()), "times of poses");
+  for (std::size_t k = 0; k < animation.times.size(); ++k) {
+    require_equal(animation.poses[k].cols(), num_control_points, "poses of control points");
+    const auto time = static_cast<float>(animation.times[k]);
+    std::ostringstream text;
+    text << "pose " << k << " is at " << animation.times[k] << " s, ";
+    if (!(time >= 0) || !std::isfinite(time)) {
+      throw InputError(text.str() + "but an animation in glTF starts at 0 or later");
+    }
+    if (k > 0 && !(time > static_cast<float>(animation.times[k - 1]))) {
+      throw InputError(text.str() + "not later than the one before it");
+    }
+  }
+}
+
+template <int Dim>
+ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                         const WeightMatrix& weights, const Surface& surface,
+                         const SkinOptions& options, const Animation<Dim>& animation) {
+  check(control_points, points, weights, surface, options);
+  validate(animation, control_points.cols());
+  const auto few = sparsify(control_points, points, weights, {options.max_influences});
+  const auto stored = to_joint_weights(few, options.weight_format);
+  auto scene = make_scene(control_points, points, stored, surface, animation);
+  scene.name = options.name;
+
+  ExportedSkin result;
+  result.glb = encode_glb(scene);
+  result.vertices = static_cast<Index>(surface.sources.size());
+  result.triangles = static_cast<Index>(surface.triangles.cols());
+  result.joints = static_cast<Index>(control_points.cols());
+  result.moving_joints = static_cast<Index>(scene.channels.size());
+  measure(control_points, points, weights, stored, surface.sources, animation, result);
+  return result;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template void validate(const Animation<Dim>&, Eigen::Index);                               \
+  template ExportedSkin export_skin(const PointList<Dim>&, const PointList<Dim>&,            \
+                                    const WeightMatrix&, const Surface&, const SkinOptions&, \
+                                    const Animation<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::gltf

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gltf/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "flbc/errors.h"
+#include "flbc/io/cut_polygon.h"
+#include "gltf/vertex_normals.h"
+
+namespace flbc::gltf {
+namespace {
+
+// What makes a vertex: two corners with the same three numbers share one.
+struct Corner {
+  Index point;
+  Index texture_coordinate;
+  Index normal;
+
+  std::array<Index, 3> key() const { return {point, texture_coordinate, normal}; }
+  bool operator<(const Corner& other) const { return key() < other.key(); }
+  bool operator==(const Corner& other) const { return key() == other.key(); }
+};
+using Corners = std::vector<Corner>;  // three per triangle
+
+// For every column the first one that equals it: programs write the same value many times, and
+// where it does not differ there is no seam.
+template <int Dim>
+std::vector<Index> first_equals(const PointList<Dim>& columns) {
+  const auto is_less = [&](Index a, Index b) {
+    return std::lexicographical_compare(columns.col(a).begin(), columns.col(a).end(),
+                                        columns.col(b).begin(), columns.col(b).end());
+  };
+  std::vector<Index> order(columns.cols());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), is_less);
+  std::vector<Index> first(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool is_new = k == 0 || is_less(order[k - 1], order[k]);
+    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
+  }
+  return first;
+}
+
+// Of length 1; zero where there is none.
+PointList<3> unit(const PointList<3>& normals) {
+  PointList<3> result = normals;
+  for (auto normal : result.colwise()) normal.stableNormalize();
+  return result;
+}
+
+// The attributes of all corners, without repeated values.
+class CornerTable {
+ public:
+  CornerTable(const io::SurfaceAttributes& attributes, const PointList<3>& normals)
+      : attributes_(attributes),
+        normals_(normals),
+        first_texture_coordinate_(first_equals(attributes.texture_coordinates)),
+        first_normal_(first_equals(normals)) {}
+
+  Corner corner(std::size_t polygon, Index k, Index point) const {
+    Corner result{point, -1, -1};
+    if (attributes_.corners.empty()) return result;
+    const auto& references = attributes_.corners[polygon][k];
+    if (references.texture_coordinate >= 0) {
+      result.texture_coordinate = first_texture_coordinate_[references.texture_coordinate];
+    }
+    if (references.normal >= 0 && !normals_.col(references.normal).isZero(0)) {
+      result.normal = first_normal_[references.normal];
+    }
+    return result;
+  }
+
+ private:
+  const io::SurfaceAttributes& attributes_;
+  const PointList<3>& normals_;
+  std::vector<Index> first_texture_coordinate_;
+  std::vector<Index> first_normal_;
+};
+
+void append_triangles(const io::PolygonSoup& soup, std::size_t polygon, const CornerTable& table,
+                      Corners& corners) {
+  const auto& points = soup.polygons[polygon];
+  std::vector<Vector<3>> places;
+  for (const Index point : points) places.push_back(soup.points[point]);
+  const auto triangles = io::cut_polygon(places);
+  for (const auto& triangle : triangles.colwise()) {
+    const Index a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
+    if (a == b || b == c || c == a) continue;
+    for (const Index k : triangle) corners.push_back(table.corner(polygon, k, points[k]));
+  }
+}
+
+void turn_counterclockwise(const io::PolygonSoup& soup, Corners& corners) {
+  for (std::size_t t = 0; t < corners.size(); t += 3) {
+    const Vector<3>& a = soup.points[corners[t].point];
+    const Vector<3> ab = soup.points[corners[t + 1].point] - a;
+    const Vector<3> ac = soup.points[corners[t + 2].point] - a;
+    if (ab.x() * ac.y() < ab.y() * ac.x()) std::swap(corners[t + 1], corners[t + 2]);
+  }
+}
+
+// From sRGB, in which programs write colours, to the linear colours of glTF.
+double linear(double color) {
+  return color <= 0.04045 ? color / 12.92 : std::pow((color + 0.055) / 1.055, 2.4);
+}
+
+// The vertices, in the order of the model's, and which of them are the triangles' corners.
+Surface index_corners(const Corners& corners, Corners& vertices) {
+  vertices = corners;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Surface surface;
+  for (const Corner& vertex : vertices) surface.sources.push_back(vertex.point);
+  surface.triangles.resize(3, corners.size() / 3);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto found = std::lower_bound(vertices.begin(), vertices.end(), corners[k]);
+    surface.triangles(k % 3, k / 3) = static_cast<Index>(found - vertices.begin());
+  }
+  return surface;
+}
+
+void add_texture_and_colors(const io::SurfaceAttributes& attributes, const Corners& vertices,
+                            Surface& surface) {
+  const bool has_texture = std::any_of(vertices.begin(), vertices.end(), [](const Corner& vertex) {
+    return vertex.texture_coordinate >= 0;
+  });
+  if (has_texture) surface.texture_coordinates.setZero(2, vertices.size());
+  for (std::size_t v = 0; has_texture && v < vertices.size(); ++v) {
+    const Index k = vertices[v].texture_coordinate;
+    if (k < 0) continue;
+    const auto place = attributes.texture_coordinates.col(k);
+    surface.texture_coordinates.col(v) << place[0], 1 - place[1];
+  }
+  if (attributes.colors.cols() > 0) {
+    surface.colors = attributes.colors(Eigen::all, surface.sources).unaryExpr(&linear);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Surface surface_of_polygons(const io::PolygonSoup& soup, const io::SurfaceAttributes& attributes) {
+  // A plane has normals of its own.
+  PointList<3> normals = unit(attributes.normals);
+  if (Dim == 2) normals.setZero();
+  const CornerTable table(attributes, normals);
+  Corners corners;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) append_triangles(soup, f, table, corners);
+  if (corners.empty()) {
+    throw InputError("there is no triangle among its " + std::to_string(soup.polygons.size()) +
+                     " polygons, but a skin needs a surface");
+  }
+  if (Dim == 2) turn_counterclockwise(soup, corners);
+
+  Corners vertices;
+  Surface surface = index_corners(corners, vertices);
+  add_texture_and_colors(attributes, vertices, surface);
+  if (Dim == 2) {
+    surface.normals = Vector<3>::UnitZ().replicate(1, vertices.size());
+    return surface;
+  }
+  surface.normals = vertex_normals(soup.points, surface.sources, surface.triangles);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].normal >= 0) surface.normals.col(v) = normals.col(vertices[v].normal);
+  }
+  return surface;
+}
+
+template <int Dim>
+Surface surface_of_domain(const DomainMesh<Dim>& mesh) {
+  io::PolygonSoup soup;
+  for (const auto& point : mesh.points.colwise()) {
+    soup.points.push_back(Vector<3>::Zero());
+    soup.points.back().template head<Dim>() = point;
+  }
+  if constexpr (Dim == 2) {
+    for (const auto& cell : mesh.cells.colwise())
+      soup.polygons.emplace_back(cell.begin(), cell.end());
+  } else {
+    // The facet opposite to each vertex of a positively oriented cell, seen from outside.
+    constexpr Index kFacets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    const auto topology = build_topology(mesh);
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      for (int k = 0; k < 4; ++k) {
+        if (!topology.is_boundary(topology.cell_facets(k, s))) continue;
+        const auto& facet = kFacets[k];
+        soup.polygons.push_back(
+            {mesh.cells(facet[0], s), mesh.cells(facet[1], s), mesh.cells(facet[2], s)});
+      }
+    }
+  }
+  return surface_of_polygons<Dim>(soup, {});
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template Surface surface_of_polygons<Dim>(const io::PolygonSoup&, const io::SurfaceAttributes&); \
+  template Surface surface_of_domain(const DomainMesh<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::gltf

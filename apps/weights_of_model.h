@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Whether weights belong to a model and a cage.
+#pragma once
+
+#include <string>
+
+#include "flbc/deform.h"
+
+namespace flbc::app {
+
+//! The files that should belong together, for messages.
+struct WeightFiles {
+  std::string weights;
+  std::string cage;
+  std::string model;
+};
+
+//! \throws InputError naming both files if there are not as many rows as control points, or not as
+//! many columns as points
+void check_sizes(const WeightMatrix& weights, Eigen::Index num_control_points,
+                 Eigen::Index num_points, const WeightFiles& files);
+
+//! \param rest  Dim x n \param points  Dim x P, of the model
+//! \throws InputError naming the worst vertex if the weights put one beside its place by more than
+//! 1e-6 of the cage's size: they are for another model, or for another cage
+template <int Dim>
+void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest,
+                        const PointList<Dim>& points, const WeightFiles& files);
+
+}  // namespace flbc::app
