@@ -15,8 +15,10 @@ namespace flbc::app {
 void add_mesh_command(CLI::App& app, int& exit_status);
 void add_solve_command(CLI::App& app, int& exit_status);
 void add_check_command(CLI::App& app, int& exit_status);
+void add_convert_command(CLI::App& app, int& exit_status);
 void add_deform_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);
+void add_export_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 void add_sparsify_command(CLI::App& app, int& exit_status);
 

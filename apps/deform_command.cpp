@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "commands.h"
+#include "displacement.h"
 #include "exit_status.h"
 #include "file_sequence.h"
-#include "flbc/cage.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -18,23 +17,20 @@
 #include "load.h"
 #include "movable_model.h"
 #include "poses.h"
+#include "weights_of_model.h"
 
 namespace flbc::app {
 namespace {
 
 struct DeformArguments {
-  std::string model;
+  MovedFile file;
   std::string weights;
   std::vector<std::string> cages;
   std::string keyframes;
   std::string rest;
-  std::string output;
   std::string displacement;
   bool quiet = false;
 };
-
-// Weights reproduce their model up to rounding and the tolerance of a solve.
-constexpr double kReproduction = 1e-6;
 
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.cages.empty() && arguments.keyframes.empty()) {
@@ -46,14 +42,17 @@ void check_arguments(const DeformArguments& arguments) {
   if (arguments.rest.empty() && !arguments.displacement.empty()) {
     throw OptionError("--displacement needs --rest: it is measured from there");
   }
-  require_formats(arguments.model, arguments.output);
+  if (arguments.rest.empty() && arguments.file.shows_displacement) {
+    throw OptionError("--show-displacement needs --rest: it is measured from there");
+  }
+  require_formats(arguments.file);
   require_writable(arguments.displacement, {"npy", "dmat", "mtx"});
 }
 
 // No result may replace a file that is read, nor the other result.
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
-  auto inputs = files_of_model(arguments.model);
+  auto inputs = files_of_model(arguments.file.model);
   inputs.insert(inputs.end(), {arguments.weights, arguments.keyframes, arguments.rest});
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
@@ -79,111 +78,84 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
+// Weights that fit the model and all poses, and that belong to them as far as is known.
 template <int Dim>
-void check_sizes(const WeightMatrix& weights, const MovableModel<Dim>& model,
-                 const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  if (weights.cols() != model.points().cols()) {
-    throw InputError(arguments.weights + ": has weights of " + std::to_string(weights.cols()) +
-                     " points, but " + arguments.model + " has " +
-                     std::to_string(model.points().cols()) + " vertices");
+SparseWeights load_weights(const MovableModel<Dim>& model, const PointList<Dim>& rest,
+                           const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+  const auto dense = io::read_weights(arguments.weights);
+  const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
+    check_sizes(dense, control_points.cols(), model.points().cols(),
+                {arguments.weights, name, arguments.file.model});
+  };
+  if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
+  for (const auto& pose : poses) check_cage(pose.name, pose.points);
+  SparseWeights weights(dense);
+  if (!arguments.rest.empty()) {
+    check_reproduction(weights, rest, model.points(),
+                       {arguments.weights, arguments.rest, arguments.file.model});
   }
-  for (const auto& pose : poses) {
-    if (weights.rows() == pose.points.cols()) continue;
-    throw InputError(arguments.weights + ": has weights for " + std::to_string(weights.rows()) +
-                     " control points, but " + pose.name + " has " +
-                     std::to_string(pose.points.cols()));
-  }
+  return weights;
 }
 
 template <int Dim>
-void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest,
-                        const PointList<Dim>& points, const DeformArguments& arguments) {
-  const auto moved = deform(weights, rest);
-  Index worst = 0;
-  const double error = displacements(points, moved).maxCoeff(&worst) / size_of(rest);
-  if (error <= kReproduction) return;
-  const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
-  std::ostringstream text;
-  text << arguments.weights << ": the weights do not belong to this model: with " << arguments.rest
-       << " they put vertex " << worst << " of " << arguments.model << " at "
-       << moved.col(worst).transpose().format(row) << ", not at "
-       << points.col(worst).transpose().format(row) << "; that is " << error
-       << " of the cage's size, more than " << kReproduction;
-  throw InputError(text.str());
-}
-
-// What is left to tell after the poses.
-struct Outcome {
-  double seconds = 0;
-  double largest = 0;  // displacement
-  Index largest_point = 0;
-  std::string largest_pose{};
-};
-
-template <int Dim>
-Outcome write_poses(const MovableModel<Dim>& model, const SparseWeights& weights,
-                    const std::vector<Pose<Dim>>& poses, const std::vector<std::string>& outputs,
-                    const DeformArguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  const bool is_measured = !arguments.rest.empty();
-  Eigen::MatrixXd lengths(is_measured ? static_cast<Index>(poses.size()) : 0,
-                          model.points().cols());
-  Outcome outcome;
+void write_results(const MovableModel<Dim>& model, const SparseWeights& weights,
+                   const std::vector<Pose<Dim>>& poses, const Displacement& displacement,
+                   const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const auto points = deform(weights, poses[k].points);
-    if (is_measured) {
-      const auto row = static_cast<Index>(k);
-      lengths.row(row) = displacements(model.points(), points).transpose();
-      Index point = 0;
-      const double largest = lengths.row(row).maxCoeff(&point);
-      if (largest > outcome.largest) outcome = {0, largest, point, poses[k].name};
-    }
+    Eigen::VectorXd lengths;
+    if (arguments.file.shows_displacement) lengths = displacement.lengths.row(k).transpose();
     const HeldSignals held;
-    naming(outputs[k], [&] { model.write(outputs[k], points); });
+    naming(outputs[k], [&] { model.write(outputs[k], points, lengths, displacement.largest); });
   }
-  if (!arguments.displacement.empty()) {
-    const HeldSignals held;
-    io::write_weights(arguments.displacement, lengths);
-  }
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return outcome;
+  if (arguments.displacement.empty()) return;
+  const HeldSignals held;
+  io::write_weights(arguments.displacement, displacement.lengths);
 }
 
 template <int Dim>
-void print_summary(const MovableModel<Dim>& model, std::size_t num_poses, const Outcome& outcome,
+void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>& poses,
+                   const Displacement& displacement, double seconds,
                    const DeformArguments& arguments) {
-  std::cerr << arguments.output << ": " << model.points().cols() << " points, " << num_poses
-            << (num_poses == 1 ? " pose, " : " poses, ") << outcome.seconds << " s";
-  if (!arguments.rest.empty()) std::cerr << "; largest displacement " << outcome.largest;
-  if (outcome.largest > 0) {
-    std::cerr << " at vertex " << outcome.largest_point << " (" << outcome.largest_pose << ')';
+  const auto& [input, output, shows_displacement] = arguments.file;
+  std::cerr << output << ": " << model.points().cols() << " points, " << poses.size()
+            << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
+  if (!arguments.rest.empty()) std::cerr << "; largest displacement " << displacement.largest;
+  if (displacement.largest > 0) {
+    std::cerr << " at vertex " << displacement.point << " (" << poses[displacement.pose].name
+              << ')';
+  }
+  if (shows_displacement) {
+    std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark red)";
   }
   std::cerr << '\n';
+  print_losses(input, output, model.losses());
   if (model.num_loose_normals() > 0) {
-    std::cerr << "flbc: " << arguments.model << ": " << model.num_loose_normals()
+    std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
               << " normals belong to no face with an area and stay as they are\n";
   }
 }
 
 template <int Dim>
 void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
-  require_formats_of<Dim>(arguments.model, arguments.output);
+  require_formats_of<Dim>(arguments.file);
   PointList<Dim> rest;
   if (!arguments.rest.empty()) rest = load_control_points<Dim>(arguments.rest);
-  auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
-                                           : load_keyframes<Dim>(arguments.keyframes, rest);
-  const auto outputs = name_outputs(poses, arguments.output);
+  const auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
+                                                 : load_keyframes<Dim>(arguments.keyframes, rest);
+  const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
 
-  const MovableModel<Dim> model(arguments.model, arguments.output);
-  const auto dense = io::read_weights(arguments.weights);
-  if (!arguments.rest.empty()) check_sizes(dense, model, {{arguments.rest, 0, rest}}, arguments);
-  check_sizes(dense, model, poses, arguments);
-  const SparseWeights weights(dense);
-  if (!arguments.rest.empty()) check_reproduction(weights, rest, model.points(), arguments);
-
-  const auto outcome = write_poses(model, weights, poses, outputs, arguments);
-  if (!arguments.quiet) print_summary(model, poses.size(), outcome, arguments);
+  const MovableModel<Dim> model(arguments.file);
+  const auto weights = load_weights(model, rest, poses, arguments);
+  const auto start = std::chrono::steady_clock::now();
+  Displacement displacement;
+  if (!arguments.rest.empty()) {
+    displacement = measure_displacement(weights, model.points(), poses);
+  }
+  write_results(model, weights, poses, displacement, outputs, arguments);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (!arguments.quiet) print_summary(model, poses, displacement, seconds.count(), arguments);
 }
 
 }  // namespace
@@ -193,13 +165,16 @@ void add_deform_command(CLI::App& app, int& exit_status) {
   auto& a = *arguments;
   auto* command = app.add_subcommand("deform", "Move a model or a domain mesh with its cage");
   command->footer(
-      "Of .obj and .off files nothing changes but the coordinates and the normals of vertices; in\n"
-      "2D z stays. A sequence numbers its results as --cage pose_%d.obj is numbered, or from 0.\n"
+      "If MODEL and the result have the same format, nothing changes but the coordinates and\n"
+      "normals of a model; in 2D z stays. Into another format polygons, colours, normals and\n"
+      "texture coordinates go as far as it has places for them; what it does not keep is told.\n"
+      "A sequence numbers its results as --cage pose_%d.obj is numbered, or from 0.\n"
       "Keyframes are text: 'k TIME' begins a keyframe, and 'c KEYFRAME DX DY DZ' is how far a\n"
       "control point is from where it rests, in the order of the control points.");
   command
-      ->add_option("MODEL", a.model,
-                   "model (.obj, .off) or domain mesh (.vtu; 3D: .mesh .node .ele .msh)")
+      ->add_option("MODEL", a.file.model,
+                   "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh)")
       ->required();
   command
       ->add_option("--weights", a.weights,
@@ -212,11 +187,14 @@ void add_deform_command(CLI::App& app, int& exit_status) {
   command->add_option("--rest", a.rest,
                       "the cage the weights were computed for: checks that they belong to MODEL");
   command
-      ->add_option("-o,--output", a.output,
-                   "the result, like MODEL; with %d or %03d in its name for several poses")
+      ->add_option("-o,--output", a.file.output,
+                   "the result, a file of either kind as MODEL is; with %d or %03d in its name for "
+                   "several poses")
       ->required();
   command->add_option("--displacement", a.displacement,
                       "write how far vertices moved, a column per pose: .npy, .dmat or .mtx");
+  command->add_flag("--show-displacement", a.file.shows_displacement,
+                    "show how far vertices moved: as their colours; in .vtu and .mesh as a field");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);

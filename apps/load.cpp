@@ -10,6 +10,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "flbc/io/model_file.h"
 #include "flbc/meshing.h"
 #ifdef FLBC_WITH_OPENMESH
 #include "openmesh_bindings/mesh_io.h"
@@ -43,13 +44,13 @@ io::PolygonSoup load_polygons(const std::string& path) {
   if (extension == "obj" || path == "-") return io::read_obj(path);
   if (extension == "off") return io::read_off(path);
 #ifdef FLBC_WITH_OPENMESH
-  // Not .om: OpenMesh's reader crashes on damaged files of that kind.
-  if (extension == "ply" || extension == "stl") {
-    return openmesh::read_polygons(path);
-  }
-  throw OptionError(path + ": expected a file ending in .obj, .off, .ply or .stl");
+  if (extension == "stl") return openmesh::read_polygons(path);
+#endif
+  if (extension == "ply" || extension == "om") return io::ModelFile(path).model().soup;
+#ifdef FLBC_WITH_OPENMESH
+  throw OptionError(path + ": expected a file ending in .obj, .off, .ply, .stl or .om");
 #else
-  throw OptionError(path + ": expected a file ending in .obj or .off");
+  throw OptionError(path + ": expected a file ending in .obj, .off, .ply or .om");
 #endif
 }
 

@@ -22,7 +22,7 @@ auto naming(const std::string& path, const Action& action) {
   }
 }
 
-//! Any polygon file: OBJ and OFF exactly, other formats through OpenMesh if it was built in.
+//! Any polygon file, exactly; STL through OpenMesh if it was built in.
 io::PolygonSoup load_polygons(const std::string& path);
 
 //! A cage that has passed all checks, self-intersection included where CGAL was built in.

@@ -46,8 +46,10 @@ int run(int argc, char** argv) {
   add_mesh_command(app, exit_status);
   add_solve_command(app, exit_status);
   add_check_command(app, exit_status);
+  add_convert_command(app, exit_status);
   add_deform_command(app, exit_status);
   add_sparsify_command(app, exit_status);
+  add_export_command(app, exit_status);
   add_draw_command(app, exit_status);
   add_info_command(app, exit_status);
   refuse_empty_values(app);

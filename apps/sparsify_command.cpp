@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc sparsify: few influences per point.
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -8,24 +9,26 @@
 
 #include "commands.h"
 #include "exit_status.h"
-#include "flbc/coordinates.h"
+#include "flbc/edge_list.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
+#include "flbc/poisson_reduction.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "held_signals.h"
 #include "load.h"
+#include "sparsify_report.h"
 
 namespace flbc::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of either kind, to measure what sparsity costs.
-constexpr int kRandomPoses = 20;
+constexpr const char* kQuadratic = "quadratic";
+constexpr const char* kPoisson = "poisson";
 
 struct SparsifyArguments {
   std::string weights;
@@ -34,6 +37,7 @@ struct SparsifyArguments {
   std::string output;
   std::vector<std::string> poses;
   std::string report;
+  std::string method = kQuadratic;
   bool quiet = false;
   SparsifyOptions options;
 };
@@ -46,14 +50,28 @@ void check_files(const SparsifyArguments& arguments) {
   require_distinct(inputs, {arguments.output, arguments.report});
 }
 
+template <int Dim>
+struct ConnectedPoints {
+  PointList<Dim> points;
+  EdgeList edges;
+};
+
 // The vertices of a domain mesh or a model, by the file's name.
 template <int Dim>
-PointList<Dim> load_points(const std::string& path) {
+ConnectedPoints<Dim> load_points(const std::string& path) {
   const auto extension = io::extension_of(path);
   for (const char* domain : {"mesh", "node", "ele", "msh", "vtu"}) {
-    if (extension == domain) return io::read_domain<Dim>(path).points;
+    if (extension != domain) continue;
+    auto mesh = io::read_domain<Dim>(path);
+    auto edges = edges_of_cells(mesh);
+    return {std::move(mesh.points), std::move(edges)};
   }
-  return load_model<Dim>(path);
+  const auto soup = load_polygons(path);
+  auto points = io::to_points<Dim>(soup, path);
+  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
+  auto edges =
+      naming(path, [&] { return edges_of_polygons(points, soup.polygons, soup.polylines); });
+  return {std::move(points), std::move(edges)};
 }
 
 template <int Dim>
@@ -89,98 +107,69 @@ std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments, Eigen
   return poses;
 }
 
-template <int Dim>
-Json weights_json(const std::string& file, std::uintmax_t bytes, const WeightMatrix& weights,
-                  const PointList<Dim>& control_points, const PointList<Dim>& points) {
-  const auto influences = count_influences(weights);
-  const auto quality = measure_quality(control_points, points, weights);
-  return {{"file", file},
-          {"bytes", bytes},
-          {"mean_influences", influences.mean},
-          {"max_influences", influences.max},
-          {"min_weight", quality.min_weight},
-          {"max_partition_error", quality.max_partition_error},
-          {"max_reproduction_error", quality.max_reproduction_error}};
-}
-
-Json norms_json(const ErrorNorms& norms) {
-  return {{"rms", norms.rms}, {"max", norms.max}};
-}
-
-// The deformation errors are relative to the size of the points.
-template <int Dim>
-Json errors_json(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                 const WeightMatrix& before, const WeightMatrix& after,
-                 const SparsifyArguments& arguments) {
-  const double size = size_of<Dim>(points);
-  const auto measure = [&](const std::vector<PointList<Dim>>& poses) {
-    auto norms = deformation_error(poses, before, after);
-    if (size > 0) norms = {norms.rms / size, norms.max / size};
-    return norms_json(norms);
-  };
-  Json deformation{{"random_poses", kRandomPoses},
-                   {"independent", measure(independent_poses(control_points, kRandomPoses))},
-                   {"smooth", measure(smooth_poses(control_points, kRandomPoses))}};
-  const auto poses = load_poses<Dim>(arguments, control_points.cols());
-  deformation["poses"] = Json::array();
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    auto entry = measure({poses[k]});
-    entry["file"] = arguments.poses[k];
-    deformation["poses"].push_back(entry);
-  }
-  return {{"weight", norms_json(weight_error(before, after))}, {"deformation", deformation}};
-}
-
 std::uintmax_t size_of_file(const std::string& path) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   return error ? 0 : bytes;
 }
 
-void print_summary(const Json& report) {
-  const auto& before = report["before"];
-  const auto& after = report["after"];
-  const auto& deformation = report["error"]["deformation"];
-  const auto percent = [](const Json& value) { return 100 * value.get<double>(); };
-  std::cerr << after["file"].get<std::string>() << ": " << after["mean_influences"].get<double>()
-            << " influences per point, at most " << after["max_influences"] << " (before "
-            << before["mean_influences"].get<double>() << ", " << before["max_influences"] << "); "
-            << after["bytes"] << " bytes (before " << before["bytes"]
-            << "); deformation error over random poses "
-            << percent(deformation["independent"]["rms"]) << " % of the size rms, "
-            << percent(deformation["independent"]["max"]) << " % max, over smooth ones "
-            << percent(deformation["smooth"]["rms"]) << " % rms, "
-            << percent(deformation["smooth"]["max"]) << " % max\n";
+template <int Dim>
+WeightMatrix make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
+                         const WeightMatrix& weights, const std::vector<PointList<Dim>>& poses,
+                         const SparsifyArguments& arguments) {
+  if (arguments.method == kPoisson) {
+    return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
+                                  arguments.options);
+  }
+  return sparsify<Dim>(control_points, model.points, weights, arguments.options);
 }
 
 template <int Dim>
 int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
-  const auto points = load_points<Dim>(arguments.points);
-  const auto before = load_weights(arguments, cage.points, points);
+  const auto model = load_points<Dim>(arguments.points);
+  if (arguments.method == kPoisson && model.edges.ends.empty()) {
+    throw InputError(arguments.points +
+                     ": has neither faces nor lines, but --method poisson needs to know which "
+                     "vertices are neighbours");
+  }
+  const auto before = load_weights(arguments, cage.points, model.points);
+  const auto poses = load_poses<Dim>(arguments, cage.points.cols());
+  const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    return sparsify<Dim>(cage.points, points, before, arguments.options);
+    return make_sparse<Dim>(cage.points, model, before, poses, arguments);
   });
-  Json report{{"dim", Dim}, {"control_points", cage.size()}, {"points", points.cols()}};
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  Json report{{"method", arguments.method},
+              {"dim", Dim},
+              {"control_points", cage.size()},
+              {"points", model.points.cols()},
+              {"seconds", seconds.count()}};
   report["options"] = {{"threshold", arguments.options.threshold}};
   if (arguments.options.max_influences < std::numeric_limits<Index>::max()) {
     report["options"]["max_influences"] = arguments.options.max_influences;
   }
-  report["before"] =
-      weights_json(arguments.weights, size_of_file(arguments.weights), before, cage.points, points);
-  report["error"] = errors_json(cage.points, points, before, after, arguments);
+  report["before"] = weights_json(arguments.weights, size_of_file(arguments.weights), before,
+                                  cage.points, model.points);
+  report["error"] = errors_json<Dim>(
+      {cage.points, model.points, model.edges, before, after, poses, arguments.poses});
   report["version"] = FLBC_VERSION;
   {
     const HeldSignals held;
     io::write_weights(arguments.output, after);
-    report["after"] =
-        weights_json(arguments.output, size_of_file(arguments.output), after, cage.points, points);
+    report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
+                                   cage.points, model.points);
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << report.dump(2) << '\n'; });
     }
   }
-  if (!arguments.quiet) print_summary(report);
+  if (!arguments.quiet) std::cerr << summary_of(report) << '\n';
   return kDone;
+}
+
+std::string refuse_method(const std::string& name) {
+  if (name == kQuadratic || name == kPoisson) return {};
+  return "'" + name + "' is none of quadratic|poisson";
 }
 
 }  // namespace
@@ -205,8 +194,17 @@ void add_sparsify_command(CLI::App& app, int& exit_status) {
                                     "most influences per point, at least 3 in 2D and 4 in 3D");
   auto* threshold = command->add_option("--threshold", a.options.threshold,
                                         "drop weights below this first, if the rest reproduces");
+  command
+      ->add_option("--method", a.method,
+                   "quadratic: every point for itself; poisson: no seams between neighbours "
+                   "(quadratic)")
+      ->type_name("quadratic|poisson")
+      ->check(refuse_method);
   command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat or .npy")->required();
-  command->add_option("--pose", a.poses, "measure the error in this pose of the cage (repeatable)")
+  command
+      ->add_option("--pose", a.poses,
+                   "measure the error in this pose of the cage, which poisson makes small, too "
+                   "(repeatable)")
       ->allow_extra_args(false);
   command->add_option("--report", a.report, "write what happened to this .json file");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");

@@ -8,7 +8,8 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "openmesh_bindings/ply_file.h"
+#include "flbc/io/model_file.h"
+#include "openmesh_bindings/silenced.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -48,40 +49,18 @@ class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
   std::vector<std::vector<Index>>& polygons_;
 };
 
-// OpenMesh explains its refusals on its own error stream; the library must not print.
-class SilencedOpenMesh {
- public:
-  SilencedOpenMesh() {
-    omerr().disable();
-    omlog().disable();
-  }
-  ~SilencedOpenMesh() {
-    omerr().enable();
-    omlog().enable();
-  }
-};
-
 }  // namespace
 
 io::PolygonSoup read_polygons(const std::string& path) {
-  if (io::extension_of(path) == "ply") return read_ply(path);
+  const auto extension = io::extension_of(path);
+  if (extension == "ply" || extension == "om") return io::ModelFile(path).model().soup;
   if (!std::ifstream(path)) io::read_file(path);  // throws with the system's reason
   io::PolygonSoup soup;
   Mesh mesh;
   OpenMesh::IO::Options options;
   const SilencedOpenMesh silence;
-  bool read = false;
-  if (io::extension_of(path) == "om") {
-    // .om stores connectivity, not faces, so it can only be read into a mesh.
-    read = OpenMesh::IO::read_mesh(mesh, path, options);
-    for (const auto face : mesh.faces()) {
-      soup.polygons.emplace_back();
-      for (const auto corner : face.vertices()) soup.polygons.back().push_back(corner.idx());
-    }
-  } else {
-    SoupImporter importer(mesh, soup.polygons);
-    read = OpenMesh::IO::IOManager().read(path, importer, options);
-  }
+  SoupImporter importer(mesh, soup.polygons);
+  const bool read = OpenMesh::IO::IOManager().read(path, importer, options);
   if (!read) throw InputError(path + ": OpenMesh cannot read this file");
   for (const auto vertex : mesh.vertices()) {
     const auto& point = mesh.point(vertex);

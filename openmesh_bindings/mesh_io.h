@@ -9,12 +9,11 @@
 
 namespace flbc::openmesh {
 
-//! Reads .ply (by a reader of our own, exactly, because OpenMesh's crashes on damaged files) and
-//! any other format OpenMesh reads. Polygons stay polygons, and faces that no half-edge mesh could
-//! hold (non-manifold edges) are kept, so that a cage's defects can be named instead of vanishing.
-//! OpenMesh's readers keep single precision only, except for .om files with double points; read
-//! .obj and .off exactly with io::read_obj and io::read_off. Corners of .stl files are merged where
-//! they coincide. A damaged .om file can crash OpenMesh's reader: read only ones you trust.
+//! Reads .ply and .om (by io::ModelFile, exactly, because OpenMesh's readers crash on damaged files)
+//! and any other format OpenMesh reads. Polygons stay polygons, and faces that no half-edge mesh
+//! could hold (non-manifold edges) are kept, so that a cage's defects can be named instead of
+//! vanishing. OpenMesh's readers keep single precision only; read .obj and .off exactly with
+//! io::read_obj and io::read_off. Corners of .stl files are merged where they coincide.
 //! \throws IoError if the file cannot be opened, InputError if it makes no sense
 io::PolygonSoup read_polygons(const std::string& path);
 

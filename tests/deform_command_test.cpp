@@ -176,7 +176,7 @@ TEST_F(DeformCommand, LinesThatContinueOthers) {
   EXPECT_EQ(slurp(path("o.obj")), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
   // Readers that pass normals over take the second line for a vertex.
   expect_deform(file("model.obj", "v 0.25 0.25 0.5\nvn 0 0 1\\\nv 1 2 3\n") + command, 2,
-                "a normal (\"vn\") is continued on another line");
+                "normal (\"vn\") is continued on another line");
 }
 
 TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {
@@ -358,9 +358,15 @@ TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
   refused(model + weights + " --cage " + cage + " -o " + model, 1, "would replace this file");
   refused(model + weights + " --cage " + cage + output + " --displacement " + path("d.npy"), 1,
           "--displacement needs --rest");
-  refused(model + weights + " --cage " + cage + " -o " + path("o.off"), 1, "must be one too");
-  refused(file("model.ply", "ply\n") + weights + " --cage " + cage + " -o " + path("o.ply"), 1,
-          "only models in .obj and .off files");
+  refused(model + weights + " --cage " + cage + output + " --show-displacement", 1,
+          "--show-displacement needs --rest");
+  refused(model + weights + " --cage " + cage + " -o " + path("o.vtu"), 1,
+          "o.vtu: " + model + " holds polygons, so that the result must end in .obj, .off, .ply");
+  refused(path("model.vtk") + weights + " --cage " + cage + output, 1,
+          "model.vtk: cannot tell the format");
+  refused(model + weights + " --cage " + cage + " -o " + path("o.vtk"), 1, "o.vtk: cannot tell");
+  refused(file("model.ply", "ply\n") + weights + " --cage " + cage + " -o " + path("o.ply"), 2,
+          "model.ply:2: the header of the PLY file has no end");
   refused(path("missing.obj") + weights + " --cage " + cage + output, 4, "missing.obj");
   refused(model + weights + " --cage " + cage + " -o " + path("absent/o.obj"), 4, "absent");
   refused(file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//2\n") + weights +

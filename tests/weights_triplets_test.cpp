@@ -2,6 +2,7 @@
 #include "flbc/io/weights_triplets.h"
 
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,53 @@ TEST(Triplets, DefectsAreNamed) {
   expect_refusal("1 0 1\n", "weights for 1 points, but 3 are there");
   expect_refusal("", "weights for 0 control points");
   EXPECT_THROW(io::read_weight_triplets("/absent/w.txt", 2, 3), IoError);
+}
+
+WeightMatrix awkward_weights() {
+  const auto numbers = awkward_numbers();
+  WeightMatrix weights = WeightMatrix::Zero(5, static_cast<Eigen::Index>(numbers.size()));
+  for (Eigen::Index v = 0; v < weights.cols() - 1; ++v) weights(v % 4, v) = numbers[v];
+  weights(1, 0) = -0.0;
+  return weights;  // the last row and the last column are 0
+}
+
+TEST(Triplets, AreReadBackBitByBit) {
+  const auto weights = awkward_weights();
+  const auto path = file("");
+  io::write_weight_triplets(path, weights);
+  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path, 5, 14), weights));
+  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path), weights));
+}
+
+TEST(Triplets, TellTheirSizeByTheLargestNumbers) {
+  const auto path = file("3 0 0.5\n0 6 0.25\n");
+  const auto weights = io::read_weight_triplets(path);
+  WeightMatrix expected = WeightMatrix::Zero(4, 7);
+  expected(3, 0) = 0.5;
+  expected(0, 6) = 0.25;
+  EXPECT_EQ(weights, expected);
+  const auto refuse = [&](const std::string& content, const std::string& text) {
+    const auto name = file(content);
+    expect_error<InputError>([&] { io::read_weight_triplets(name); }, {name, text});
+  };
+  refuse(
+      "0 0 1\n0 2000000000 1\n",
+      "the largest numbers ask for 1 control points and 2000000001 points, but there are only 2");
+  refuse("# nothing\n", "has no weights");
+  refuse("0 0 1\n-1 0 1\n", ":2: ");
+}
+
+TEST(Triplets, WhatCannotBeReadBackIsNotWritten) {
+  const auto path = file("as it was");
+  WeightMatrix weights = WeightMatrix::Ones(2, 2);
+  weights(1, 0) = std::numeric_limits<double>::infinity();
+  expect_error<InputError>([&] { io::write_weight_triplets(path, weights); },
+                           {"the weight of control point 1 at point 0 is not finite"});
+  expect_error<InputError>([&] { io::write_weight_triplets(path, WeightMatrix(3, 0)); },
+                           {path, "there are no weights"});
+  std::ifstream before(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(before), {}), "as it was");
+  EXPECT_THROW(io::write_weight_triplets("/absent/w.txt", WeightMatrix::Ones(1, 1)), IoError);
 }
 
 }  // namespace

@@ -17,4 +17,14 @@ namespace flbc::io {
 //! file if it has no triplet or none for the last control point or point (it belongs to others)
 WeightMatrix read_weight_triplets(const std::string& path, Index num_controls, Index num_points);
 
+//! The same where nothing tells the size: it is as large as the largest numbers in the file ask.
+//! \throws IoError; InputError as above, or if it would be large and almost empty
+WeightMatrix read_weight_triplets(const std::string& path);
+
+//! Writes weights that are not 0 point by point, with the digits it takes to read the same numbers
+//! back (at most 17), and the last weight of all even if it is 0, because it tells the size.
+//! \param weights  n x #points
+//! \throws IoError; InputError if a weight is not finite or there are none
+void write_weight_triplets(const std::string& path, const WeightMatrix& weights);
+
 }  // namespace flbc::io

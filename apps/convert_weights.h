@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Weights from one format to another.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace flbc::app {
+
+//! What to convert, and what is known of it.
+struct WeightConversion {
+  std::string input;
+  std::string output;
+  std::string cage;                   //!< of the weights; empty = not known
+  std::string points;                 //!< model or mesh they belong to; empty = not known
+  std::optional<double> threshold{};  //!< weights up to this size become 0
+  bool transpose = false;             //!< the input has control points as rows
+};
+
+//! By the extension.
+bool is_weight_file(const std::string& path);
+
+//! Reads weights and writes them in another format; what is left unsaid or dropped is told unless
+//! `quiet`. \throws IoError; InputError, also if the weights do not fit cage or points
+void convert_weights(const WeightConversion& conversion, bool quiet);
+
+}  // namespace flbc::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What sparsity costs, as JSON and as text.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "flbc/edge_list.h"
+#include "flbc/types.h"
+
+namespace flbc::app {
+
+//! Weights before and after, and what they are measured with. All kept by reference.
+template <int Dim>
+struct SparsifiedWeights {
+  const PointList<Dim>& control_points;
+  const PointList<Dim>& points;
+  const EdgeList& edges;  //!< may be empty
+  const WeightMatrix& before;
+  const WeightMatrix& after;
+  const std::vector<PointList<Dim>>& poses;
+  const std::vector<std::string>& pose_files;
+};
+
+//! \param bytes  size of the file
+template <int Dim>
+nlohmann::ordered_json weights_json(const std::string& file, std::uintmax_t bytes,
+                                    const WeightMatrix& weights,
+                                    const PointList<Dim>& control_points,
+                                    const PointList<Dim>& points);
+
+//! Of weights, of points in poses relative to the size of the points, and, if there are edges, of
+//! their differences along edges relative to the edges' lengths.
+template <int Dim>
+nlohmann::ordered_json errors_json(const SparsifiedWeights<Dim>& weights);
+
+//! The summary of a whole report, with "before", "after" and "error". \return a line
+std::string summary_of(const nlohmann::ordered_json& report);
+
+}  // namespace flbc::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Model files whose vertices move: everything else in them stays as it was.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/io/obj_attributes.h"
+#include "flbc/io/polygon_file.h"
+
+namespace flbc::io {
+
+//! What is in a model file: polygons with what their vertices and corners carry.
+struct Model {
+  PolygonSoup soup{};
+  //! Where a file has attributes of vertices, those of vertex v are columns v.
+  SurfaceAttributes attributes{};
+  std::vector<std::string> others{};  //!< what else is in the file, as phrases for messages
+  bool is_text = true;  //!< whether the file is text, where its format leaves a choice
+};
+
+//! A file in which the coordinates of the vertices can be exchanged.
+class ModelFile {
+ public:
+  //! Reads .obj, .off, .ply, .stl or .om (OpenMesh, up to version 2.2). Corners of .stl files that
+  //! coincide are one vertex, as OpenMesh has it: numbered as they first occur.
+  //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
+  //! extension
+  explicit ModelFile(const std::string& path);
+  ~ModelFile();
+  ModelFile(ModelFile&&) noexcept;
+  ModelFile& operator=(ModelFile&&) noexcept;
+
+  //! What the file holds.
+  const Model& model() const;
+
+  //! Number of normals in the file that belong to no polygon with an area: they cannot follow the
+  //! vertices and stay as they are.
+  Index num_loose_normals() const;
+
+  //! Writes the file with each vertex moved to its column of `points` (Dim x P) and all else byte
+  //! by byte as it was: text with the digits it takes to read the same numbers back, binary numbers
+  //! in the precision they have in the file. In 2D z and the normals stay. In 3D normals turn with
+  //! the polygons they belong to: rigidly where these move rigidly, and so that one that is their
+  //! area-weighted mean remains it. Normals that someone has chosen, or that point to the other
+  //! side, do so still.
+  //! \throws InputError if the number of points is another, one is not finite or too large for its
+  //! precision, or the file has no room for it (integers; no z in 3D)
+  template <int Dim>
+  void write(std::ostream& out, const PointList<Dim>& points) const;
+
+  //! The model with its vertices and normals moved likewise.
+  template <int Dim>
+  Model moved(const PointList<Dim>& points) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<const Content> content_;
+};
+
+//! Attributes of vertices, a column per vertex; 0 where a vertex is in no polygon. Empty if the
+//! model has none; nothing if some vertex has not the same value at all its corners.
+std::optional<PointList<2>> texture_coordinates_at_vertices(const Model& model);
+std::optional<PointList<3>> normals_at_vertices(const Model& model);
+
+//! What a file of the format that `path` names would not keep of a model, a phrase each.
+std::vector<std::string> losses(const Model& model, const std::string& path);
+
+//! Writes by extension: .obj, .off, .ply or .stl, the last two as text or binary as the model is.
+//! Coordinates have all digits, in .stl those of single precision. What losses() tells is left out.
+//! \throws IoError; InputError if a number is not finite; OptionError for another extension
+void write_model(const std::string& path, const Model& model);
+
+}  // namespace flbc::io

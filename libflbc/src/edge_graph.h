@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Points and their neighbours, ready for passes over them that are parallel and yet give the same
+//! result for any number of threads.
+#pragma once
+
+#include <vector>
+
+#include "flbc/edge_list.h"
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Points that coincide and have the same weights are one point here, with all their edges: where a
+//! file has a vertex twice, as at the borders of texture charts, nothing must tear.
+class EdgeGraph {
+ public:
+  struct Neighbour {
+    Index point;
+    double weight;
+  };
+  struct Range {
+    const Neighbour* first;
+    const Neighbour* last;
+    const Neighbour* begin() const { return first; }
+    const Neighbour* end() const { return last; }
+  };
+
+  //! \param points  Dim x P \param weights  n x P \param edges  validated
+  template <int Dim>
+  EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights, const EdgeList& edges);
+
+  //! The first of the points that are one with this one.
+  Index representative(Index point) const { return representatives_[point]; }
+
+  //! Of a representative; others have none.
+  Range neighbours_of(Index point) const {
+    return {neighbours_.data() + start_[point], neighbours_.data() + start_[point + 1]};
+  }
+
+  //! The sum of k_e |edge|^2 / 2 over the edges of a point: its share of area or volume.
+  double mass(Index point) const { return masses_[point]; }
+
+  //! The representatives that have neighbours, in groups without neighbours inside.
+  const std::vector<std::vector<Index>>& colors() const { return colors_; }
+
+ private:
+  void connect(const EdgeList& edges);
+  void color();
+
+  std::vector<Index> representatives_;
+  std::vector<std::size_t> start_;
+  std::vector<Neighbour> neighbours_;
+  std::vector<double> masses_;
+  std::vector<std::vector<Index>> colors_;
+};
+
+}  // namespace flbc

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The cost of changed weights along edges.
+#pragma once
+
+#include <vector>
+
+#include "flbc/edge_list.h"
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! With d_a the new less the given weights of point a and x_a its place:
+//!
+//!     sum_ab k_ab (d_a - d_b) . H (d_a - d_b)  +  sum_a pin m_a d_a . H d_a
+//!
+//! over edges ab and points a, where m_a = sum_b k_ab |x_a - x_b|^2 / 2.
+struct PoissonEnergy {
+  Eigen::MatrixXd metric;  //!< H, n x n
+  double pin;              //!< what keeps points in place, 1 / length^2
+};
+
+//! \param control_points  Dim x n \param points  Dim x P \param edges  validated
+//! \param poses  Dim x n each \throws InputError if a pose does not fit
+template <int Dim>
+PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
+                                  const PointList<Dim>& points, const EdgeList& edges,
+                                  const std::vector<PointList<Dim>>& poses);
+
+//! \param edges  validated \param before, after  n x P
+template <int Dim>
+double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const EdgeList& edges,
+                const WeightMatrix& before, const WeightMatrix& after);
+
+}  // namespace flbc

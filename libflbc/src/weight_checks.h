@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Whether weights, points, control points and poses belong together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flbc/errors.h"
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! \throws InputError if the weights are not num_control_points x num_points
+inline void check_size(const WeightMatrix& weights, Eigen::Index num_control_points,
+                       Eigen::Index num_points) {
+  if (weights.rows() == num_control_points && weights.cols() == num_points) return;
+  throw InputError("weights for " + std::to_string(weights.cols()) + " points and " +
+                   std::to_string(weights.rows()) + " control points do not belong to " +
+                   std::to_string(num_points) + " points and " +
+                   std::to_string(num_control_points) + " control points");
+}
+
+//! \throws InputError naming the first pose that has not `n` control points or is not finite
+template <int Dim>
+void check_poses(const std::vector<PointList<Dim>>& poses, Eigen::Index n) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const std::string name = "pose " + std::to_string(k);
+    if (poses[k].cols() != n) {
+      throw InputError(name + " has " + std::to_string(poses[k].cols()) +
+                       " control points, but the weights are for " + std::to_string(n));
+    }
+    if (!poses[k].allFinite()) throw InputError(name + " has a number that is not finite");
+  }
+}
+
+}  // namespace flbc

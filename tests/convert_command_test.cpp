@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc convert as its users and their scripts see it.
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/polygon_file.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/io/weights_triplets.h"
+#include "support/command_line.h"
+#include "support/io_files.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+class ConvertCommand : public CommandLineTest {
+ protected:
+  // Status 0 and these words on standard error.
+  void expect_converted(const std::string& arguments, const std::string& words = "") const {
+    SCOPED_TRACE(arguments);
+    const auto result = run("convert " + arguments);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+  }
+
+  // Another status, these words, and no new file.
+  void expect_refused(const std::string& arguments, int status, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    const auto before = count_files();
+    const auto result = run("convert " + arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(count_files(), before);
+  }
+
+  std::ptrdiff_t count_files() const {
+    return std::distance(std::filesystem::directory_iterator(path("")), {});
+  }
+
+  WeightMatrix read(const std::string& name) const {
+    const bool are_triplets = name.substr(name.size() - 3) == "txt";
+    return are_triplets ? io::read_weight_triplets(path(name)) : io::read_weights(path(name));
+  }
+
+  // Five points and three control points, without weights of the last of either.
+  WeightMatrix write_weights(const std::string& name) const {
+    WeightMatrix weights = WeightMatrix::Zero(3, 5);
+    weights << 1 / 3.0, 1, -1e-17, 0, 0,  //
+        2 / 3.0, 0, 1e-300, 0.1, 0,       //
+        0, 0, 0, 0, 0;
+    io::write_weights(path(name), weights);
+    return weights;
+  }
+};
+
+TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
+  const std::string formats[] = {"npy", "dmat", "mtx", "txt"};
+  const auto weights = write_weights("a.npy");
+  for (const auto& from : formats) {
+    if (from != "npy") expect_converted(path("a.npy") + " -o " + path("a." + from));
+    EXPECT_TRUE(bit_equal(read("a." + from), weights)) << from;
+    for (const auto& to : formats) {
+      const auto there = path("b." + to), back = path("c." + from);
+      expect_converted(path("a." + from) + " -o " + there,
+                       "b." + to + ": weights of 5 points for 3 control points");
+      EXPECT_TRUE(bit_equal(read("b." + to), weights)) << from << " " << to;
+      expect_converted(there + " -q -o " + back);
+      EXPECT_EQ(slurp(back), slurp(path("a." + from))) << from << " " << to;
+    }
+  }
+  EXPECT_EQ(run("convert -q " + path("a.npy") + " -o " + path("d.txt")).errors, "");
+}
+
+TEST_F(ConvertCommand, SizesOfTripletsAreTheLargestNumbersOrThoseOfTheFiles) {
+  const auto weights = file("w.txt", "0 0 1\n1 1 0.5\n0 1 0.5\n1 2 1\n");
+  const auto cage = file("cage.obj", "v 0 0\nv 1 0\n");
+  const auto points = file("points.obj", "v 0 0\nv 0.5 0\nv 1 0\n");
+  const auto o = " -o " + path("o.npy");
+  expect_converted(weights + o, "w.txt does not tell these numbers; they are the largest ones");
+  expect_converted(weights + o + " --cage " + cage, "does not tell these numbers");
+  const auto fit = weights + o + " --cage " + cage + " --points " + points;
+  EXPECT_EQ(run("convert " + fit).errors,
+            path("o.npy") + ": weights of 3 points for 2 control points\n");
+  expect_refused(weights + o + " --cage " + points, 2,
+                 "w.txt: has weights for 2 control points, but " + points + " has 3");
+  expect_refused(weights + o + " --points " + cage, 2,
+                 "w.txt: has weights of 3 points, but " + cage + " has 2 vertices");
+  // The same holds for weights that know their size.
+  expect_refused(path("o.npy") + " -o " + path("p.npy") + " --points " + cage, 2,
+                 "o.npy: has weights of 3 points");
+  expect_refused(file("bad.txt", "0 0 1\n0 1\n") + o + "2.npy", 2, "bad.txt:2: ");
+  expect_refused(file("empty.txt", "") + " -o " + path("p.npy"), 2, "empty.txt: has no weights");
+}
+
+TEST_F(ConvertCommand, Transpose) {
+  const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 0 1\n");
+  const auto weights = write_weights("a.npy");
+  io::write_weights(path("t.npy"), weights.transpose());
+  expect_converted(path("t.npy") + " --transpose -o " + path("b.npy"));
+  EXPECT_TRUE(bit_equal(read("b.npy"), weights));
+  // Of triplets the first two numbers change places.
+  expect_converted(file("t.txt", "4 0 0.5\n2 1 0.25\n") + " --transpose -o " + path("c.txt"));
+  WeightMatrix expected = WeightMatrix::Zero(2, 5);
+  expected(0, 4) = 0.5;
+  expected(1, 2) = 0.25;
+  EXPECT_EQ(read("c.txt"), expected);
+
+  const auto points = file("points.obj", "v 0 0\nv 0 0\nv 0 0\nv 0 0\nv 0 0\n");
+  const auto files = " --cage " + cage + " --points " + points + " -o " + path("d.npy");
+  expect_refused(path("t.npy") + files, 2, "t.npy: has control points as rows; give --transpose");
+  expect_refused(path("a.npy") + files + " --transpose", 2, "leave --transpose out");
+  expect_converted(path("t.npy") + files + " --transpose");
+}
+
+TEST_F(ConvertCommand, SmallWeightsAreDroppedOnlyIfAsked) {
+  WeightMatrix weights(3, 2);
+  weights << 0.75, 1e-5,  //
+      0.25, -1e-4,        //
+      1e-4, 0.5;
+  io::write_weights(path("a.npy"), weights);
+  expect_converted(path("a.npy") + " -o " + path("b.mtx"));
+  EXPECT_TRUE(bit_equal(read("b.mtx"), weights));
+  expect_converted(path("a.npy") + " -o " + path("b.mtx") + " --threshold 1e-4",
+                   "3 weights up to 0.0001 were dropped, which changes the sum of a point's "
+                   "weights by at most 0.0001");
+  WeightMatrix expected = weights;
+  expected(2, 0) = expected(0, 1) = expected(1, 1) = 0;
+  EXPECT_EQ(read("b.mtx"), expected);
+  expect_refused(path("a.npy") + " -o " + path("c.mtx") + " --threshold -1", 1, "--threshold");
+  expect_refused(path("a.npy") + " -o " + path("c.mtx") + " --threshold nan", 1, "--threshold");
+}
+
+template <class Dimension>
+class ConvertMesh : public ConvertCommand {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ConvertMesh, Dimensions);
+
+TYPED_TEST(ConvertMesh, ThereAndBackNothingChanges) {
+  constexpr int Dim = TypeParam::value;
+  DomainMesh<Dim> mesh = samples<Dim>().front().mesh;
+  mesh.points = mesh.points / 3.0;
+  const std::vector<std::string> formats =
+      Dim == 2 ? std::vector<std::string>{"obj", "off", "vtu"}
+               : std::vector<std::string>{"mesh", "node", "ele", "msh", "vtu"};
+  for (const auto& from : formats) {
+    io::write_domain(this->path("a." + from), mesh);
+    for (const auto& to : formats) {
+      SCOPED_TRACE(from + " " + to);
+      const auto there = this->path("b_" + from + "." + to);
+      const auto back = this->path("c_" + to + "." + from);
+      this->expect_converted(this->path("a." + from) + " -o " + there,
+                             std::to_string(mesh.num_vertices()) + " vertices\n");
+      this->expect_converted(there + " -q -o " + back);
+      for (const auto& name : {there, back}) {
+        const auto read = io::read_domain<Dim>(name);
+        EXPECT_TRUE(bit_equal(read.points, mesh.points));
+        EXPECT_EQ(read.cells, mesh.cells);
+      }
+      EXPECT_EQ(slurp(back), slurp(this->path("a." + from)));
+    }
+  }
+}
+
+TYPED_TEST(ConvertMesh, FieldsAreKeptOrTold) {
+  constexpr int Dim = TypeParam::value;
+  const auto mesh = samples<Dim>().front().mesh;
+  const Eigen::VectorXd values = mesh.points.row(0) / 3.0;
+  io::write_domain(this->path("a.vtu"), mesh, {{"first", values}, {"second", -values}});
+  const auto convert = [&](const std::string& from, const std::string& to) {
+    const auto result = this->run("convert " + this->path(from) + " -o " + this->path(to));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return result.errors;
+  };
+  const std::string other = Dim == 2 ? "b.obj" : "b.msh";
+  const auto told = "flbc: " + this->path(other) + " does not keep all of " + this->path("a.vtu") +
+                    "; lost: field \"first\", field \"second\"\n";
+  EXPECT_NE(convert("a.vtu", other).find(told), std::string::npos);
+  EXPECT_EQ(io::read_domain<Dim>(this->path(other)).points, mesh.points);
+  const std::string keeper = Dim == 2 ? "c.vtu" : "c.mesh";
+  EXPECT_EQ(convert("a.vtu", keeper).find("keep"), std::string::npos);
+  convert(keeper, "d.vtu");
+  std::vector<io::VertexField> fields;
+  io::read_domain<Dim>(this->path("d.vtu"), fields);
+  ASSERT_EQ(fields.size(), 2U);
+  EXPECT_EQ(fields[1].name, "second");
+  EXPECT_TRUE(bit_equal(fields[1].values, Eigen::VectorXd(-values)));
+}
+
+TEST_F(ConvertCommand, ModelsKeepPolygonsAndColours) {
+  const auto model = file("a.obj",
+                          "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0.1 0 0 1\nv 0 1 0 0.2 0.4 0.6\n"
+                          "vt 0 0.5\nf 1/1 2/1 3/1 4/1\n");
+  std::string told;
+  for (const char* name : {"b.ply", "b.off", "c.ply", "b.obj"}) {
+    const auto from = told.empty() ? model : told;
+    expect_converted(from + " -o " + path(name), "4 vertices\n");
+    told = path(name);
+  }
+  const auto soup = io::read_obj(path("b.obj"));
+  EXPECT_EQ(soup.points[2].z(), 0.1);
+  EXPECT_EQ(soup.polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
+  EXPECT_NE(slurp(path("b.obj")).find("v 0 1 0 0.2 0.4 0.6\n"), std::string::npos);
+  EXPECT_NE(slurp(path("b.ply")).find("format ascii"), std::string::npos);
+  EXPECT_EQ(slurp(path("b.off")),
+            "STCOFF\n4 1 0\n0 0 0 255 0 0 255 0 0.5\n1 0 0 0 255 0 255 0 0.5\n"
+            "1 1 0.1 0 0 255 255 0 0.5\n0 1 0 51 102 153 255 0 0.5\n4 0 1 2 3\n");
+  expect_converted(model + " -o " + path("b.stl"),
+                   "the order of the vertices, coordinates beyond single precision, polygons (they "
+                   "are cut into triangles), colours, texture coordinates\n");
+  // As a mesh of the interior.
+  const auto flat = file("flat.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n# a\n");
+  expect_converted(flat + " -o " + path("b.vtu"), "flat.obj; lost: comments, colours\n");
+  EXPECT_EQ(io::read_domain<2>(path("b.vtu")).num_cells(), 1);
+}
+
+TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
+  write_weights("a.npy");
+  const auto model = file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  const auto tetrahedra = path("a.vtu");
+  io::write_domain(tetrahedra, samples<3>().front().mesh);
+  const auto to = [&](const std::string& name) { return " -o " + path(name); };
+  expect_refused(path("a.npy") + to("b.obj"), 1, "b.obj: weights are no mesh");
+  expect_refused(model + to("b.npy"), 1, "b.npy: a mesh is no weights");
+  expect_refused(path("a.xls") + to("b.npy"), 1, "a.xls: cannot tell the format");
+  expect_refused(path("a.npy") + to("b.xls"), 1, "b.xls: cannot tell the format");
+  expect_refused(model + to("b.xls"), 1, "b.xls: cannot tell the format");
+  expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
+  expect_refused(tetrahedra + to("b.obj"), 1, "b.obj: " + tetrahedra + " holds tetrahedra");
+  expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) does not lie in the plane z = 0");
+  expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
+  expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this file");
+  expect_refused(path("a.npy") + to("absent/b.npy"), 4, "absent");
+  expect_refused(path("missing.npy") + to("b.npy"), 4, "missing.npy");
+  expect_refused(path("missing.ply") + to("b.obj"), 4, "missing.ply");
+  expect_refused(file("bad.vtu", "<VTKFile type=\"UnstructuredGrid\">") + to("b.vtu"), 2,
+                 "bad.vtu: neither a 2D mesh");
+  // Its .ele file would come to lie over the one that is read.
+  io::write_domain(path("a.node"), samples<3>().front().mesh);
+  expect_refused(path("a.node") + to("a.ele"), 1, "would replace this file");
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc deform with models in all formats, read by OpenMesh alone.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "flbc/io/files.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+#include "support/openmesh_model.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+using OpenMesh::IO::Options;
+
+class DeformFormats : public CommandLineTest {
+ protected:
+  // OpenMesh writes no colours to .obj, and nothing but triangles to .stl.
+  static Options attributes_of(const std::string& name) {
+    const auto extension = io::extension_of(name);
+    if (extension == "stl") return Options(Options::FaceNormal);
+    auto options = all_attributes();
+    if (extension == "obj") options -= Options::VertexColor;
+    return options;
+  }
+
+  std::string write(const OpenMeshModel& mesh, const std::string& name) const {
+    auto options = attributes_of(name);
+    if (name[0] == 'b') options += Options(Options::Binary);
+    if (io::extension_of(name) != "stl") {
+      write_by_openmesh(mesh, path(name), options);
+      return path(name);
+    }
+    auto triangles = mesh;
+    triangles.triangulate();
+    triangles.update_normals();
+    write_by_openmesh(triangles, path(name), options);
+    return path(name);
+  }
+
+  // A simplex as cage, whose weights are known: the coordinates and what is left to 1.
+  template <int Dim>
+  std::string simplex(const std::string& name, const Eigen::Matrix<double, Dim, Dim>& map,
+                      const Vector<Dim>& shift) const {
+    std::ostringstream text;
+    text.precision(17);
+    for (int k = 0; k <= Dim; ++k) {
+      Vector<Dim> point = shift;
+      if (k > 0) point += map.col(k - 1);
+      text << "v " << point.transpose() << "\n";
+    }
+    text << (Dim == 2 ? "l 1 2 3 1\n" : "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    return file(name, text.str());
+  }
+  template <int Dim>
+  std::string weights_of(const std::string& model) const {
+    const PointList<3> all = points_of(read_by_openmesh(model, Options()));
+    const PointList<Dim> points = all.topRows<Dim>();
+    WeightMatrix weights(Dim + 1, points.cols());
+    weights << 1 - points.colwise().sum().array(), points;
+    io::write_weights(path("w.npy"), weights);
+    return path("w.npy");
+  }
+
+  Ended deform(const std::string& arguments, int status = 0) const {
+    SCOPED_TRACE(arguments);
+    auto result = run("deform " + arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    return result;
+  }
+
+  template <int Dim>
+  void expect_formats_move() const;
+};
+
+// Binary ones begin with b.
+const char* const kModels[] = {"a.obj", "a.off", "a.ply", "b.ply", "a.om", "a.stl", "b.stl"};
+
+template <int Dim>
+void DeformFormats::expect_formats_move() const {
+  const auto mesh = Dim == 2 ? flat_box_with_attributes() : box_with_attributes();
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  turn.template topLeftCorner<2, 2>() << 0, -1, 1, 0;
+  const Vector<Dim> shift = Vector<Dim>::LinSpaced(2, 4);
+  const auto rest = simplex<Dim>("rest.obj", turn.Identity(), Vector<Dim>::Zero());
+  const auto pose = simplex<Dim>("pose.obj", turn, shift);
+  for (const std::string name : kModels) {
+    SCOPED_TRACE(name);
+    const auto model = write(mesh, name);
+    const auto before = read_by_openmesh(model, attributes_of(name));
+    const auto command = model + " --weights " + weights_of<Dim>(model) + " --rest " + rest;
+    const auto same = path("same." + io::extension_of(name));
+    EXPECT_EQ(deform(command + " --cage " + rest + " -q -o " + same).errors, "");
+    EXPECT_EQ(slurp(same), slurp(model));
+
+    for (const std::string extension : {"obj", "off", "ply", "om"}) {
+      SCOPED_TRACE(extension);
+      const auto output = path("moved." + extension);
+      deform(command + " --cage " + pose + " -o " + output);
+      const auto wanted = io::extension_of(name) == "stl" ? Options() : attributes_of(name);
+      const auto after = read_by_openmesh(output, wanted);
+      PointList<3> expected = points_of(before);
+      expected.topRows<Dim>() = (turn * expected.topRows<Dim>()).colwise() + shift;
+      EXPECT_LT((points_of(after) - expected).cwiseAbs().maxCoeff(), 1e-6);
+      expect_same_faces(after, before);
+      expect_same_paint(after, before, wanted);
+      if (!wanted.vertex_has_normal()) continue;
+      for (const auto v : before.vertices()) {
+        const auto n = before.normal(v);
+        const auto turned = Dim == 2 ? n : OpenMesh::Vec3d(-n[1], n[0], n[2]);
+        EXPECT_LT((after.normal(v) - turned).norm(), 1e-5) << "vertex " << v.idx();
+      }
+    }
+    const auto output = path("moved.stl");
+    deform(command + " --cage " + pose + " -o " + output);
+    EXPECT_EQ(read_by_openmesh(output, Options()).n_vertices(), before.n_vertices());
+  }
+}
+
+TEST_F(DeformFormats, Move2D) {
+  expect_formats_move<2>();
+}
+TEST_F(DeformFormats, Move3D) {
+  expect_formats_move<3>();
+}
+
+TEST_F(DeformFormats, WhatIsLostIsToldOnce) {
+  const auto model = file("a.obj",
+                          "# by hand\nmtllib a.mtl\nv 0.25 0.25 0.25\nv 0.5 0.25 0.25\n"
+                          "v 0.25 0.5 0.25\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  const auto command =
+      model + " --weights " + weights_of<3>(model) + " --cage " + rest + " --cage " + rest + " -o ";
+  const auto errors = deform(command + path("o%d.ply")).errors;
+  const auto told = "flbc: " + path("o%d.ply") + " does not keep all of " + model +
+                    "; lost: lines with \"mtllib\", comments\n";
+  const auto place = errors.find(told);
+  EXPECT_NE(place, std::string::npos) << errors;
+  EXPECT_EQ(errors.find("keep", place + told.size()), std::string::npos) << errors;
+  EXPECT_EQ(deform(command + path("o%d.obj")).errors.find("keep"), std::string::npos);
+}
+
+// Of the light, from 0 to 1.
+double luminance(const OpenMesh::Vec3uc& color) {
+  const auto linear = [&](int k) { return std::pow(color[k] / 255.0, 2.2); };
+  return 0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2);
+}
+
+// The cage grows from the origin: how far a vertex moves is its distance from there.
+TEST_F(DeformFormats, DisplacementsAreShownInColours) {
+  const auto mesh = box_with_attributes();
+  const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  simplex<3>("pose_0.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  simplex<3>("pose_1.obj", 1.5 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  simplex<3>("pose_2.obj", 2 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  const auto model = write(mesh, "a.ply");
+  const auto command = model + " --weights " + weights_of<3>(model) + " --rest " + rest +
+                       " --cage " + path("pose_%d.obj") + " --show-displacement --displacement " +
+                       path("d.npy") + " -o ";
+  const PointList<3> points = points_of(mesh);
+  Eigen::Index farthest = 0;
+  const double largest = points.colwise().norm().maxCoeff(&farthest);
+  const OpenMesh::Vec3uc still(247, 248, 250), last(118, 18, 36);
+  for (const std::string extension : {"obj", "off", "ply", "om"}) {
+    SCOPED_TRACE(extension);
+    const auto errors = deform(command + path("o_%d." + extension)).errors;
+    std::ostringstream value;
+    value << "; shown from 0 (near white) to " << largest << " (dark red)\n";
+    EXPECT_NE(errors.find(value.str()), std::string::npos) << errors;
+    EXPECT_NE(errors.find("colours (they show the displacement)"), std::string::npos) << errors;
+    std::vector<OpenMeshModel> shown;
+    for (int k = 0; k < 3; ++k) {
+      shown.push_back(read_by_openmesh(path("o_" + std::to_string(k) + "." + extension)));
+      expect_same_faces(shown.back(), mesh);
+      EXPECT_LT((points_of(shown.back()) - (1 + 0.5 * k) * points).cwiseAbs().maxCoeff(), 1e-6);
+      for (const auto v : mesh.vertices()) {
+        EXPECT_LT((shown.back().texcoord2D(v) - mesh.texcoord2D(v)).norm(), 1e-5);
+      }
+    }
+    // The colour says how far, the same in all poses; half as far in the second one.
+    std::vector<std::pair<double, double>> seen;
+    for (const auto v : mesh.vertices()) {
+      const double length = points.col(v.idx()).norm();
+      EXPECT_EQ(shown[0].color(v), still);
+      seen.emplace_back(length / 2, luminance(shown[1].color(v)));
+      seen.emplace_back(length, luminance(shown[2].color(v)));
+    }
+    EXPECT_EQ(shown[2].color(OpenMesh::VertexHandle(static_cast<int>(farthest))), last);
+    std::sort(seen.begin(), seen.end());
+    constexpr double kLevel = 0.01;
+    for (std::size_t k = 1; k < seen.size(); ++k) {
+      EXPECT_LE(seen[k].second, seen[k - 1].second + kLevel);
+    }
+    EXPECT_LT(seen.back().second, seen.front().second - 0.3);
+    const auto lengths = io::read_weights(path("d.npy"));
+    EXPECT_LT((lengths.row(1) - 0.5 * points.colwise().norm()).cwiseAbs().maxCoeff(), 1e-15);
+  }
+  const auto refused = deform(command + path("o_%d.stl"), 1).errors;
+  EXPECT_NE(refused.find("cannot show displacements"), std::string::npos) << refused;
+  EXPECT_FALSE(std::filesystem::exists(path("o_0.stl")));
+}
+
+TEST_F(DeformFormats, NothingMovesNothingIsShown) {
+  const auto rest = simplex<2>("rest.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());
+  const auto model = file("a.obj", "v 0.25 0.25 1\nv 0.5 0.25 1\nv 0.25 0.5 1\nf 1 2 3\n");
+  deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --cage " + rest +
+         " --show-displacement -o " + path("o.off"));
+  const auto shown = read_by_openmesh(path("o.off"), Options(Options::VertexColor));
+  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(247, 248, 250));
+}
+
+template <int Dim>
+void expect_fields(const std::string& path, const Eigen::VectorXd& lengths,
+                   const Eigen::VectorXd& other) {
+  std::vector<io::VertexField> fields;
+  io::read_domain<Dim>(path, fields);
+  ASSERT_EQ(fields.size(), 2U) << path;
+  EXPECT_EQ(fields[0].name, "other");
+  EXPECT_EQ(fields[0].values, other);
+  EXPECT_EQ(fields[1].name, "displacement");
+  EXPECT_LT((fields[1].values - lengths).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+// Meshes of the interior get a field; a field of that name, from an earlier pose, is replaced.
+TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
+  const auto check = [this](auto dimension, const std::vector<std::string>& names) {
+    constexpr int Dim = dimension;
+    auto mesh = samples<Dim>().front().mesh;
+    const Vector<Dim> low = mesh.points.rowwise().minCoeff();
+    mesh.points = (mesh.points.colwise() - low) / 16;
+    const Eigen::VectorXd other = mesh.points.row(0).transpose();
+    const auto rest =
+        simplex<Dim>("rest.obj", Eigen::Matrix<double, Dim, Dim>::Identity(), Vector<Dim>::Zero());
+    const auto pose = simplex<Dim>("pose.obj", 3 * Eigen::Matrix<double, Dim, Dim>::Identity(),
+                                   Vector<Dim>::Zero());
+    WeightMatrix weights(Dim + 1, mesh.num_vertices());
+    weights << 1 - mesh.points.colwise().sum().array(), mesh.points;
+    io::write_weights(path("w.npy"), weights);
+    io::write_domain(path(names[0]), mesh, {{"displacement", other}, {"other", other}});
+    for (const auto& name : names) {
+      const auto output = path("o_" + name);
+      deform(path(names[0]) + " --weights " + path("w.npy") + " --rest " + rest + " --cage " +
+             pose + " --show-displacement -o " + output);
+      expect_fields<Dim>(output, 2 * mesh.points.colwise().norm().transpose(), other);
+    }
+  };
+  check(std::integral_constant<int, 2>(), {"m.vtu"});
+  check(std::integral_constant<int, 3>(), {"m.mesh", "n.vtu"});
+  const auto refused =
+      deform(path("m.mesh") + " --weights " + path("w.npy") + " --rest " + path("rest.obj") +
+                 " --cage " + path("pose.obj") + " --show-displacement -o " + path("o.msh"),
+             1);
+  EXPECT_NE(refused.errors.find("o.msh: cannot show displacements"), std::string::npos);
+  // A 2D mesh becomes a coloured model as well; its fields have no place there.
+  const auto mesh = samples<2>().front().mesh;
+  io::write_domain(path("p.vtu"), mesh, {{"other", mesh.points.row(0).transpose()}});
+  const auto rest = simplex<2>("r.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());
+  const auto pose = simplex<2>("q.obj", Eigen::Matrix2d::Identity(), Vector<2>(3, 4));
+  WeightMatrix weights(3, mesh.num_vertices());
+  weights << 1 - mesh.points.colwise().sum().array(), mesh.points;
+  io::write_weights(path("w.npy"), weights);
+  const auto result = deform(path("p.vtu") + " --weights " + path("w.npy") + " --rest " + rest +
+                             " --cage " + pose + " --show-displacement -o " + path("p.ply"));
+  EXPECT_NE(result.errors.find("field \"other\""), std::string::npos) << result.errors;
+  const auto shown = read_by_openmesh(path("p.ply"), Options(Options::VertexColor));
+  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(118, 18, 36));
+}
+
+// The rows of weights are what flbc solve gives for the same file.
+TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
+  for (const std::string name : {"2d/figure", "3d/limb"}) {
+    SCOPED_TRACE(name);
+    const auto cage = sample(name + "_cage.obj");
+    const auto model = path("model.stl");
+    ASSERT_EQ(run("convert " + sample(name + "_model.obj") + " -o " + model).status, 0);
+    ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
+                  " --model " + model)
+                  .status,
+              0);
+    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --cage " +
+                         sample(name + "_cage_pose.obj") + " -q -o ";
+    EXPECT_EQ(deform(command + path("o.stl")).errors, "");
+    EXPECT_EQ(deform(command + path("o.ply")).errors, "");
+    const auto moved = read_by_openmesh(path("o.ply"), Options());
+    EXPECT_EQ(io::read_weights(path("w.npy")).cols(), static_cast<Index>(moved.n_vertices()));
+  }
+  // Where numbers are that small, OpenMesh takes them for equal.
+  const auto odd = file("odd.stl",
+                        "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                        "vertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+                        "vertex 1e-39 0 0\nvertex 1 0 0\nvertex 0 -1 0\nendloop\nendfacet\n");
+  const auto refused = deform(odd + " --weights " + path("w.npy") + " --cage " +
+                                  sample("3d/limb_cage.obj") + " -o " + path("p.stl"),
+                              2);
+  EXPECT_NE(refused.errors.find("odd.stl: its corners make 5 vertices, but OpenMesh, through which "
+                                "flbc solve reads it, finds 4"),
+            std::string::npos)
+      << refused.errors;
+  ASSERT_EQ(run("convert " + odd + " -o " + path("odd.ply")).status, 0);
+  EXPECT_EQ(read_by_openmesh(path("odd.ply"), Options()).n_vertices(), 5U);
+}
+
+TEST_F(DeformFormats, NothingIsHalfWritten) {
+  const auto model = write(box_with_attributes(), "b.ply");
+  const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  const auto far = simplex<3>("far.obj", 1e300 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
+  const auto command =
+      model + " --weights " + weights_of<3>(model) + " --cage " + rest + " --cage " + far + " -o ";
+  const auto result = deform(command + path("o_%d.ply"), 2);
+  EXPECT_NE(result.errors.find("o_1.ply: coordinate x of vertex 0 would be too large"),
+            std::string::npos)
+      << result.errors;
+  EXPECT_EQ(slurp(path("o_0.ply")), slurp(model));
+  EXPECT_FALSE(std::filesystem::exists(path("o_1.ply")));
+
+  // Three polygons at an edge.
+  const auto fan = file("fan.obj",
+                        "v 0.25 0.25 0\nv 0.25 0.25 0.25\nv 0.5 0.25 0.25\nv 0.25 0.5 0.25\n"
+                        "v 0 0.25 0.25\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  const auto fans = fan + " --weights " + weights_of<3>(write(box_with_attributes(), "a.obj")) +
+                    " --cage " + rest;
+  WeightMatrix weights(4, 5);
+  weights.setConstant(0.25);
+  io::write_weights(path("w.npy"), weights);
+  const auto refused = deform(fans + " -o " + path("fan.om"), 2);
+  EXPECT_NE(refused.errors.find("fan.om: polygon 1 does not fit into a half-edge mesh"),
+            std::string::npos)
+      << refused.errors;
+  EXPECT_FALSE(std::filesystem::exists(path("fan.om")));
+  deform(fans + " -o " + path("fan.ply"));
+  EXPECT_NE(slurp(path("fan.ply")).find("element face 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Model files whose vertices move, against OpenMesh's readers and writers.
+#include "flbc/io/model_file.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "flbc/errors.h"
+#include "flbc/io/cage_io.h"
+#include "openmesh_bindings/mesh_io.h"
+#include "openmesh_bindings/wide_property.h"
+#include "support/model_kinds.h"
+
+namespace flbc::testing {
+namespace {
+
+using io::ModelFile;
+using OpenMesh::IO::Options;
+
+TEST_F(ModelFileTest, FilesOfOpenMeshMoveAndKeepAllElse) {
+  const auto mesh = box_with_attributes();
+  for (const ModelKind& kind : kModelKinds) {
+    const std::string name = kind.file;
+    SCOPED_TRACE(name);
+    write_kind(mesh, kind);
+    const ModelFile file(path(name));
+    const auto points = io::to_points<3>(file.model().soup, name);
+    EXPECT_EQ(points, points_of(mesh));
+    EXPECT_EQ(file.num_loose_normals(), 0);
+    EXPECT_EQ(rewritten<3>(file, points), content(name));
+
+    make(name, rewritten<3>(file, turned(points)));
+    const auto moved = read_by_openmesh(path(name), kind.attributes());
+    EXPECT_EQ(points_of(moved), turned(points));
+    expect_same_faces(moved, mesh);
+    expect_same_paint(moved, mesh, kind.attributes());
+    for (const auto v : mesh.vertices()) {
+      EXPECT_LT((moved.normal(v) - turned(mesh.normal(v))).norm(), 1e-5) << "vertex " << v.idx();
+    }
+  }
+}
+
+// A bent pair of polygons with normals of any direction and length, one of a polygon alone.
+TEST_F(ModelFileTest, NormalsTurnWithTheirPolygons) {
+  const ModelFile file = open("a.obj",
+                              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0.5\nv 2 1 0.5\n"
+                              "vn 0.1 -2 0.7\nvn 0 0 -3\nvn 1 1 1\n"
+                              "f 1//2 2//1 3//1 4//2\nf 2//1 5//3 6//3 3//1\n");
+  const auto points = io::to_points<3>(file.model().soup, "");
+  const auto normals = file.model().attributes.normals;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2.5, Vector<3>(1, -2, 0.5).normalized()).toRotationMatrix();
+  const PointList<3> rigid = (3 * turn * points).colwise() + Vector<3>(5, 6, 7);
+  EXPECT_LT((file.moved<3>(rigid).attributes.normals - turn * normals).norm(), 1e-13);
+
+  Eigen::Matrix3d shear;
+  shear << 1, 0.5, 2,  //
+      0, 3, -1,        //
+      0.25, 0, 1.5;
+  const auto sheared = file.moved<3>(shear * points).attributes.normals;
+  EXPECT_LT((sheared.colwise().norm() - normals.colwise().norm()).norm(), 1e-13);
+  const Vector<3> across = shear.inverse().transpose() * normals.col(1);
+  EXPECT_LT((sheared.col(1) - 3 * across.normalized()).norm(), 1e-13);
+  // A polygon that has lost its area turns nothing.
+  PointList<3> flat = points;
+  flat.row(0).setZero();
+  flat.row(2).setZero();
+  EXPECT_EQ(file.moved<3>(flat).attributes.normals, normals);
+}
+
+TEST_F(ModelFileTest, NormalsOfPolygonsInOmFilesTurn) {
+  const auto mesh = box_with_attributes();
+  write_by_openmesh(mesh, path("a.om"), Options(Options::FaceNormal));
+  const ModelFile file(path("a.om"));
+  make("a.om", rewritten<3>(file, turned(points_of(mesh))));
+  const auto moved = read_by_openmesh(path("a.om"), Options(Options::FaceNormal));
+  for (const auto f : mesh.faces()) {
+    EXPECT_LT((moved.normal(f) - turned(mesh.normal(f))).norm(), 1e-12) << "face " << f.idx();
+  }
+}
+
+TEST_F(ModelFileTest, PropertiesInOmFilesStay) {
+  auto mesh = box_with_attributes();
+  OpenMesh::VPropHandleT<double> mass;
+  OpenMesh::EPropHandleT<bool> flag;
+  OpenMesh::MPropHandleT<std::string> note;
+  OpenMesh::VPropHandleT<openmesh::Wide<double>> rows;  // as weights are
+  const auto add = [&](OpenMeshModel& to) {
+    to.add_property(mass, "mass");
+    to.add_property(flag, "flag");
+    to.add_property(note, "note");
+    to.add_property(rows, "rows");
+    to.property(mass).set_persistent(true);
+    to.property(flag).set_persistent(true);
+    to.mproperty(note).set_persistent(true);
+    to.property(rows).set_persistent(true);
+  };
+  add(mesh);
+  for (const auto v : mesh.vertices()) mesh.property(mass, v) = 1.0 / (1 + v.idx());
+  for (const auto e : mesh.edges()) mesh.property(flag, e) = e.idx() % 3 == 0;
+  mesh.property(note) = "made by hand";
+  mesh.property(rows).set_shape(1, 7);
+  for (const auto v : mesh.vertices()) mesh.property(rows, v)[v.idx() % 7] = 1.0 / (2 + v.idx());
+  write_by_openmesh(mesh, path("a.om"));
+  const ModelFile file(path("a.om"));
+  make("a.om", rewritten<3>(file, turned(points_of(mesh))));
+  OpenMeshModel moved;
+  add(moved);
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(moved, path("a.om")));
+  EXPECT_EQ(points_of(moved), turned(points_of(mesh)));
+  EXPECT_EQ(moved.property(note), "made by hand");
+  for (const auto v : mesh.vertices()) EXPECT_EQ(moved.property(mass, v), mesh.property(mass, v));
+  for (const auto e : mesh.edges()) EXPECT_EQ(moved.property(flag, e), mesh.property(flag, e));
+  ASSERT_EQ(moved.property(rows).width(), 7U);
+  for (const auto v : mesh.vertices()) {
+    for (int k = 0; k < 7; ++k) {
+      EXPECT_EQ(moved.property(rows, v)[k], mesh.property(rows, v)[k]) << v.idx() << " " << k;
+    }
+  }
+  EXPECT_EQ(io::losses(file.model(), "a.ply"),
+            (std::vector<std::string>{"property \"mass\"", "property \"rows\"", "property \"flag\"",
+                                      "property \"note\""}));
+}
+
+TEST_F(ModelFileTest, In2DZAndNormalsStay) {
+  const auto mesh = flat_box_with_attributes();
+  for (const ModelKind& kind : kModelKinds) {
+    const std::string name = kind.file;
+    SCOPED_TRACE(name);
+    write_kind(mesh, kind);
+    const ModelFile file(path(name));
+    PointList<2> points = points_of(mesh).topRows<2>();
+    EXPECT_EQ(rewritten<2>(file, points), content(name));
+    points.row(0).array() += 2;
+    make(name, rewritten<2>(file, points));
+    const auto moved = read_by_openmesh(path(name), kind.attributes());
+    EXPECT_EQ(points_of(moved).topRows<2>(), points);
+    for (const auto v : mesh.vertices()) {
+      EXPECT_EQ(moved.point(v)[2], 0.75);
+      EXPECT_LT((moved.normal(v) - mesh.normal(v)).norm(), 1e-5);
+    }
+  }
+}
+
+TEST_F(ModelFileTest, StlKeepsItsTriangles) {
+  for (const bool is_binary : {false, true}) {
+    SCOPED_TRACE(is_binary);
+    const auto name = write_stl("a.stl", is_binary);
+    const ModelFile file(name);
+    const auto soup = openmesh::read_polygons(name);
+    EXPECT_EQ(file.model().soup.points, soup.points);
+    EXPECT_EQ(file.model().soup.polygons, soup.polygons);
+    EXPECT_EQ(file.model().is_text, !is_binary);
+    const auto points = io::to_points<3>(soup, name);
+    EXPECT_EQ(rewritten<3>(file, points), content("a.stl"));
+    const auto before = read_by_openmesh(name, Options(Options::FaceNormal));
+    make("a.stl", rewritten<3>(file, turned(points)));
+    const auto after = read_by_openmesh(name, Options(Options::FaceNormal));
+    EXPECT_EQ(points_of(after), turned(points));
+    expect_same_faces(after, before);
+    for (const auto f : before.faces()) {
+      EXPECT_LT((after.normal(f) - turned(before.normal(f))).norm(), 1e-5);
+    }
+  }
+}
+
+// Vertices are numbered as OpenMesh numbers them, whatever coincides.
+TEST_F(ModelFileTest, CornersOfStlMergeAsInOpenMesh) {
+  const auto facet = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "  FACET NORMAL 0 0 0\r\n outer loop\n vertex " + a + "\nvertex " + b + "\n\tvertex " +
+           c + "\nendloop\nendfacet\n";
+  };
+  const auto text = "SOLID of someone\n" + facet("0 0 0", "1 0 0", "0 1 0") +
+                    facet("-0 0 -0.0", "1.00000000001 0 0", "0 0 1") +
+                    facet("0 0 1", "0 0 1e0", "2 2 2") + facet("1 0 0", "0.1 1e-30 0", "+0 1 0") +
+                    "endsolid\n";
+  const ModelFile file = open("odd.stl", text);
+  EXPECT_EQ(file.model().soup.points, openmesh::read_polygons(path("odd.stl")).points);
+  EXPECT_EQ(file.model().soup.points.size(), 6U);
+  EXPECT_EQ(file.model().soup.polygons[2], (std::vector<Index>{3, 3, 4}));
+  // Normals that are zero remain so, and one that would turn belongs to no area.
+  EXPECT_EQ(file.num_loose_normals(), 1);
+  PointList<3> points = io::to_points<3>(file.model().soup, "");
+  points(2, 1) = 7;
+  std::string expected = text;
+  for (const std::string old : {"vertex 1 0 0", "vertex 1.00000000001 0 0", "vertex 1 0 0"}) {
+    const auto place = expected.find(old);
+    ASSERT_NE(place, std::string::npos);
+    expected.replace(place + old.size() - 1, 1, "7");
+  }
+  EXPECT_EQ(rewritten<3>(file, points), expected);
+}
+
+TEST_F(ModelFileTest, BinaryStlThatBeginsWithSolid) {
+  write_stl("a.stl", true);
+  auto bytes = content("a.stl");
+  bytes.replace(0, 5, "solid");
+  const ModelFile file = open("b.stl", bytes);
+  EXPECT_FALSE(file.model().is_text);
+  EXPECT_EQ(file.model().soup.points, openmesh::read_polygons(path("b.stl")).points);
+}
+
+TEST_F(ModelFileTest, PlyWithPropertiesInAnyOrder) {
+  const std::string header =
+      "ply\r\nformat ascii 1.0\ncomment by hand\nelement edge 1\nproperty int a\n"
+      "element vertex 3\nproperty uchar blue\nproperty double z\nproperty list uchar float marks\n"
+      "property float nz\nproperty uchar red\nproperty float x\nproperty float ny\n"
+      "property float y\nproperty uchar green\nproperty float nx\nproperty uchar alpha\n"
+      "property float quality\n"
+      "element face 1\nproperty float area\nproperty list int int vertex_index\nend_header\n7\n";
+  const ModelFile file = open("a.ply", header +
+                                           "255 5.50 2 1 2 1 0 0 0 0 51 0 255 0.25\n"
+                                           "0 5.50 0 1 255 1 0 0 0 0 254 1\n"
+                                           "255 5.50 0 1 0 0 0 1 102 0 255 .125\n0.5 3 0 1 2\n");
+  const auto& model = file.model();
+  EXPECT_EQ(model.soup.points[1], Vector<3>(1, 0, 5.5));
+  EXPECT_EQ(model.soup.polygons, (std::vector<std::vector<Index>>{{0, 1, 2}}));
+  EXPECT_EQ(model.attributes.colors.col(0), Vector<3>(0, 0.2, 1));
+  EXPECT_EQ(model.attributes.normals.col(2), Vector<3>(0, 0, 1));
+  EXPECT_EQ(io::losses(model, "a.off"),
+            (std::vector<std::string>{"elements \"edge\"", "property \"marks\" of vertices",
+                                      "property \"quality\" of vertices", "transparency",
+                                      "property \"area\" of polygons", "comments"}));
+  PointList<3> points(3, 3);  // turned about the x axis
+  points << 0, 1, 0,          //
+      -5.5, -5.5, -5.5,       //
+      0, 0, 1;
+  EXPECT_EQ(rewritten<2>(file, points.topRows<2>()),
+            header +
+                "255 5.50 2 1 2 1 0 0 0 -5.5 51 0 255 0.25\n"
+                "0 5.50 0 1 255 1 0 -5.5 0 0 254 1\n"
+                "255 5.50 0 1 0 0 0 -5.5 102 0 255 .125\n0.5 3 0 1 2\n");
+  const auto turned = open("b.ply", rewritten<3>(file, points)).model();
+  EXPECT_EQ(io::to_points<3>(turned.soup, ""), points);
+  for (const auto& normal : turned.attributes.normals.colwise()) {
+    EXPECT_LT((normal - Vector<3>(0, -1, 0)).norm(), 1e-14);
+  }
+  EXPECT_EQ(turned.attributes.colors, model.attributes.colors);
+  EXPECT_EQ(turned.others, model.others);
+}
+
+TEST_F(ModelFileTest, CoordinatesThatHaveNoRoomAreNamed) {
+  const auto ply = [&](const std::string& properties) {
+    return open("a.ply",
+                "ply\nformat ascii 1.0\nelement vertex 1\n" + properties + "end_header\n1 2 3\n");
+  };
+  const PointList<3> point = PointList<3>::Constant(3, 1, 0.5);
+  const auto refuse = [&](const ModelFile& file, const PointList<3>& to, const std::string& text) {
+    expect_error<InputError>([&] { rewritten<3>(file, to); }, {text});
+  };
+  const auto whole = ply("property float x\nproperty int y\nproperty float z\n");
+  refuse(whole, point, "coordinate y of vertex 0 cannot change: in the file it is an integer");
+  const auto flat = ply("property float x\nproperty float y\nproperty float w\n");
+  refuse(flat, point,
+         "coordinate z of vertex 0 cannot change: in the file it is an integer or miss");
+  EXPECT_NE(rewritten<2>(flat, point.topRows<2>()).find("\n0.5 0.5 3\n"), std::string::npos);
+  refuse(flat, PointList<3>::Zero(3, 2), "the file has 1 vertices, but there are 2 points");
+
+  write_by_openmesh(box_with_attributes(), path("b.ply"), Options(Options::Binary));
+  const ModelFile binary(path("b.ply"));
+  PointList<3> points = io::to_points<3>(binary.model().soup, "");
+  points(1, 3) = 1e39;
+  refuse(binary, points, "coordinate y of vertex 3 would be too large for the single precision");
+  points(1, 3) = std::nan("");
+  refuse(binary, points, "coordinate y of vertex 3 would not be finite");
+}
+
+// The files of OpenMesh's first versions list the vertices of faces.
+TEST_F(ModelFileTest, OldOmFiles) {
+  const auto bytes = [](auto... values) {
+    std::string result;
+    (result.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+    return result;
+  };
+  std::string file = "OMP";
+  file += bytes(std::uint8_t(1 << 5 | 2), std::uint32_t(5), std::uint32_t(2), std::uint32_t(6));
+  file += bytes(std::uint16_t(3 << 9 | 2 << 11));  // coordinates: floating, signed, three
+  const float x[] = {0, 1, 1, 0, 2}, y[] = {0, 0, 1, 1, 2};
+  for (int k = 0; k < 5; ++k) file += bytes(x[k], y[k], 0.5f);
+  file += bytes(std::uint16_t(2 << 2 | 7 << 5));  // vertices of faces, a byte each
+  file += bytes(std::uint16_t(4)) + std::string("\0\1\2\3", 4);
+  file += bytes(std::uint16_t(3)) + std::string("\2\1\4", 3);
+  const ModelFile model = open("a.om", file);
+  const auto soup = openmesh::read_polygons(path("a.om"));
+  ASSERT_EQ(soup.polygons.size(), 2U);
+  EXPECT_EQ(model.model().soup.points, soup.points);
+  EXPECT_EQ(model.model().soup.polygons,
+            (std::vector<std::vector<Index>>{{0, 1, 2, 3}, {2, 1, 4}}));
+  const PointList<3> points = turned(io::to_points<3>(soup, ""));
+  make("a.om", rewritten<3>(model, points));
+  EXPECT_EQ(io::to_points<3>(openmesh::read_polygons(path("a.om")), ""), points);
+}
+
+// Whatever is cut off or changed, reading ends, with a model or an InputError.
+TEST_F(ModelFileTest, DamagedFiles) {
+  const auto survives = [&](const std::string& name, const std::string& bytes) {
+    make(name, bytes);
+    try {
+      const ModelFile file(path(name));
+      const auto& soup = file.model().soup;
+      for (const auto& polygon : soup.polygons) {
+        for (const Index vertex : polygon) {
+          ASSERT_LT(static_cast<std::size_t>(vertex), soup.points.size());
+        }
+      }
+      rewritten<3>(file, io::to_points<3>(soup, ""));
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()), "");
+    }
+  };
+  std::vector<std::string> names = {"text.stl", "binary.stl"};
+  for (const auto& name : names) write_stl(name, name[0] == 'b');
+  for (const ModelKind& kind : kModelKinds) {
+    write_kind(box_with_attributes(), kind);
+    names.emplace_back(kind.file);
+  }
+  for (const auto& name : names) {
+    SCOPED_TRACE(name);
+    const auto sound = content(name);
+    constexpr std::size_t kStride = 13;  // files take their time
+    for (std::size_t k = 0; k < sound.size(); k += kStride) {
+      survives(name, sound.substr(0, k));
+      auto changed = sound;
+      changed[k] = "9-\n\xff\0"[k % 5];
+      survives(name, changed);
+    }
+  }
+}
+
+TEST_F(ModelFileTest, DefectsAreNamed) {
+  const auto refuse = [&](const std::string& name, const std::string& bytes,
+                          const std::string& text) {
+    expect_error<InputError>([&] { open(name, bytes); }, {path(name), text});
+  };
+  refuse("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n",
+         ":6: a facet has fewer than 3 vertices");
+  refuse("b.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(50, '\0'),
+         "the file ends after 1 of 2 triangles");
+  refuse("a.ply",
+         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+         "end_header\n0 0\n1 a\n",
+         ":8: expected a number, found \"a\"");
+  refuse("b.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
+         "the vertices have no x and y");
+  refuse("a.om", "OMP\x62" + std::string(12, '\0'), "version 3.2 of the format is not known");
+  refuse("b.om", "solid", "not a file of OpenMesh's");
+  EXPECT_THROW(ModelFile(path("missing.om")), IoError);
+  EXPECT_THROW(ModelFile(path("a.vtk")), OptionError);
+  EXPECT_THROW(io::write_model(path("a.vtk"), io::Model{}), OptionError);
+}
+
+}  // namespace
+}  // namespace flbc::testing
