@@ -14,11 +14,10 @@
 
 namespace flbc::distance {
 
-//! What is shared by all sources. In single precision, a tetrahedron fills one cache line.
+//! What is shared by all sources: lengths and angles.
 template <int Dim>
 struct EikonalCell {
   static constexpr int kPairs = Dim * (Dim + 1) / 2;
-  Index vertices[Dim + 1];
   float products[kPairs];  //!< of the hat functions' gradients, for k < l; a row sums to zero
   float lengths2[kPairs];  //!< squared lengths of the edges
 
@@ -33,7 +32,6 @@ EikonalCell<Dim> eikonal_cell(const DomainMesh<Dim>& mesh, Index s) {
   EikonalCell<Dim> cell;
   const auto hat = cell_geometry(mesh, s).hat_gradients;
   for (int l = 0; l <= Dim; ++l) {
-    cell.vertices[l] = mesh.cells(l, s);
     for (int k = 0; k < l; ++k) {
       const int pair = EikonalCell<Dim>::pair(k, l);
       cell.products[pair] = static_cast<float>(hat.col(k).dot(hat.col(l)));
@@ -64,13 +62,12 @@ std::uint16_t obtuse_angles(const EikonalCell<Dim>& cell) {
 }
 
 //! A triangle with these squared lengths of its edges (0, 1), (0, 2), (1, 2).
-inline EikonalCell<2> eikonal_triangle(const Index (&vertices)[3], const float (&lengths2)[3]) {
+inline EikonalCell<2> eikonal_triangle(const float (&lengths2)[3]) {
   const double a = lengths2[0], b = lengths2[1], c = lengths2[2];
   const double area2 = (2 * (a * b + b * c + c * a) - a * a - b * b - c * c) / 16;
   const double scale = area2 > 0 ? -1 / (8 * area2) : 0;
   EikonalCell<2> cell;
   for (int k = 0; k < 3; ++k) {
-    cell.vertices[k] = vertices[k];
     cell.lengths2[k] = lengths2[k];
     cell.products[k] = static_cast<float>(scale * (a + b + c - 2 * double(lengths2[k])));
   }

@@ -26,20 +26,25 @@ struct Edge {
 // What all sources share.
 template <int Dim>
 struct EikonalMesh {
+  const CellList<Dim>& corners;  // of each cell, apart from what is needed seldom
   std::vector<EikonalCell<Dim>> cells;
   std::vector<std::uint16_t> obtuse;  // angles of each cell
   VertexCells vertex_cells;
-  std::vector<bool> on_reflex_edge;  // V, 3D: where ways may bend
-  std::vector<Index> first_edge;     // V + 1
-  std::vector<Edge> edges;           // of each vertex
-  float bucket_width;                // narrow enough for vertices to come nearly in order
+  std::vector<std::uint8_t> on_reflex_edge;  // V, 3D: where ways may bend
+  std::vector<Index> first_edge;             // V + 1
+  std::vector<Edge> edges;                   // of each vertex
+  float bucket_width;                        // narrow enough for vertices to come nearly in order
 
   EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
 };
 
 template <int Dim>
 EikonalMesh<Dim>::EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
-    : cells(mesh.num_cells()), obtuse(mesh.num_cells()), vertex_cells(mesh), first_edge(1, 0) {
+    : corners(mesh.cells),
+      cells(mesh.num_cells()),
+      obtuse(mesh.num_cells()),
+      vertex_cells(mesh),
+      first_edge(1, 0) {
 #pragma omp parallel for schedule(static)
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     cells[s] = distance::eikonal_cell(mesh, s);
@@ -51,7 +56,7 @@ EikonalMesh<Dim>::EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Di
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     seen_from[v] = v;
     for (const Index s : vertex_cells.cells_of(v)) {
-      for (const Index w : cells[s].vertices) {
+      for (const Index w : corners.col(s)) {
         if (seen_from[w] == v) continue;
         seen_from[w] = v;
         const double length = (mesh.points.col(v) - mesh.points.col(w)).norm();
@@ -112,6 +117,7 @@ class March {
 
   const std::vector<Arrival>& run(Index source) {
     arrivals_.assign(mesh_.first_edge.size() - 1, Arrival{});
+    num_passed_.assign(mesh_.cells.size(), 0);
     lower(source, 0, false);
     for (Index v = queue_.pop(); v >= 0; v = queue_.pop()) {
       if (arrivals_[v].state != State::kWaiting) continue;
@@ -128,6 +134,9 @@ class March {
   void lower(Index vertex, float distance, bool along_edge) {
     auto& arrival = arrivals_[vertex];
     if (!(distance < arrival.distance - tolerance_)) return;
+    if (arrival.state == State::kPassed) {
+      for (const Index s : mesh_.vertex_cells.cells_of(vertex)) --num_passed_[s];
+    }
     arrival = {distance, State::kWaiting, along_edge};
     queue_.push(vertex, distance);
   }
@@ -143,63 +152,59 @@ class March {
   // passed before `vertex` can only profit from it at an obtuse angle.
   void pass_on_through_cells(Index vertex) {
     for (const Index s : mesh_.vertex_cells.cells_of(vertex)) {
-      const auto& cell = mesh_.cells[s];
-      if (Dim == 3 && mesh_.on_reflex_edge[vertex]) pass_on_from_reflex_edge(cell, vertex);
+      if (Dim == 3 && mesh_.on_reflex_edge[vertex] != 0) pass_on_from_reflex_edge(s, vertex);
+      const int num_passed = ++num_passed_[s];
+      if (num_passed < Dim || (num_passed > Dim && mesh_.obtuse[s] == 0)) continue;
+      const Index* corners = corners_of(s);
       float known[Dim + 1];
-      int num_waiting = 0;
       int waiting = 0;
       for (int k = 0; k <= Dim; ++k) {
-        const auto& arrival = arrivals_[cell.vertices[k]];
-        known[k] = arrival.distance;
-        const bool waits = arrival.state != State::kPassed;
-        num_waiting += waits;
-        waiting = waits ? k : waiting;
+        known[k] = arrivals_[corners[k]].distance;
+        if (arrivals_[corners[k]].state != State::kPassed) waiting = k;
       }
-      if (num_waiting == 1) {
-        look_through(cell, waiting, known);
-      } else if (num_waiting == 0 && mesh_.obtuse[s] != 0) {
-        look_back(cell, mesh_.obtuse[s], vertex, known);
+      if (num_passed == Dim) {
+        look_through(s, waiting, known);
+      } else {
+        look_back(s, vertex, known);
       }
     }
   }
 
-  void look_through(const EikonalCell<Dim>& cell, int corner, const float (&known)[Dim + 1]) {
-    const float through = distance_through(cell, corner, known);
-    if (through >= 0) lower(cell.vertices[corner], through, false);
+  void look_through(Index s, int corner, const float (&known)[Dim + 1]) {
+    const float through = distance_through(mesh_.cells[s], corner, known);
+    if (through >= 0) lower(corners_of(s)[corner], through, false);
   }
 
-  void look_back(const EikonalCell<Dim>& cell, unsigned obtuse, Index vertex,
-                 const float (&known)[Dim + 1]) {
-    const auto* own = std::find(cell.vertices, cell.vertices + Dim, vertex);
-    const auto bit = static_cast<unsigned>(own - cell.vertices);
+  void look_back(Index s, Index vertex, const float (&known)[Dim + 1]) {
+    const int own = corner_of(s, vertex);
     for (int k = 0; k <= Dim; ++k) {
-      if ((obtuse >> (4 * k + bit) & 1u) != 0) look_through(cell, k, known);
+      if ((mesh_.obtuse[s] >> (4 * k + own) & 1) != 0) look_through(s, k, known);
     }
   }
 
   // The ray within a face of a cell.
-  float distance_within_face(const EikonalCell<Dim>& cell, int corner, int first, int second) {
+  float distance_within_face(Index s, int corner, int first, int second) {
     using Cell = EikonalCell<Dim>;
-    const auto face = distance::eikonal_triangle(
-        {cell.vertices[corner], cell.vertices[first], cell.vertices[second]},
-        {cell.lengths2[Cell::pair(corner, first)], cell.lengths2[Cell::pair(corner, second)],
-         cell.lengths2[Cell::pair(first, second)]});
+    const auto& lengths2 = mesh_.cells[s].lengths2;
+    const auto face = distance::eikonal_triangle({lengths2[Cell::pair(corner, first)],
+                                                  lengths2[Cell::pair(corner, second)],
+                                                  lengths2[Cell::pair(first, second)]});
+    const Index* corners = corners_of(s);
     return distance_through(
-        face, 0,
-        {0, arrivals_[cell.vertices[first]].distance, arrivals_[cell.vertices[second]].distance});
+        face, 0, {0, arrivals_[corners[first]].distance, arrivals_[corners[second]].distance});
   }
 
   // Ways bend round reflex edges of the boundary: rays leave these within faces.
-  void pass_on_from_reflex_edge(const EikonalCell<Dim>& cell, Index vertex) {
-    const auto* place = std::find(cell.vertices, cell.vertices + Dim, vertex);
-    const int own = static_cast<int>(place - cell.vertices);
+  void pass_on_from_reflex_edge(Index s, Index vertex) {
+    const Index* corners = corners_of(s);
+    const int own = corner_of(s, vertex);
     for (int other = 0; other <= Dim; ++other) {
-      if (other == own || !mesh_.on_reflex_edge[cell.vertices[other]]) continue;
-      if (arrivals_[cell.vertices[other]].state != State::kPassed) continue;
+      if (other == own || mesh_.on_reflex_edge[corners[other]] == 0) continue;
+      if (arrivals_[corners[other]].state != State::kPassed) continue;
       for (int k = 0; k <= Dim; ++k) {
         if (k == own || k == other) continue;
-        const float within = distance_within_face(cell, k, own, other);
-        if (within >= 0) lower(cell.vertices[k], within, false);
+        const float within = distance_within_face(s, k, own, other);
+        if (within >= 0) lower(corners[k], within, false);
       }
     }
   }
@@ -208,24 +213,33 @@ class March {
   void look_through_faces(Index vertex) {
     auto& arrival = arrivals_[vertex];
     for (const Index s : mesh_.vertex_cells.cells_of(vertex)) {
-      const auto& cell = mesh_.cells[s];
-      const auto* place = std::find(cell.vertices, cell.vertices + Dim, vertex);
-      const int own = static_cast<int>(place - cell.vertices);
+      const Index* corners = corners_of(s);
+      const int own = corner_of(s, vertex);
       for (int side = 1; side <= Dim; ++side) {
         const int first = (own + side) % 4;
         const int second = (own + side % 3 + 1) % 4;
-        if (arrivals_[cell.vertices[first]].state != State::kPassed) continue;
-        if (arrivals_[cell.vertices[second]].state != State::kPassed) continue;
-        const float within = distance_within_face(cell, own, first, second);
+        if (arrivals_[corners[first]].state != State::kPassed) continue;
+        if (arrivals_[corners[second]].state != State::kPassed) continue;
+        const float within = distance_within_face(s, own, first, second);
         if (within >= 0) arrival.distance = std::min(arrival.distance, within);
       }
     }
+  }
+
+  const Index* corners_of(Index s) const {
+    return mesh_.corners.data() + std::size_t(s) * (Dim + 1);
+  }
+
+  int corner_of(Index s, Index vertex) const {
+    const Index* corners = corners_of(s);
+    return static_cast<int>(std::find(corners, corners + Dim, vertex) - corners);
   }
 
   const EikonalMesh<Dim>& mesh_;
   const float tolerance_;  // smaller improvements are not passed on
   BucketQueue queue_;
   std::vector<Arrival> arrivals_;
+  std::vector<std::uint8_t> num_passed_;  // corners of each cell
 };
 
 }  // namespace

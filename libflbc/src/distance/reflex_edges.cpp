@@ -50,14 +50,15 @@ bool is_reflex(const DomainMesh<3>& mesh, const Side& side, const Side& other) {
 
 }  // namespace
 
-std::vector<bool> on_reflex_edges(const DomainMesh<3>& mesh, const MeshTopology<3>& topology) {
-  std::vector<bool> reflex(mesh.num_vertices(), false);
+std::vector<std::uint8_t> on_reflex_edges(const DomainMesh<3>& mesh,
+                                          const MeshTopology<3>& topology) {
+  std::vector<std::uint8_t> reflex(mesh.num_vertices(), 0);
   const auto sides = boundary_sides(mesh, topology);
   for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
     if (!sides[k].is_on_same_edge(sides[k + 1])) continue;
     if (!is_reflex(mesh, sides[k], sides[k + 1])) continue;
-    reflex[sides[k].low] = true;
-    reflex[sides[k].high] = true;
+    reflex[sides[k].low] = 1;
+    reflex[sides[k].high] = 1;
   }
   return reflex;
 }
