@@ -11,16 +11,14 @@
 #include "stopwatch.h"
 
 namespace flbc::bench {
-namespace {
 
 DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
   return triangulate(cage, {vertices});
 }
+
 DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
   return tetrahedralize(cage, {vertices});
 }
-
-}  // namespace
 
 std::string cage_path(const Context& context, const Model& model) {
   return context.models + "/" + model.cage;

@@ -11,6 +11,7 @@
 
 #include "child.h"
 #include "context.h"
+#include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
 #include "models.h"
 
@@ -23,6 +24,17 @@ std::string domain_path(const Context& context, const Model& model, Index vertic
 //! Meshes the cage, once in the program's run.
 //! \return false after a message on stderr if that failed
 bool prepare_domain(const Context& context, const Model& model, Index vertices);
+
+//! Meshes a cage with about so many vertices.
+DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices);
+DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices);
+
+//! Solves as flbc solve does, from a coarser mesh where that pays.
+template <int Dim>
+Solution solve_as_program(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  const auto mesher = [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices); };
+  return solve_coarse_to_fine<Dim>(problem, mesher, options);
+}
 
 //! A model on a mesh.
 template <int Dim>
