@@ -19,15 +19,16 @@ struct Experiment {
 //! In the order in which to run them.
 const std::vector<Experiment>& experiments();
 
-bool run_table1(const Context& context);   //!< with and without non-negativity
-bool run_table2(const Context& context);   //!< methods compared at the paper's sizes
-bool run_figure1(const Context& context);  //!< pictures for table 1
-bool run_figure2(const Context& context);  //!< pictures at growing resolution
-bool run_figure3(const Context& context);  //!< time and memory against resolution
-bool run_figure4(const Context& context);  //!< slices of 3D functions
-bool run_figure5(const Context& context);  //!< error against time
-bool run_figure6(const Context& context);  //!< the same on large meshes
-bool run_speed(const Context& context);    //!< total time to an error of 1e-5, beside others
-bool run_growth(const Context& context);   //!< time and memory up to millions of cells
+bool run_table1(const Context& context);     //!< with and without non-negativity
+bool run_table2(const Context& context);     //!< methods compared at the paper's sizes
+bool run_figure1(const Context& context);    //!< pictures for table 1
+bool run_figure2(const Context& context);    //!< pictures at growing resolution
+bool run_figure3(const Context& context);    //!< time and memory against resolution
+bool run_figure4(const Context& context);    //!< slices of 3D functions
+bool run_figure5(const Context& context);    //!< error against time
+bool run_figure6(const Context& context);    //!< the same on large meshes
+bool run_speed(const Context& context);      //!< total time to an error of 1e-5, beside others
+bool run_growth(const Context& context);     //!< time and memory up to millions of cells
+bool run_bandwidth(const Context& context);  //!< iterations and deformations beside copying
 
 }  // namespace flbc::bench
