@@ -89,7 +89,7 @@ Row measure_gradient(const Context& context, const Setting<Dim>& setting, const 
   const double state =
       2.0 * Dim * problem.mesh.num_cells() + (Dim - 1.0) * problem.topology.num_facets();
   const double numbers = 2 * state + problem.mesh.num_cells();
-  return row_of(memory, std::string("gradient iteration, ") + setting.model.name,
+  return row_of(memory, std::string("gradient iteration: ") + setting.model.name,
                 numbers * problem.num_control_points() * sizeof(float),
                 (seconds[1] - seconds[0]) / kIterations);
 }
@@ -114,9 +114,9 @@ std::string measure_deform(const ResultTable& table, const Memory& memory, Index
   const double dense_seconds = best_seconds([&] { moved = deform<3>(weights, pose); });
   const double sparse_seconds = best_seconds([&] { moved = deform<3>(sparse, pose); });
   const double result = 3 * points * sizeof(double);
-  return table.line(row_of(memory, "deform, 110 weights per point",
+  return table.line(row_of(memory, "deform: 110 weights per point",
                            points * kControlPoints * sizeof(double) + result, dense_seconds)) +
-         table.line(row_of(memory, "deform, 8 influences per point",
+         table.line(row_of(memory, "deform: 8 influences per point",
                            points * kInfluences * (sizeof(double) + sizeof(std::uint32_t)) +
                                points * sizeof(std::int64_t) + result,
                            sparse_seconds));
