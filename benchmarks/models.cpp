@@ -2,7 +2,7 @@
 // Solves real cages and prints, for each: iterations, time per iteration, time of the stages,
 // memory and the quality of the weights.
 //
-//   flbc_bench_models MODELS_FOLDER [--threads T] [--method value|gradient|paper|lbc2014]
+//   flbc_bench_models MODELS_FOLDER [--threads T] [--method value|gradient|paper|lbc2014|harmonic]
 //   [--tolerance T]
 //                     [--model NAME] [--reference K] [--linear-solver direct|multigrid]
 //                     [--vertices N]
@@ -119,7 +119,8 @@ void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
 const std::map<std::string, Method> kMethods{{"value", Method::kValue},
                                              {"gradient", Method::kGradient},
                                              {"paper", Method::kPaper},
-                                             {"lbc2014", Method::kLbc2014}};
+                                             {"lbc2014", Method::kLbc2014},
+                                             {"harmonic", Method::kHarmonic}};
 
 const std::map<std::string, LinearSolver> kSolvers{{"auto", LinearSolver::kAuto},
                                                    {"direct", LinearSolver::kDirect},

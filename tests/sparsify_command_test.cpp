@@ -7,7 +7,9 @@
 
 #include "flbc/coordinates.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/poisson_reduction.h"
 #include "support/command_line.h"
 #include "support/model_cages.h"
 
@@ -108,6 +110,82 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
   sparsify("3d/limb", "limb.mesh", 6);
   expect_sparse<3>(sample("3d/limb_cage.obj"), read_points<3>(sample("3d/limb_model.obj")),
                    path("w.npy"), path("s.mtx"), 6, Json::parse(slurp(path("s.json"))));
+}
+
+TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
+  const auto sparsify = [&](const std::string& arguments, const std::string& method) {
+    const auto result = run("sparsify " + arguments + " -k 4 -q --method " + method + " -o " +
+                            path(method + ".npy") + " --report " + path("r.json"));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const auto report = Json::parse(slurp(path("r.json")));
+    EXPECT_EQ(report["method"], method);
+    EXPECT_LE(report["after"]["max_influences"], 4);
+    EXPECT_GE(report["after"]["min_weight"], 0);
+    EXPECT_LE(report["after"]["max_partition_error"], 1e-13);
+    EXPECT_LE(report["after"]["max_reproduction_error"], 1e-13);
+    return report["error"]["edge"];
+  };
+  const auto compare = [&](const std::string& arguments) {
+    SCOPED_TRACE(arguments);
+    const auto plain = sparsify(arguments, "quadratic");
+    const auto poisson = sparsify(arguments, "poisson");
+    EXPECT_LT(poisson["independent"]["rms"], plain["independent"]["rms"]);
+    EXPECT_LT(poisson["smooth"]["rms"], plain["smooth"]["rms"]);
+  };
+  solve("2d/ring", "ring.vtu");
+  const auto ring = " --cage " + sample("2d/ring_cage.obj") + " --points ";
+  compare(path("w.npy") + ring + sample("2d/ring_model.obj"));
+  compare(path("v.npy") + ring + path("ring.vtu"));
+  solve("3d/limb", "limb.mesh");
+  const auto limb = " --cage " + sample("3d/limb_cage.obj") + " --points ";
+  compare(path("w.npy") + limb + sample("3d/limb_model.obj"));
+  compare(path("v.npy") + limb + path("limb.mesh"));
+}
+
+// With a pose the weights are chosen for it.
+TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
+  solve("2d/ring", "ring.vtu");
+  auto pose = io::read_obj(sample("2d/ring_cage.obj"));
+  for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
+  io::write_obj(path("pose.obj"), pose);
+  const auto arguments = "sparsify " + path("v.npy") + " --cage " + sample("2d/ring_cage.obj") +
+                         " --points " + path("ring.vtu") + " -k 3 -q --method poisson -o ";
+  ASSERT_EQ(run(arguments + path("without.npy")).status, 0);
+  ASSERT_EQ(run(arguments + path("with.npy") + " --pose " + path("pose.obj") + " --report " +
+                path("r.json"))
+                .status,
+            0);
+  const auto before = io::read_weights(path("v.npy"));
+  const auto points = io::to_points<2>(pose, "pose.obj");
+  const auto domain = io::read_domain<2>(path("ring.vtu"));
+  const auto error = [&](const std::string& name) {
+    return edge_error<2>(domain.points, edges_of_cells(domain), {points}, before,
+                         io::read_weights(path(name)));
+  };
+  EXPECT_LT(error("with.npy").rms, 0.9 * error("without.npy").rms);
+  const auto poses = Json::parse(slurp(path("r.json")))["error"]["edge"]["poses"];
+  ASSERT_EQ(poses.size(), 1);
+  EXPECT_EQ(poses[0]["file"], path("pose.obj"));
+  EXPECT_NEAR(poses[0]["rms"].get<double>(), error("with.npy").rms, 1e-12);
+  EXPECT_NEAR(poses[0]["max"].get<double>(), error("with.npy").max, 1e-12);
+}
+
+TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
+  const auto arguments = square();
+  expect_refusal(arguments + " -k 3 --method poisson", 2, "model.obj: has neither faces nor lines");
+  expect_refusal(arguments + " -k 3 --method cubic", 1, "none of quadratic|poisson");
+  // Without neighbours there are no edges to measure.
+  ASSERT_EQ(
+      run("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"))
+          .status,
+      0);
+  const auto report = Json::parse(slurp(path("r.json")));
+  EXPECT_EQ(report["method"], "quadratic");
+  EXPECT_FALSE(report["error"].contains("edge"));
+  // A line is enough.
+  file("model.obj", "v 2 2 0\nv 1 2 0\nl 1 2\n");
+  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --method poisson -o " + path("s.npy")).errors,
+            "");
 }
 
 TEST_F(SparsifyCommand, TripletsAndThresholds) {

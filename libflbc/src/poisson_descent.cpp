@@ -107,7 +107,7 @@ void PoissonDescent<Dim>::run(int sweeps, double least_gain) {
 // do not matter.
 template <int Dim>
 bool PoissonDescent<Dim>::sweep(double least_gain) {
-  const double size = size_of<Dim>(control_points_);
+  const double size = std::max(size_of<Dim>(control_points_), std::numeric_limits<double>::min());
   Index changes = 0;
 #pragma omp parallel reduction(+ : changes) if (points_.cols() >= 256)
   {

@@ -19,11 +19,11 @@ namespace flbc {
 //!
 //!     mean_p ( sum_ab k_ab |C_p (d_a - d_b)|^2 + sum_a m_a / r^2 |C_p d_a|^2 )
 //!
-//! over edges ab and points a, with m_a = sum_b k_ab |x_a - x_b|^2 / 2 and r a twentieth of the size
-//! of the points, or five edges of mean length if that is more: a small term that keeps points in
-//! their places. To the mean over the given poses a tenth of what poses like those of
-//! independent_poses() and smooth_poses() cost on average is added, one of either kind; without
-//! given poses the whole of that is what counts.
+//! over edges ab and points a, with m_a = sum_b k_ab |x_a - x_b|^2 / 2 and r a twentieth of the
+//! size of the points, or five edges of mean length if that is more: the second term is small and
+//! keeps points in their places. To the mean over the given poses a tenth of what a pose of
+//! independent_poses() and one of smooth_poses() cost together on average is added, for the control
+//! points that the given ones do not move; without given poses all of that is what counts.
 //!
 //! Found by block coordinate descent: point by point, a row's weights are exchanged for the best
 //! ones while its neighbours are fixed. The result is a local minimum, and not above what
