@@ -2,17 +2,18 @@
 // flbc check: defects of a cage, quality of weights.
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "check_report.h"
+#include "checks.h"
 #include "commands.h"
 #include "exit_status.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/meshing.h"
 #include "held_signals.h"
 #include "load.h"
+#include "report_json.h"
 
 namespace flbc::app {
 namespace {
@@ -32,20 +33,6 @@ void check_arguments(const CheckArguments& arguments) {
   if (arguments.json != "-") require_writable(arguments.json, {"json"});
   require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},
                    {arguments.json});
-}
-
-template <int Dim>
-CheckReport<Dim> check_cage(const Cage<Dim>& cage, const CheckArguments& arguments) {
-  CheckReport<Dim> report{arguments.cage, arguments.model,   arguments.domain, arguments.weights,
-                          cage,           find_defects(cage)};
-#ifdef FLBC_WITH_CGAL
-  if (report.defects.empty()) {
-    report.defects = find_self_intersections(cage, kMostDefects);
-    report.intersections_checked = true;
-  }
-#endif
-  if (report.defects.empty()) report.facts = measure_cage(cage);
-  return report;
 }
 
 template <int Dim>
@@ -72,19 +59,17 @@ void check_sizes(const CheckReport<Dim>& report, const WeightMatrix& weights,
 }
 
 template <int Dim>
-void check_weights_of(CheckReport<Dim>& report) {
+void check_weight_file(CheckReport<Dim>& report) {
   const auto weights = io::read_weights(report.weights_file);
   if (report.domain_file.empty()) {
     const auto& points = report.model->points;
     check_sizes(report, weights, report.model_file, points.cols());
-    report.weights = check_weights(report.cage, points, weights);
+    check_weights_of(report, points, weights);
   } else {
     const auto domain = io::read_domain<Dim>(report.domain_file);
     check_sizes(report, weights, report.domain_file, domain.num_vertices());
-    report.weights =
-        naming(report.domain_file, [&] { return check_weights(report.cage, domain, weights); });
+    naming(report.domain_file, [&] { check_weights_of(report, domain, weights); });
   }
-  report.violations = find_violations(*report.weights);
 }
 
 // The table, unless the standard output is wanted for JSON.
@@ -92,17 +77,20 @@ template <int Dim>
 void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
   if (json_file != "-") print_check(std::cout, report);
   if (json_file.empty()) return;
-  const auto json = check_json(report);
+  const auto json = to_text(check_json(report));
   const HeldSignals held;
   io::write_file(json_file, [&](std::ostream& file) { file << json; });
 }
 
 template <int Dim>
 int check(const Cage<Dim>& cage, const CheckArguments& arguments) {
-  auto report = check_cage(cage, arguments);
+  auto report = check_cage(cage, arguments.cage);
+  report.model_file = arguments.model;
+  report.domain_file = arguments.domain;
+  report.weights_file = arguments.weights;
   if (report.defects.empty()) {
     if (!arguments.model.empty()) check_model(report);
-    if (!arguments.weights.empty()) check_weights_of(report);
+    if (!arguments.weights.empty()) check_weight_file(report);
   }
   deliver(report, arguments.json);
   if (!report.defects.empty()) {

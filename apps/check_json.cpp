@@ -105,16 +105,15 @@ Json weights_json(const CheckReport<Dim>& report) {
 }  // namespace
 
 template <int Dim>
-std::string check_json(const CheckReport<Dim>& report) {
+Json check_json(const CheckReport<Dim>& report) {
   Json json{{"fine", report.is_fine()}, {"cage", cage_json(report)}};
   if (report.model) json["model"] = model_json(report);
   if (report.weights) json["weights"] = weights_json(report);
   json["version"] = FLBC_VERSION;
-  // File names need not be UTF-8, which JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
 }
 
-template std::string check_json(const CheckReport<2>&);
-template std::string check_json(const CheckReport<3>&);
+template Json check_json(const CheckReport<2>&);
+template Json check_json(const CheckReport<3>&);
 
 }  // namespace flbc::app

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,6 @@ template <int Dim>
 void print_check(std::ostream& out, const CheckReport<Dim>& report);
 
 template <int Dim>
-std::string check_json(const CheckReport<Dim>& report);
+nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
 
 }  // namespace flbc::app

@@ -20,6 +20,7 @@ void add_deform_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);
 void add_export_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
+void add_run_command(CLI::App& app, int& exit_status);
 void add_sparsify_command(CLI::App& app, int& exit_status);
 
 //! What is wrong with a number of vertices, for CLI::Option::check(); empty if nothing is.

@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   int exit_status = kDone;
+  add_run_command(app, exit_status);
   add_mesh_command(app, exit_status);
   add_solve_command(app, exit_status);
   add_check_command(app, exit_status);

@@ -26,8 +26,9 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
 
 }  // namespace
 
-std::string report_json(const SolveReport& report, const SolverOptions& given,
-                        const RunContext& context) {
+nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
+                                   const RunContext& context) {
+  const auto& given = settings.options;
   const auto options = resolve(given, context.dim);
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
@@ -38,6 +39,7 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
   json["iterations"] = report.iterations;
   json["converged"] = report.status == SolveStatus::kConverged;
   json["status"] = name_of(report.status);
+  json["cached"] = context.cached;
   json["primal_residual"] = report.primal_residual;
   json["dual_residual"] = report.dual_residual;
   json["objective"] = report.objective;
@@ -59,14 +61,14 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
   json["penalty"] = report.penalty;
   json["numbers_per_cell"] = report.numbers_per_cell;
   json["version"] = FLBC_VERSION;
-  json["options"] = {{"cage", context.cage},
-                     {"domain", context.domain},
-                     {"model", context.model},
-                     {"embed", context.embed},
-                     {"vertices", context.wanted_vertices},
+  json["options"] = {{"cage", settings.cage},
+                     {"domain", settings.domain},
+                     {"model", settings.model},
+                     {"embed", settings.embed},
+                     {"vertices", settings.vertices},
                      {"method", name_of(given.method)},
                      {"non_negative", name_of(options.non_negative)},
-                     {"coarse_to_fine", context.coarse_to_fine},
+                     {"coarse_to_fine", name_of(settings.coarse_to_fine)},
                      {"certify", options.certify},
                      {"phi", name_of(options.phi)},
                      {"recovery", name_of(options.recovery)},
@@ -75,8 +77,12 @@ std::string report_json(const SolveReport& report, const SolverOptions& given,
                      {"max_iterations", options.max_iterations},
                      {"penalty", options.penalty},
                      {"relaxation", options.relaxation},
-                     {"threads", options.threads}};
-  // File names need not be UTF-8, which JSON must be.
+                     {"threads", options.threads},
+                     {"cache", settings.cache}};
+  return json;
+}
+
+std::string to_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -146,8 +146,8 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
 
 TEST_F(CommandLine, HelpAndVersion) {
   EXPECT_EQ(run("--version").output.substr(0, 5), "flbc ");
-  for (const char* command : {"", "mesh ", "solve ", "check ", "convert ", "deform ", "export ",
-                              "sparsify ", "draw ", "info "}) {
+  for (const char* command : {"", "mesh ", "run ", "solve ", "check ", "convert ", "deform ",
+                              "export ", "sparsify ", "draw ", "info "}) {
     const auto result = run(std::string(command) + "--help");
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.output.find("Usage"), std::string::npos);

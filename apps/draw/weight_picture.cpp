@@ -4,69 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/canvas.h"
-#include "draw/layout.h"
+#include "draw/plane_painter.h"
 #include "draw/weight_painter.h"
 #include "flbc/errors.h"
 
 namespace flbc::draw {
-namespace {
-
-// Dots shrink where control points are dense, so that the polygon remains visible.
-double dot_radius(const Cage<2>& cage, const PixelMap& map, double unit) {
-  double length = 0;
-  for (const auto& facet : cage.facets.colwise()) {
-    length += (cage.points.col(facet[1]) - cage.points.col(facet[0])).norm();
-  }
-  const double average =
-      map.scale() * length / static_cast<double>(std::max<Eigen::Index>(1, cage.facets.cols()));
-  return std::clamp(0.2 * average, 1.5 * unit, 6 * unit);
-}
-
-void paint_cage(Canvas& canvas, const Cage<2>& cage, const PixelMap& map, Index control_point,
-                double unit) {
-  std::vector<Segment> edges;
-  for (const auto& facet : cage.facets.colwise()) {
-    edges.push_back(
-        {map(Vector<2>(cage.points.col(facet[0]))), map(Vector<2>(cage.points.col(facet[1])))});
-  }
-  canvas.draw_segments(edges, 2.6 * unit, kInk);
-  const double radius = dot_radius(cage, map, unit);
-  for (const auto& point : cage.points.colwise()) {
-    paint_dot(canvas, map(Vector<2>(point)), radius, kInk);
-  }
-  // Last and largest, so that neighbours never hide it.
-  paint_dot(canvas, map(Vector<2>(cage.points.col(control_point))),
-            std::max(1.5 * radius, 6 * unit), kHighlight);
-}
-
-void paint_function(Canvas& canvas, const Box& content, const Box& frame, const Cage<2>& cage,
-                    const DomainMesh<2>& mesh, const Eigen::VectorXd& values, Index control_point,
-                    const WeightPictureOptions& options, double unit) {
-  const PixelMap map(content, frame);
-  paint_weight(canvas, map(mesh.points), mesh.cells, values, options);
-  paint_cage(canvas, cage, map, control_point, unit);
-}
-
-void check_cage(const Cage<2>& cage) {
-  if (cage.facets.size() > 0 &&
-      (cage.facets.minCoeff() < 0 || cage.facets.maxCoeff() >= cage.size())) {
-    throw InputError("an edge of the cage refers to a control point that does not exist");
-  }
-}
-
-}  // namespace
 
 Image draw_weights(const Cage<2>& cage, const DomainMesh<2>& mesh, const Eigen::VectorXd& values,
                    Index control_point, const WeightPictureOptions& options) {
   validate(options);
-  check_cage(cage);
+  check_edges(cage);
   check_weight(values, mesh.num_vertices(), control_point, cage.size());
   const Box content = bounding_box(cage.points);
   const PictureLayout layout = plan_picture(content, options);
   Canvas canvas(layout.width, layout.height, kWhite);
-  paint_function(canvas, content, layout.frame, cage, mesh, values, control_point, options,
-                 std::max(0.6, pixel_unit(options)));
+  paint_function(canvas, PixelMap(content, layout.frame), cage, mesh, values, control_point,
+                 options, std::max(0.6, pixel_unit(options)));
   if (options.color_bar) {
     paint_color_bar(canvas, layout.color_bar, control_point, values.minCoeff(), values.maxCoeff(),
                     options);
@@ -77,7 +30,7 @@ Image draw_weights(const Cage<2>& cage, const DomainMesh<2>& mesh, const Eigen::
 Image draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const WeightMatrix& weights,
                const std::vector<Index>& control_points, const WeightPictureOptions& options) {
   validate(options);
-  check_cage(cage);
+  check_edges(cage);
   if (control_points.empty()) throw OptionError("there is no control point to draw");
   const Box content = bounding_box(cage.points);
   const int count = static_cast<int>(control_points.size());
@@ -105,8 +58,8 @@ Image draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const WeightMatri
     const Vector<2> corner(margin + (k % columns) * (tile_width + margin),
                            label + (k / columns) * row_height);
     const Box frame{corner, corner + Vector<2>(tile_width, tile_height)};
-    paint_function(canvas, content, frame, cage, mesh, weights.row(control_point), control_point,
-                   options, std::max(0.6, 0.7 * unit));
+    paint_function(canvas, PixelMap(content, frame), cage, mesh, weights.row(control_point),
+                   control_point, options, std::max(0.6, 0.7 * unit));
     paint_symbol(canvas, {frame.center().x(), corner.y() - 18 * unit}, control_point, 18 * unit);
   }
   return canvas.resolve();

@@ -18,7 +18,7 @@ namespace {
 constexpr int kRepetitions = 5;
 
 std::vector<std::string> columns() {
-  return {"what", "gigabytes", "seconds", "gigabytes_per_second", "of_copy", "of_read"};
+  return {"what", "gigabytes", "seconds", "gigabytes_per_second", "of_copy"};
 }
 
 template <class Action>
@@ -32,45 +32,30 @@ double best_seconds(const Action& action) {
   return best;
 }
 
-// Bytes per second of arrays far larger than any cache.
-struct Memory {
-  double copy;  // read and written
-  double read;
-};
-
-Memory measure_memory() {
+// Bytes per second, read and written, of copying arrays far larger than any cache.
+double copy_bandwidth() {
   constexpr std::ptrdiff_t kNumbers = 1 << 27;
   std::vector<float> from(kNumbers, 1);
   std::vector<float> to(kNumbers, 2);
-  const double copy = best_seconds([&] {
+  const double seconds = best_seconds([&] {
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t k = 0; k < kNumbers; ++k) to[k] = from[k];
   });
-  float sum = 0;
-  const double read = best_seconds([&] {
-    float total = 0;
-#pragma omp parallel for simd schedule(static) reduction(+ : total)
-    for (std::ptrdiff_t k = 0; k < kNumbers; ++k) total += to[k];
-    sum += total;
-  });
-  if (sum < 0) throw std::logic_error("the sum of positive numbers is negative");
-  const double bytes = double(kNumbers) * sizeof(float);
-  return {2 * bytes / copy, bytes / read};
+  return 2.0 * kNumbers * sizeof(float) / seconds;
 }
 
-Row row_of(const Memory& memory, const std::string& what, double bytes, double seconds) {
+Row row_of(double copy, const std::string& what, double bytes, double seconds) {
   return {{"what", what},
           {"gigabytes", number(bytes / 1e9)},
           {"seconds", number(seconds)},
           {"gigabytes_per_second", number(bytes / seconds / 1e9)},
-          {"of_copy", number(bytes / seconds / memory.copy)},
-          {"of_read", number(bytes / seconds / memory.read)}};
+          {"of_copy", number(bytes / seconds / copy)}};
 }
 
 // The gradient iteration reads and writes gradients, duals of the total variation and of the
 // integrability, and reads phi.
 template <int Dim>
-Row measure_gradient(const Context& context, const Setting<Dim>& setting, const Memory& memory) {
+Row measure_gradient(const Context& context, const Setting<Dim>& setting, double copy) {
   constexpr int kIterations = 20;
   SolverOptions options;
   options.method = Method::kGradient;
@@ -89,13 +74,13 @@ Row measure_gradient(const Context& context, const Setting<Dim>& setting, const 
   const double state =
       2.0 * Dim * problem.mesh.num_cells() + (Dim - 1.0) * problem.topology.num_facets();
   const double numbers = 2 * state + problem.mesh.num_cells();
-  return row_of(memory, std::string("gradient iteration: ") + setting.model.name,
+  return row_of(copy, std::string("gradient iteration: ") + setting.model.name,
                 numbers * problem.num_control_points() * sizeof(float),
                 (seconds[1] - seconds[0]) / kIterations);
 }
 
 // Random sparse weights of many points, as rows of dense ones and without their zeros.
-std::string measure_deform(const ResultTable& table, const Memory& memory, Index num_points) {
+std::string measure_deform(const ResultTable& table, double copy, Index num_points) {
   constexpr Index kControlPoints = 110;
   constexpr Index kInfluences = 8;
   std::mt19937 random(1);
@@ -114,9 +99,9 @@ std::string measure_deform(const ResultTable& table, const Memory& memory, Index
   const double dense_seconds = best_seconds([&] { moved = deform<3>(weights, pose); });
   const double sparse_seconds = best_seconds([&] { moved = deform<3>(sparse, pose); });
   const double result = 3 * points * sizeof(double);
-  return table.line(row_of(memory, "deform: 110 weights per point",
+  return table.line(row_of(copy, "deform: 110 weights per point",
                            points * kControlPoints * sizeof(double) + result, dense_seconds)) +
-         table.line(row_of(memory, "deform: 8 influences per point",
+         table.line(row_of(copy, "deform: 8 influences per point",
                            points * kInfluences * (sizeof(double) + sizeof(std::uint32_t)) +
                                points * sizeof(std::int64_t) + result,
                            sparse_seconds));
@@ -128,17 +113,17 @@ bool run_bandwidth(const Context& context) {
   ResultTable table(context, "bandwidth", columns());
   table.add(in_child("bandwidth: deform", [&]() -> std::string {
     omp_set_num_threads(context.threads);
-    return measure_deform(table, measure_memory(), context.quick ? 10000 : 1000000);
+    return measure_deform(table, copy_bandwidth(), context.quick ? 10000 : 1000000);
   }));
   for (const auto& [name, vertices] : {std::pair{"woody", 100000}, std::pair{"horse", 40000}}) {
     const auto& chosen = model(name);
     table.add(in_setting(context, "bandwidth", chosen, context.size(chosen.dim, vertices),
                          [&](const auto& setting) {
-                           return table.line(measure_gradient(context, setting, measure_memory()));
+                           return table.line(measure_gradient(context, setting, copy_bandwidth()));
                          }));
   }
   return table.write(
-      "the fewest bytes that have to be moved, beside copying and reading large arrays; the best "
+      "the fewest bytes that have to be moved, beside copying large arrays; the best "
       "of "
       "5 runs");
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What the weights of a domain depend on.
+#pragma once
+
+#include <string>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/options.h"
+
+namespace flbc::app {
+
+//! Where weights come from; meshes and points are kept by reference.
+template <int Dim>
+struct WeightOrigin {
+  const Cage<Dim>& cage;
+  const DomainMesh<Dim>* domain = nullptr;   //!< given; null: made from what follows
+  const PointList<Dim>* embedded = nullptr;  //!< become vertices of the mesh; null for none
+  Index vertices = 0;                        //!< wanted, 0 = as many as the program chooses
+  std::string coarse_to_fine;                //!< what was asked for
+  bool can_mesh = true;                      //!< whether there is a mesher for coarser meshes
+  SolverOptions options{};
+};
+
+//! Lines that can be read, then the bytes of all numbers of cage, domain and embedded points. Keys
+//! of different origins differ, and so do those of different versions of the library. The number of
+//! threads is not in it: it does not change the weights.
+template <int Dim>
+std::string key_of(const WeightOrigin<Dim>& origin);
+
+}  // namespace flbc::app

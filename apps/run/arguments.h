@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What flbc run is told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve_settings.h"
+
+namespace flbc::app {
+
+//! How influences are reduced, by the names of flbc sparsify.
+constexpr const char* kQuadratic = "quadratic";
+constexpr const char* kPoisson = "poisson";
+
+struct RunArguments {
+  SolveSettings settings;             //!< cage and model among them, but no domain
+  std::vector<std::string> deformed;  //!< cage files or a pattern of them
+  std::string keyframes;              //!< file of poses instead
+  std::string output;                 //!< folder
+  Index max_influences = 8;
+  std::string reduction = kPoisson;
+  double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
+  Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
+  bool force = false;            //!< results replace files of others, too
+  bool quiet = false;
+};
+
+}  // namespace flbc::app

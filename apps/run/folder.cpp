@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/folder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "held_signals.h"
+#include "load.h"
+#include "report_json.h"
+#include "run/names.h"
+
+namespace flbc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCommand = "run";
+
+// Empty if there is no report, or none of flbc run.
+std::vector<std::string> names_in_report(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return {};
+  try {
+    const auto report = nlohmann::json::parse(io::read_file(path));
+    if (report.at("command") != kCommand) return {};
+    return report.at("files").get<std::vector<std::string>>();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// A file in the folder itself, neither below nor outside.
+bool is_plain_name(const std::string& name) {
+  const fs::path path(name);
+  return path.filename() == path && name != "." && name != "..";
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::string path, const RunFiles& files)
+    : path_(std::move(path)), quiet_(files.quiet) {
+  std::error_code error;
+  const auto old = names_in_report(path_of(kReport));
+  check_results(files, old);
+  fs::create_directories(path_, error);
+  if (error) throw IoError(path_ + ": cannot make this folder: " + error.message());
+  if (access(path_.c_str(), W_OK | X_OK) != 0) {
+    throw IoError(path_ + ": cannot write in this folder: " + std::strerror(errno));
+  }
+  remove_old(files, old);
+  write_report({{"command", kCommand}, {"unfinished", true}, {"files", files.names}});
+}
+
+void RunFolder::check_results(const RunFiles& files, const std::vector<std::string>& old) const {
+  std::error_code error;
+  for (const auto& name : files.names) {
+    const auto result = path_of(name);
+    require_distinct(files.inputs, {result});
+    const bool is_own = std::find(old.begin(), old.end(), name) != old.end();
+    if (files.force || is_own || !fs::exists(result, error)) continue;
+    throw OptionError(result +
+                      ": is there already, and not from an earlier flbc run; take another folder, "
+                      "or --force to replace it");
+  }
+}
+
+void RunFolder::remove_old(const RunFiles& files, const std::vector<std::string>& old) const {
+  std::error_code error;
+  for (const auto& name : old) {
+    const auto file = path_of(name);
+    if (!is_plain_name(name) || !fs::is_regular_file(fs::symlink_status(file, error))) continue;
+    const bool is_input =
+        std::any_of(files.inputs.begin(), files.inputs.end(),
+                    [&](const auto& input) { return fs::equivalent(file, input, error); });
+    if (!is_input) fs::remove(file, error);
+  }
+}
+
+std::string RunFolder::path_of(const std::string& name) const {
+  return (fs::path(path_) / name).string();
+}
+
+void RunFolder::add(const std::string& name, const std::string& facts,
+                    const std::function<void(const std::string& path)>& write) {
+  {
+    const HeldSignals held;
+    write(path_of(name));
+  }
+  names_.push_back(name);
+  if (!facts.empty()) tell(name, facts);
+}
+
+void RunFolder::tell(const std::string& name, const std::string& facts) const {
+  constexpr int kColumn = 20;
+  if (!quiet_) std::cerr << "  " << std::left << std::setw(kColumn) << name << facts << '\n';
+}
+
+void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {
+  auto names = names_;
+  names.emplace_back(kReport);
+  report["files"] = names;
+  write_report(report);
+  if (!facts.empty()) tell(kReport, facts);
+}
+
+void RunFolder::write_report(const nlohmann::ordered_json& report) const {
+  const HeldSignals held;
+  io::write_file(path_of(kReport), [&](std::ostream& file) { file << to_text(report); });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The folder that flbc run fills.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace flbc::app {
+
+//! What a run does with the folder.
+struct RunFiles {
+  std::vector<std::string> inputs{};  //!< paths; they are neither replaced nor removed
+  std::vector<std::string> names{};   //!< of all files that may be made
+  bool force = false;                 //!< these replace files that no earlier run has made
+  bool quiet = false;                 //!< nothing is printed
+};
+
+//! Files appear whole or not at all, each as soon as its step has made it. The report lists them:
+//! that is how the next run knows which files are its own. An interrupted run leaves a report that
+//! lists all that it would have made.
+class RunFolder {
+ public:
+  //! Makes the folder if there is none, and removes from it what an earlier run has made, so that
+  //! nothing of that passes for a file of this run. All other files stay.
+  //! \throws IoError naming the folder if it cannot be used; OptionError if a result would replace
+  //! an input, or without force a file that no earlier run has made
+  RunFolder(std::string path, const RunFiles& files);
+
+  //! The path of a file in it.
+  std::string path_of(const std::string& name) const;
+
+  //! Calls `write` with the path of the file; interrupts wait meanwhile. Then tells the facts.
+  //! \param facts  what is worth saying about it; nothing is printed if it is empty
+  void add(const std::string& name, const std::string& facts,
+           const std::function<void(const std::string& path)>& write);
+
+  //! Prints a line about a file, or about what stands for several.
+  void tell(const std::string& name, const std::string& facts) const;
+
+  //! Writes the report, to which a list of all files is added.
+  void add_report(nlohmann::ordered_json& report, const std::string& facts);
+
+ private:
+  void check_results(const RunFiles& files, const std::vector<std::string>& old) const;
+  void remove_old(const RunFiles& files, const std::vector<std::string>& old) const;
+
+  void write_report(const nlohmann::ordered_json& report) const;
+
+  std::string path_;
+  bool quiet_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace flbc::app

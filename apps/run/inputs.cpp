@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/inputs.h"
+
+#include "animation.h"
+#include "file_sequence.h"
+#include "flbc/errors.h"
+#include "load.h"
+#include "run/names.h"
+
+namespace flbc::app {
+namespace {
+
+// Files of cages in their poses.
+template <int Dim>
+void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs<Dim>& inputs) {
+  const auto files = find_cages(arguments.deformed);
+  inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
+  inputs.poses = load_poses<Dim>(files);
+  if (inputs.poses.empty()) return;
+  // From where the cage rests: to a single pose within a second, through several as a video.
+  constexpr double kVideo = 24;
+  double rate = arguments.frames_per_second;
+  if (rate == 0) rate = inputs.poses.size() == 1 ? 1 : kVideo;
+  auto& [times, poses] = inputs.animation;
+  poses.push_back(cage.points);
+  for (const auto& pose : inputs.poses) {
+    if (pose.points.cols() != cage.size()) {
+      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
+                       " vertices, but " + arguments.settings.cage + " has " +
+                       std::to_string(cage.size()));
+    }
+    poses.push_back(pose.points);
+  }
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    times.push_back(static_cast<double>(k) / rate);
+  }
+}
+
+template <int Dim>
+void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInputs<Dim>& inputs) {
+  inputs.files.push_back(path);
+  inputs.poses = load_keyframes<Dim>(path, cage.points);
+  inputs.animation = load_animation<Dim>(path, cage.points);
+  naming(path, [&] { gltf::validate(inputs.animation, cage.size()); });
+}
+
+}  // namespace
+
+template <int Dim>
+RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments) {
+  const auto& settings = arguments.settings;
+  RunInputs<Dim> inputs;
+  inputs.files.push_back(settings.cage);
+  if (arguments.keyframes.empty()) {
+    load_deformed(cage, arguments, inputs);
+  } else {
+    load_keyframe_file(cage, arguments.keyframes, inputs);
+  }
+  inputs.shape.extension = domain_extension<Dim>();
+  if (settings.model.empty()) return inputs;
+  inputs.files.push_back(settings.model);
+  inputs.shape = load_shape<Dim>(settings.model);
+  return inputs;
+}
+
+template <int Dim>
+std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
+  std::vector<std::string> names{std::string(kDomain) + domain_extension<Dim>(), kWeights,
+                                 kSparseWeights};
+  if (inputs.shape.file) names.emplace_back(kDomainWeights);
+  for (const auto& pose : inputs.poses) {
+    names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
+  }
+  names.insert(names.end(), {kSkin, kFunction});
+  if (!inputs.poses.empty()) names.emplace_back(kDeformation);
+  names.emplace_back(kReport);
+  return names;
+}
+
+std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
+                             const std::string& extension) {
+  return with_number(num_poses == 1 ? "deformed" : "deformed_%03d", number) + extension;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                 \
+  template RunInputs<Dim> load_inputs(const Cage<Dim>&, const RunArguments&); \
+  template std::vector<std::string> names_of_results(const RunInputs<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The files that flbc run makes, as far as their names are always the same.
+#pragma once
+
+namespace flbc::app {
+
+constexpr const char* kDomain = "domain";  //!< the extension depends on the dimension
+constexpr const char* kDomainWeights = "domain_weights.npy";
+constexpr const char* kWeights = "weights.npy";
+constexpr const char* kSparseWeights = "sparse_weights.mtx";
+constexpr const char* kSkin = "model.glb";
+constexpr const char* kFunction = "function.png";
+constexpr const char* kDeformation = "deformation.png";
+
+//! The report, in which the names of all files are: the next run knows by them what is its own.
+constexpr const char* kReport = "report.json";
+
+}  // namespace flbc::app

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/pictures.h"
+
+#include "draw/deformation_picture.h"
+#include "draw/png_writer.h"
+#include "draw/slice_picture.h"
+#include "draw/weight_picture.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "run/facts.h"
+
+namespace flbc::app {
+namespace {
+
+// That of the control point which moves most of the shape, in the poses if there are any.
+template <int Dim>
+Index choose_control_point(const Run<Dim>& run) {
+  if (run.arguments.control_point >= 0) return run.arguments.control_point;
+  const Eigen::VectorXd shares = run.dense.rowwise().sum();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(shares.size());
+  for (const auto& pose : run.poses()) {
+    const PointList<Dim> steps = pose.points - run.cage.points;
+    moved += shares.cwiseProduct(steps.colwise().norm().transpose());
+  }
+  Eigen::Index chosen = 0;
+  (moved.isZero(0) ? shares : moved).maxCoeff(&chosen);
+  return static_cast<Index>(chosen);
+}
+
+draw::Image draw_function(const Run<2>& run, Index control_point) {
+  return draw::draw_weights(run.cage, run.solver.domain(),
+                            run.solver.domain_weights().row(control_point), control_point);
+}
+
+draw::Image draw_function(const Run<3>& run, Index control_point) {
+  return draw::draw_slices(run.cage, run.solver.domain(),
+                           run.solver.domain_weights().row(control_point), control_point);
+}
+
+template <int Dim>
+void add_picture(Run<Dim>& run, const std::string& name, const std::string& facts,
+                 const draw::Image& image) {
+  const auto png = draw::encode_png(image);
+  run.folder.add(name, facts, [&](const std::string& path) {
+    io::write_file(path, [&](std::ostream& file) { file << png; });
+  });
+  run.report["pictures"]["files"].push_back(name);
+}
+
+// The triangles of a shape, by its own points.
+CellList<2> triangles_of(const gltf::Surface& surface) {
+  CellList<2> cells = surface.triangles;
+  for (auto& vertex : cells.reshaped()) vertex = surface.sources[vertex];
+  return cells;
+}
+
+// The shape at rest and in the pose; the mesh of the interior in place of one without triangles.
+draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index control_point) {
+  const auto& shape = run.shape();
+  const auto& domain = run.solver.domain();
+  const bool is_surface = shape.surface.triangles.cols() > 0;
+  const auto& points = is_surface ? shape.points : domain.points;
+  const auto& weights = is_surface ? run.sparse : run.solver.domain_weights();
+  return draw::draw_deformation(
+      run.cage.facets, is_surface ? triangles_of(shape.surface) : domain.cells,
+      {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)},
+      weights.row(control_point), control_point);
+}
+
+// Slices through the mesh of the interior.
+draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
+  const auto& weights = run.solver.domain_weights();
+  const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
+  return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
+                           control_point);
+}
+
+template <int Dim>
+void draw_farthest_pose(Run<Dim>& run, Index control_point) {
+  const auto& pose = run.poses()[run.displacement.pose];
+  Facts facts;
+  facts << (Dim == 2 ? "at rest and in " : "the same in ") << pose.name;
+  try {
+    add_picture(run, kDeformation, facts.text(), deformation_image(run, pose, control_point));
+  } catch (const InputError& error) {  // in a pose all control points may coincide
+    run.report["pictures"]["left_out"] = error.what();
+    run.folder.tell(kDeformation, std::string("left out: ") + error.what());
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void draw_pictures(Run<Dim>& run) {
+  const Index control_point = choose_control_point(run);
+  run.report["pictures"] = {{"control_point", control_point}};
+  Facts facts;
+  facts << "the coordinate function of control point " << control_point;
+  add_picture(run, kFunction, facts.text(), draw_function(run, control_point));
+  if (!run.poses().empty()) draw_farthest_pose(run, control_point);
+}
+
+template void draw_pictures(Run<2>&);
+template void draw_pictures(Run<3>&);
+
+}  // namespace flbc::app

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of flbc run that make what engines take: few influences, and a skin.
+#include <cmath>
+#include <filesystem>
+
+#include "flbc/cage.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/poisson_reduction.h"
+#include "gltf/skin.h"
+#include "load.h"
+#include "run/facts.h"
+#include "run/steps.h"
+#include "sparsify_report.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Beyond that vertices visibly tremble.
+constexpr double kWorthATell = 1e-5;
+
+template <int Dim>
+std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
+  std::vector<PointList<Dim>> points;
+  for (const auto& pose : poses) points.push_back(pose.points);
+  return points;
+}
+
+// Without neighbours there are no seams between them.
+template <int Dim>
+bool uses_poisson(const Run<Dim>& run) {
+  return run.arguments.reduction == kPoisson && !run.shape().edges.ends.empty();
+}
+
+template <int Dim>
+WeightMatrix reduce(const Run<Dim>& run, const std::vector<PointList<Dim>>& poses) {
+  const SparsifyOptions options{run.arguments.max_influences};
+  const auto& shape = run.shape();
+  if (!uses_poisson(run)) {
+    return sparsify<Dim>(run.cage.points, shape.points, run.dense, options);
+  }
+  return reduce_by_poisson<Dim>(run.cage.points, shape.points, shape.edges, run.dense, poses,
+                                options);
+}
+
+// Relative to the size, over the poses given or else over smooth random ones.
+ErrorNorms deformation_error_in(const Json& errors) {
+  const auto& poses = errors["deformation"]["poses"];
+  if (poses.empty()) {
+    const auto& smooth = errors["deformation"]["smooth"];
+    return {smooth["rms"], smooth["max"]};
+  }
+  ErrorNorms all;
+  for (const auto& pose : poses) {
+    all.rms += std::pow(pose["rms"].get<double>(), 2);
+    all.max = std::max(all.max, pose["max"].get<double>());
+  }
+  all.rms = std::sqrt(all.rms / static_cast<double>(poses.size()));
+  return all;
+}
+
+std::string facts_of(const WeightMatrix& before, const WeightMatrix& after, const ErrorNorms& error,
+                     std::size_t num_poses) {
+  const auto influences = count_influences(after);
+  const char* const poses = num_poses == 0   ? "smooth random poses"
+                            : num_poses == 1 ? "the pose"
+                                             : "the poses";
+  Facts facts;
+  facts << influences.mean << " influences per point, at most " << influences.max << " (before "
+        << count_influences(before).max << "); deformation error " << 100 * error.rms << " % rms, "
+        << 100 * error.max << " % max of the size in " << poses;
+  return facts.text();
+}
+
+}  // namespace
+
+template <int Dim>
+void reduce_influences(Run<Dim>& run) {
+  const auto poses = points_of(run.poses());
+  const auto& model = run.arguments.settings.model;
+  const auto& shape = run.shape();
+  run.sparse =
+      naming(model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model,
+             [&] { return reduce(run, poses); });
+  std::vector<std::string> pose_files;
+  for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
+
+  const auto errors = errors_json<Dim>(
+      {run.cage.points, shape.points, shape.edges, run.dense, run.sparse, poses, pose_files});
+  const auto error = deformation_error_in(errors);
+  run.folder.add(kSparseWeights, facts_of(run.dense, run.sparse, error, poses.size()),
+                 [&](const std::string& path) { io::write_weights(path, run.sparse); });
+
+  const auto size_of_file = [&](const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::file_size(run.folder.path_of(name), ignored);
+  };
+  run.report["sparsify"] = {{"method", uses_poisson(run) ? kPoisson : kQuadratic},
+                            {"max_influences", run.arguments.max_influences},
+                            {"deformation_error", {{"rms", error.rms}, {"max", error.max}}},
+                            {"before", weights_json(kWeights, size_of_file(kWeights), run.dense,
+                                                    run.cage.points, shape.points)},
+                            {"after", weights_json(kSparseWeights, size_of_file(kSparseWeights),
+                                                   run.sparse, run.cage.points, shape.points)},
+                            {"error", errors}};
+}
+
+template <int Dim>
+void export_shape(Run<Dim>& run) {
+  const auto& shape = run.shape();
+  if (shape.surface.triangles.cols() == 0) {
+    const std::string reason = "the model has no triangles";
+    run.report["export"] = {{"left_out", reason}};
+    run.folder.tell(kSkin, "left out: " + reason);
+    return;
+  }
+  constexpr Index kFewJoints = 4;
+  gltf::SkinOptions options;
+  if (run.arguments.max_influences <= kFewJoints) options.max_influences = kFewJoints;
+  options.name = shape.name;
+  const auto& animation = run.inputs.animation;
+  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
+                                      options, animation);
+  const double size = size_of<Dim>(shape.points);
+  run.report["export"] = {
+      {"file", kSkin},
+      {"bytes", skin.glb.size()},
+      {"vertices", skin.vertices},
+      {"triangles", skin.triangles},
+      {"joints", skin.joints},
+      {"moving_joints", skin.moving_joints},
+      {"max_influences", skin.influences},
+      {"times", animation.times},
+      {"position_change", skin.position_change / size},
+      {"deformation_error",
+       {{"rms", skin.deformation_error.rms / size}, {"max", skin.deformation_error.max / size}}}};
+  Facts facts;
+  facts << skin.vertices << " vertices, " << skin.triangles << " triangles, " << skin.joints
+        << " joints";
+  if (!run.poses().empty()) {
+    facts << ", of which " << skin.moving_joints << " move within " << animation.times.back()
+          << " s";
+  }
+  const double change = skin.position_change / size;
+  if (change > kWorthATell) {
+    facts << "; single precision, which glTF has, moves vertices by up to " << change
+          << " of the size";
+  }
+  run.folder.add(kSkin, facts.text(), [&](const std::string& path) {
+    io::write_file(path, [&](std::ostream& file) { file << skin.glb; });
+  });
+}
+
+#define FLBC_INSTANTIATE(Dim)                 \
+  template void reduce_influences(Run<Dim>&); \
+  template void export_shape(Run<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

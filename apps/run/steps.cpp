@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/steps.h"
+
+#include "checks.h"
+#include "file_sequence.h"
+#include "flbc/deform.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/names.h"
+#include "load.h"
+#include "run/facts.h"
+
+namespace flbc::app {
+
+template <int Dim>
+void mesh_interior(Run<Dim>& run) {
+  auto& solver = run.solver;
+  solver.make_domain();
+  const auto& domain = solver.domain();
+  if (!run.has_model()) run.inputs.shape = shape_of(domain);
+  const auto name = std::string(kDomain) + domain_extension<Dim>();
+  run.report["mesh"] = {{"file", name},
+                        {"vertices", domain.num_vertices()},
+                        {"cells", domain.num_cells()},
+                        {"cached", solver.is_cached()},
+                        {"seconds", solver.mesh_seconds()}};
+  Facts facts;
+  facts << domain.num_vertices() << " vertices, " << domain.num_cells()
+        << (Dim == 2 ? " triangles" : " tetrahedra");
+  run.folder.add(name, facts.text(),
+                 [&](const std::string& path) { io::write_domain(path, domain); });
+}
+
+template <int Dim>
+void compute_weights(Run<Dim>& run) {
+  auto& solver = run.solver;
+  solver.solve(run.arguments.quiet);
+  run.dense = solver.rows();
+  const auto delivered = measure_quality(run.cage.points, run.shape().points, run.dense);
+  run.report["solve"] = solver.json(delivered);
+  if (run.has_model()) {
+    run.folder.add(kDomainWeights, "a row per vertex of the domain",
+                   [&](const auto& path) { io::write_weights(path, solver.domain_weights()); });
+  }
+  const auto& report = solver.report();
+  Facts facts;
+  facts << name_of(report.method);
+  if (report.iterations > 0) facts << ", " << report.iterations << " iterations";
+  if (report.status != SolveStatus::kConverged) facts << " (not converged)";
+  if (solver.is_cached()) facts << ", from the cache";
+  facts << "; " << delivered.mean_influences
+        << " influences above 0.0001 per point, smallest weight " << delivered.min_weight
+        << ", reproduction error " << delivered.max_reproduction_error;
+  if (run.arguments.settings.options.certify) {
+    facts << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
+  }
+  run.folder.add(kWeights, facts.text(),
+                 [&](const std::string& path) { io::write_weights(path, run.dense); });
+}
+
+template <int Dim>
+void check_weights_of_mesh(Run<Dim>& run) {
+  auto check = check_cage(run.cage, run.arguments.settings.cage);
+  check.domain_file = run.report["mesh"]["file"];
+  check.weights_file = run.has_model() ? kDomainWeights : kWeights;
+  check_weights_of(check, run.solver.domain(), run.solver.domain_weights());
+  run.report["check"] = check_json(check);
+}
+
+template <int Dim>
+void deform_shape(Run<Dim>& run) {
+  const SparseWeights weights(run.sparse);
+  const auto& shape = run.shape();
+  run.displacement = measure_displacement(weights, shape.points, run.poses());
+  auto& report = run.report["deform"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < run.poses().size(); ++k) {
+    const auto& pose = run.poses()[k];
+    const PointList<Dim> points = deform(weights, pose.points);
+    const auto name = name_of_deformed(pose.number, run.poses().size(), shape.extension);
+    run.folder.add(name, "", [&](const std::string& path) {
+      if (shape.file) {
+        naming(path, [&] { shape.file->write(path, points, {}, 0); });
+      } else {
+        io::write_domain<Dim>(path, {points, run.solver.domain().cells});
+      }
+    });
+    Eigen::Index farthest = 0;
+    const double largest = run.displacement.lengths.row(k).maxCoeff(&farthest);
+    report.push_back({{"pose", pose.name},
+                      {"file", name},
+                      {"largest_displacement", largest},
+                      {"point", farthest}});
+  }
+  if (run.poses().empty()) return;
+  const auto& pose = run.poses()[run.displacement.pose];
+  Facts facts;
+  if (run.poses().size() > 1) facts << run.poses().size() << " poses; ";
+  facts << "largest displacement " << run.displacement.largest << ", of vertex "
+        << run.displacement.point << " in " << pose.name;
+  run.folder.tell((run.poses().size() > 1 ? "deformed_*" : "deformed") + shape.extension,
+                  facts.text());
+}
+
+#define FLBC_INSTANTIATE(Dim)                     \
+  template void mesh_interior(Run<Dim>&);         \
+  template void compute_weights(Run<Dim>&);       \
+  template void check_weights_of_mesh(Run<Dim>&); \
+  template void deform_shape(Run<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The steps of flbc run. Each does its part in memory, writes its files and adds to the report.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "cage_solver.h"
+#include "displacement.h"
+#include "run/arguments.h"
+#include "run/folder.h"
+#include "run/inputs.h"
+#include "run/names.h"
+
+namespace flbc::app {
+
+//! A run in the making.
+template <int Dim>
+struct Run {
+  const RunArguments& arguments;
+  const Cage<Dim>& cage;
+  RunInputs<Dim>& inputs;  //!< without a model its shape comes with the mesh
+  CageSolver<Dim>& solver;
+  RunFolder& folder;
+  nlohmann::ordered_json report{};
+
+  WeightMatrix dense{};         //!< n x P, of the shape's points
+  WeightMatrix sparse{};        //!< n x P, of at most so many influences
+  Displacement displacement{};  //!< in the poses
+
+  const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
+  const Shape<Dim>& shape() const { return inputs.shape; }
+  bool has_model() const { return !arguments.settings.model.empty(); }
+};
+
+//! domain.obj or domain.mesh; from the cache the weights as well.
+template <int Dim>
+void mesh_interior(Run<Dim>& run);
+
+//! weights.npy, and if these are a model's, domain_weights.npy.
+template <int Dim>
+void compute_weights(Run<Dim>& run);
+
+//! Facts about the cage, properties of the weights of the mesh's vertices.
+template <int Dim>
+void check_weights_of_mesh(Run<Dim>& run);
+
+//! sparse_weights.mtx
+template <int Dim>
+void reduce_influences(Run<Dim>& run);
+
+//! deformed.obj, or deformed_000.obj and so on, with the extension of the model.
+template <int Dim>
+void deform_shape(Run<Dim>& run);
+
+//! model.glb, at rest or moving from there to the poses. Left out if there are no triangles.
+template <int Dim>
+void export_shape(Run<Dim>& run);
+
+}  // namespace flbc::app

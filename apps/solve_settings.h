@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What a user may choose about weights, and the options of the command line for that.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "flbc/options.h"
+
+namespace flbc::app {
+
+//! Whether to start from coarser meshes.
+enum class CoarseToFine { kAuto, kOn, kOff };
+
+//! "auto", "on" or "off".
+const char* name_of(CoarseToFine choice);
+
+//! Where the weights are wanted and how they are computed. Files may be empty for none.
+struct SolveSettings {
+  std::string cage;
+  std::string domain;  //!< mesh of the interior; empty: one is made
+  std::string model;   //!< whose vertices get weights; empty: those of the mesh do
+  bool embed = false;  //!< the model's vertices become vertices of the mesh
+  Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
+  std::string cache;   //!< folder of weights computed before
+  CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
+  SolverOptions options{};
+};
+
+//! Adds all options about the solver, and --cache, to a command. \param settings  outlives it
+void add_solver_options(CLI::App& command, SolveSettings& settings);
+
+}  // namespace flbc::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Before and after in one picture: what is seen is measured on the pixels.
+#include "draw/deformation_picture.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+namespace {
+
+// A rectangle [0, width] x [0, 1] as cage and shape, in two triangles.
+struct Scene {
+  FacetList<2> facets{2, 4};
+  CellList<2> triangles{3, 2};
+  DrawnShape shape;
+  Eigen::VectorXd values = Eigen::VectorXd::Unit(4, 2);
+
+  explicit Scene(double width) {
+    facets << 0, 1, 2, 3, 1, 2, 3, 0;
+    triangles << 0, 0, 1, 2, 2, 3;
+    shape.control_points.resize(2, 4);
+    shape.control_points << 0, width, width, 0, 0, 0, 1, 1;
+    shape.points = shape.control_points;
+  }
+  DrawnShape moved(const Vector<2>& step) const {
+    return {shape.control_points.colwise() + step, shape.points.colwise() + step};
+  }
+  Image draw(const DrawnShape& after) const {
+    return draw_deformation(facets, triangles, shape, after, values, 2);
+  }
+};
+
+// The centres of the red dots, from the left to the right or from the top to the bottom: pixels of
+// one are nearer to each other than 100 pixels.
+std::vector<Vector<2>> red_dots(const Image& image) {
+  std::vector<Vector<2>> sums;
+  std::vector<double> counts;
+  for (int x = 0; x < image.width; ++x) {
+    for (int y = 0; y < image.height; ++y) {
+      const Color color = image.at(x, y);
+      if (!(color.r > 0.85 && color.g < 0.15 && color.b < 0.15)) continue;
+      const Vector<2> pixel(x, y);
+      std::size_t dot = 0;
+      while (dot < sums.size() && (sums[dot] / counts[dot] - pixel).norm() > 100) ++dot;
+      if (dot == sums.size()) {
+        sums.emplace_back(0, 0);
+        counts.push_back(0);
+      }
+      sums[dot] += pixel;
+      ++counts[dot];
+    }
+  }
+  for (std::size_t dot = 0; dot < sums.size(); ++dot) sums[dot] /= counts[dot];
+  return sums;
+}
+
+TEST(DeformationPicture, StandsBesideOrBelowByTheRoomThereIs) {
+  const Scene square(1);
+  const auto beside = red_dots(square.draw(square.shape));
+  ASSERT_EQ(beside.size(), 2U);
+  EXPECT_NEAR(beside[0].y(), beside[1].y(), 0.6);
+  EXPECT_GT(beside[1].x() - beside[0].x(), 300);
+
+  const Scene bar(3);
+  const auto below = red_dots(bar.draw(bar.shape));
+  ASSERT_EQ(below.size(), 2U);
+  EXPECT_NEAR(below[0].x(), below[1].x(), 0.6);
+  EXPECT_GT(std::abs(below[1].y() - below[0].y()), 200);
+}
+
+TEST(DeformationPicture, BothHaveTheSameScaleAndFrame) {
+  const Scene square(1);
+  const auto still = red_dots(square.draw(square.moved({0, 0})));
+  const auto up = red_dots(square.draw(square.moved({0, 1})));
+  ASSERT_EQ(still.size(), 2U);
+  ASSERT_EQ(up.size(), 2U);
+  // The common frame is as high as two squares and as wide as one; the second, at the right, is one
+  // square higher. Between the frames there is a gap of 0.06 of the larger size.
+  const double square_size = up[0].y() - up[1].y();
+  EXPECT_GT(square_size, 100);
+  EXPECT_NEAR(up[1].x() - up[0].x(), square_size * (1 + 0.06 * 2), 1.5);
+  const double still_size = (still[1].x() - still[0].x()) / 1.06;
+  EXPECT_NEAR(still[1].y(), still[0].y(), 0.6);
+  EXPECT_GT(still_size, square_size);
+}
+
+TEST(DeformationPicture, WhatDoesNotBelongTogetherIsRefused) {
+  const Scene square(1);
+  auto after = square.shape;
+  after.points.conservativeResize(2, 3);
+  EXPECT_THROW(square.draw(after), InputError);
+  after = square.shape;
+  after.control_points.conservativeResize(2, 5);
+  EXPECT_THROW(square.draw(after), InputError);
+  after = square.shape;
+  after.points(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(square.draw(after), InputError);
+  auto wrong = square;
+  wrong.triangles(0, 0) = 4;
+  EXPECT_THROW(wrong.draw(square.shape), InputError);
+  wrong = square;
+  wrong.facets(0, 0) = -1;
+  EXPECT_THROW(wrong.draw(square.shape), InputError);
+  wrong = square;
+  wrong.values.resize(3);
+  EXPECT_THROW(wrong.draw(square.shape), InputError);
+  EXPECT_THROW(draw_deformation(square.facets, square.triangles, square.shape, square.shape,
+                                square.values, 4),
+               OptionError);
+}
+
+}  // namespace
+}  // namespace flbc::draw

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc run as its users and their scripts see it: it does what the other commands do one by one.
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "support/command_line.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+class RunCommand : public CommandLineTest {
+ protected:
+  Ended run_into(const std::string& folder, const std::string& arguments) const {
+    return run("run " + arguments + " -o " + path(folder));
+  }
+  // Expects exit status and words in what is printed.
+  void expect_run(const std::string& folder, const std::string& arguments, int status,
+                  const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    const auto result = run_into(folder, arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+  }
+
+  Names names_in(const std::string& folder) const {
+    Names names;
+    if (!fs::exists(path(folder))) return names;
+    for (const auto& entry : fs::directory_iterator(path(folder))) {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+  nlohmann::json report(const std::string& folder) const {
+    return nlohmann::json::parse(slurp(path(folder + "/report.json")));
+  }
+
+  // That a command by itself makes the same file.
+  void expect_same(const std::string& command, const std::string& own, const std::string& file_made,
+                   const std::string& options = "") const {
+    SCOPED_TRACE(command);
+    const auto result = run(command + " -o " + path(own) + options);
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_FALSE(slurp(path(own)).empty());
+    EXPECT_EQ(slurp(path(own)), slurp(path(file_made)));
+  }
+
+  void expect_all_that_others_do(const std::string& name, const std::string& domain) const {
+    SCOPED_TRACE(name);
+    const auto cage = sample(name + "_cage.obj");
+    const auto model = sample(name + "_model.obj");
+    const auto pose = sample(name + "_cage_pose.obj");
+    const std::string solver = " --tolerance 1e-4";
+    const auto result = run_into(
+        "out", cage + " " + model + " --deformed " + pose + " -k 6" + solver + " --vertices 1500");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.output, "");
+    const Names expected{domain,         "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
+                         "deformed.obj", "model.glb",   "function.png",       "deformation.png",
+                         "report.json"};
+    EXPECT_EQ(names_in("out"), expected);
+    for (const auto& file : expected) {
+      EXPECT_NE(result.errors.find("  " + file + ' '), std::string::npos) << file;
+    }
+    const auto json = report("out");
+    EXPECT_EQ(json["files"].get<Names>(), expected);
+
+    expect_same("solve " + cage + " --vertices 1500 --model " + model + solver, "w.npy",
+                "out/weights.npy", " --save-domain " + path(domain));
+    EXPECT_EQ(slurp(path(domain)), slurp(path("out/" + domain)));
+    expect_same("solve " + cage + " --domain " + path(domain) + solver, "d.npy",
+                "out/domain_weights.npy", " --report " + path("solve.json"));
+    expect_same("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
+                    " -k 6 --method poisson --pose " + pose,
+                "s.mtx", "out/sparse_weights.mtx", " --report " + path("sparsify.json"));
+    expect_same("deform " + model + " --weights " + path("s.mtx") + " --cage " + pose, "m.obj",
+                "out/deformed.obj");
+    expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
+                    " --fps 1 --cages " + cage + " " + pose,
+                "m.glb", "out/model.glb");
+    expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
+                    " --control-point " + json["pictures"]["control_point"].dump(),
+                "f.png", "out/function.png");
+
+    // All reports are in one.
+    EXPECT_EQ(json["sparsify"]["error"],
+              nlohmann::json::parse(slurp(path("sparsify.json")))["error"]);
+    EXPECT_EQ(json["sparsify"]["after"]["max_influences"], 6);
+    const auto solved = nlohmann::json::parse(slurp(path("solve.json")));
+    EXPECT_EQ(json["solve"]["objective"], solved["objective"]);
+    EXPECT_EQ(json["solve"]["converged"], true);
+    ASSERT_EQ(run("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain) +
+                  " --json " + path("check.json"))
+                  .status,
+              0);
+    const auto checked = nlohmann::json::parse(slurp(path("check.json")));
+    EXPECT_EQ(json["check"]["cage"], checked["cage"]);
+    EXPECT_EQ(json["check"]["weights"]["worst"], checked["weights"]["worst"]);
+    EXPECT_EQ(json["check"]["weights"]["mesh"], checked["weights"]["mesh"]);
+    EXPECT_EQ(json["deform"][0]["file"], "deformed.obj");
+    EXPECT_GT(json["deform"][0]["largest_displacement"], 0.1);
+    EXPECT_EQ(json["export"]["bytes"], fs::file_size(path("out/model.glb")));
+    for (const char* step : {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures"})
+      EXPECT_GE(json["seconds"][step], 0) << step;
+  }
+};
+
+TEST_F(RunCommand, DoesWhatTheOthersDoIn2D) {
+  expect_all_that_others_do("2d/figure", "domain.obj");
+}
+TEST_F(RunCommand, DoesWhatTheOthersDoIn3D) {
+  expect_all_that_others_do("3d/limb", "domain.mesh");
+}
+
+TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
+  for (const std::string name : {"2d/figure", "3d/limb"}) {
+    SCOPED_TRACE(name);
+    const std::string extension = name[0] == '2' ? ".obj" : ".mesh";
+    const auto pose = sample(name + "_cage_pose.obj");
+    expect_run("out",
+               sample(name + "_cage.obj") +
+                   " --vertices 1000 --method harmonic --non-negative project --deformed " + pose,
+               0, "of which");
+    const auto domain = path("out/domain" + extension);
+    EXPECT_EQ(names_in("out"), (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
+                                      "deformed" + extension, "model.glb", "function.png",
+                                      "deformation.png", "report.json"}));
+    expect_same(
+        "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --cage " + pose,
+        "m" + extension, "out/deformed" + extension);
+    fs::remove_all(path("out"));
+  }
+}
+
+TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
+  const auto cage = sample("2d/figure_cage.obj");
+  const auto pose = slurp(sample("2d/figure_cage_pose.obj"));
+  for (const int k : {1, 2, 3}) file("pose_" + std::to_string(k) + ".obj", pose);
+  fs::create_directory(path("out"));
+  file("out/notes.txt", "mine");
+  file("out/deformed_009.obj", "mine, too");
+  const auto common = cage + " " + sample("2d/figure_model.obj") + " --method harmonic " +
+                      "--vertices 500 --sparsify quadratic";
+  expect_run("out", common + " --deformed " + path("pose_%d.obj"), 0, "3 poses; largest");
+  auto names = names_in("out");
+  for (const char* name : {"deformed_001.obj", "deformed_002.obj", "deformed_003.obj", "notes.txt",
+                           "deformed_009.obj"}) {
+    EXPECT_EQ(names.count(name), 1U) << name;
+  }
+  EXPECT_EQ(report("out")["export"]["times"].size(), 4U);
+  EXPECT_EQ(report("out")["deform"].size(), 3U);
+
+  // The next run leaves nothing of this one, but what is not of this program.
+  expect_run("out", common + " --deformed " + path("pose_1.obj") + " " + path("pose_2.obj"), 0,
+             "2 poses");
+  names = names_in("out");
+  EXPECT_EQ(names.count("deformed_000.obj"), 1U);
+  EXPECT_EQ(names.count("deformed_002.obj"), 0U);
+  // Nor does it remove what it reads itself.
+  fs::copy_file(path("pose_2.obj"), path("out/deformed_001.obj"),
+                fs::copy_options::overwrite_existing);
+  expect_run("out", common + " --deformed " + path("out/deformed_001.obj"), 0, "largest");
+  EXPECT_EQ(slurp(path("out/deformed_001.obj")), pose);
+  fs::remove(path("out/deformed_001.obj"));
+  expect_run("out", common, 0, "points");
+  EXPECT_EQ(names_in("out"),
+            (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
+                   "model.glb", "function.png", "report.json", "notes.txt", "deformed_009.obj"}));
+  EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
+}
+
+TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
+  fs::create_directory(path("out"));
+  file("precious.txt", "mine");
+  file("out/below.txt", "mine");
+  const auto common =
+      sample("2d/letter_cage.obj") + " --method harmonic --vertices 500 --sparsify quadratic";
+  for (const char* name : {"weights.npy", "model.glb", "report.json"}) {
+    file(std::string("out/") + name, "mine");
+    expect_run("out", common, 1, std::string("out/") + name + ": is there already");
+    EXPECT_EQ(slurp(path(std::string("out/") + name)), "mine");
+    EXPECT_EQ(names_in("out").size(), 2U);
+    fs::remove(path(std::string("out/") + name));
+  }
+  // Reports that are not what they seem remove nothing but results.
+  for (const char* report :
+       {R"({"command": "other", "files": ["below.txt"]})",
+        R"({"command": "run", "files": ["../precious.txt", "..", "", 7, "below.txt"]})",
+        R"({"command": "run", "files": ["../precious.txt", "..", ".", "", "/", "report.json"]})"}) {
+    file("out/report.json", report);
+    expect_run("out", common + " --force", 0, "points");
+    EXPECT_TRUE(fs::exists(path("precious.txt")));
+    EXPECT_TRUE(fs::exists(path("out/below.txt")));
+  }
+}
+
+TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
+  const auto cage = sample("2d/letter_cage.obj") + " -q -o " + path("out");
+  const std::string program = FLBC_PROGRAM;
+  const auto endless = program + " run " + cage + " --method paper --tolerance 1e-15 " +
+                       "--max-iterations 100000000 --vertices 2000";
+  const auto kill = "sh -c '" + endless + " & for k in $(seq 1000); do [ -e " +
+                    path("out/domain.obj") + " ] && break; sleep 0.02; done; kill -9 $!' 2>&1";
+  ASSERT_EQ(std::system(kill.c_str()), 0);
+  EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
+  EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
+  EXPECT_EQ(report("out")["unfinished"], true);
+  EXPECT_EQ(run("run " + cage + " --method harmonic --vertices 500").status, 0);
+  EXPECT_FALSE(report("out").contains("unfinished"));
+}
+
+TEST_F(RunCommand, ASecondRunTakesWeightsFromTheCache) {
+  for (const std::string name : {"2d/ring", "3d/star"}) {
+    SCOPED_TRACE(name);
+    const auto arguments = sample(name + "_cage.obj") + " " + sample(name + "_model.obj") +
+                           " --vertices 1500 --tolerance 1e-3 --cache " + path("cache");
+    expect_run("a", arguments, 0, "iterations; ");
+    EXPECT_EQ(report("a")["solve"]["cached"], false);
+    expect_run("b", arguments, 0, "iterations, from the cache; ");
+    EXPECT_EQ(report("b")["solve"]["cached"], true);
+    EXPECT_EQ(names_in("a"), names_in("b"));
+    for (const auto& file : names_in("a")) {
+      if (file == "report.json") continue;
+      EXPECT_EQ(slurp(path("a/" + file)), slurp(path("b/" + file))) << file;
+    }
+    fs::remove_all(path("a"));
+    fs::remove_all(path("b"));
+  }
+}
+
+TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
+  // Outside: nothing can be solved.
+  expect_run("out", sample("2d/figure_cage.obj") + " " + sample("2d/ring_model.obj"), 2,
+             "flbc: step mesh: " + sample("2d/ring_model.obj") + ": ");
+  EXPECT_EQ(names_in("out"), Names{"report.json"});
+  EXPECT_EQ(report("out")["failed"].get<std::string>().substr(0, 10), "step mesh:");
+  // A folder where a file should go.
+  fs::create_directories(path("busy/model.glb/x"));
+  const auto common = sample("2d/letter_cage.obj") + " " + sample("2d/letter_model.obj") +
+                      " --method harmonic --vertices 500 --sparsify quadratic";
+  expect_run("busy", common + " --force", 4, "flbc: step export: ");
+  EXPECT_EQ(names_in("busy"), (Names{"domain.obj", "weights.npy", "domain_weights.npy",
+                                     "sparse_weights.mtx", "model.glb", "report.json"}));
+  EXPECT_EQ(report("busy")["files"].size(), 5U);
+  EXPECT_FALSE(report("busy")["seconds"].contains("export"));
+  // Not converged is no failure of a step.
+  expect_run("early", sample("2d/letter_cage.obj") + " --max-iterations 10 --vertices 500 -q", 3,
+             "not converged within 10 iterations");
+  EXPECT_EQ(names_in("early").size(), 6U);
+  EXPECT_EQ(report("early")["solve"]["converged"], false);
+}
+
+TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
+  const auto cage = sample("2d/figure_cage.obj");
+  expect_run("out", cage + " -k 2", 1, "needs 3 control points");
+  expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
+  expect_run("out", cage + " --fps 0.5", 1, "--fps requires --deformed");
+  expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
+  expect_run("out", cage + " --sparsify best", 1, "'best' is none of");
+  expect_run("out", cage + " --deformed " + sample("2d/letter_cage.obj"), 2,
+             "has 24 vertices, but");
+  expect_run("out", cage + " --deformed " + path("no_%d.obj"), 4, "there is neither");
+  expect_run("out", cage + " " + path("absent.obj"), 4, "absent.obj");
+  expect_run("out", cage + " --cache " + file("file", ""), 4, path("file"));
+  EXPECT_FALSE(fs::exists(path("out")));
+  expect_run("file", cage, 4, path("file") + ": cannot make this folder");
+  // An input that would be replaced.
+  fs::create_directory(path("out"));
+  file("out/domain.obj", slurp(cage));
+  expect_run("out", path("out/domain.obj"), 1, "the result would replace this file");
+  EXPECT_EQ(slurp(path("out/domain.obj")), slurp(cage));
+}
+
+TEST_F(RunCommand, KeyframesOfTheArm) {
+  if (!has_model("3d/arm_cageAnim.txt")) GTEST_SKIP() << "the real models are absent";
+  expect_run("out",
+             model_path("3d/arm_cage.obj") + " " + model_path("3d/arm.obj") +
+                 " --method harmonic --vertices 3000 --keyframes " +
+                 model_path("3d/arm_cageAnim.txt"),
+             0, "deformed_*.obj      3 poses; largest displacement 32");
+  EXPECT_EQ(names_in("out").count("deformed_002.obj"), 1U);
+  EXPECT_EQ(report("out")["export"]["times"], (std::vector<double>{0, 1.5, 3}));
+}
+
+}  // namespace
+}  // namespace flbc::testing
