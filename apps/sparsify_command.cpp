@@ -20,6 +20,7 @@
 #include "flbc/version.h"
 #include "held_signals.h"
 #include "load.h"
+#include "report_json.h"
 #include "sparsify_report.h"
 
 namespace flbc::app {
@@ -160,7 +161,7 @@ int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) 
     report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
                                    cage.points, model.points);
     if (!arguments.report.empty()) {
-      io::write_file(arguments.report, [&](std::ostream& file) { file << report.dump(2) << '\n'; });
+      io::write_file(arguments.report, [&](std::ostream& file) { file << to_text(report); });
     }
   }
   if (!arguments.quiet) std::cerr << summary_of(report) << '\n';
