@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and computes coordinates of a 2D and a 3D sample: weights at the
-# mesh and at the model, deformed models, reports and pictures under out/.
+# Installs what is missing, builds, and takes a 2D and a 3D sample all the way: weights, deformed
+# models, skins, reports and pictures under out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,27 +10,14 @@ cmake --build --preset release --target flbc_app
 mkdir -p out
 flbc=build/release/flbc
 
-# solve_and_draw DIM NAME DOMAIN_EXTENSION CONTROL_POINT VERTICES
-solve_and_draw() {
-  local cage=meshes/$1/$2_cage.obj out=out/$2
-  "$flbc" solve "$cage" -o "$out"_weights.npy --vertices "$5" --save-domain "$out"_domain."$3" \
-    --report "$out"_report.json
-  "$flbc" solve "$cage" -o "$out"_model_weights.mtx --domain "$out"_domain."$3" \
-    --model meshes/"$1"/"$2"_model.obj
-  "$flbc" draw "$out"_domain."$3" --weights "$out"_weights.npy --cage "$cage" \
-    --control-point "$4" -o "$out".png
-  "$flbc" deform meshes/"$1"/"$2"_model.obj --weights "$out"_model_weights.mtx --rest "$cage" \
-    --cage meshes/"$1"/"$2"_cage_pose.obj -o "$out"_posed.obj
+# run DIM NAME OPTIONS
+run() {
+  "$flbc" run meshes/"$1"/"$2"_cage.obj meshes/"$1"/"$2"_model.obj \
+    --deformed meshes/"$1"/"$2"_cage_pose.obj -k 8 -o out/"$2" "${@:3}"
 }
-solve_and_draw 2d figure obj 32 10000
-solve_and_draw 3d limb mesh 20 4000
-
-# The 2D domain in its pose, coloured by the same weight.
-"$flbc" deform out/figure_domain.obj --weights out/figure_weights.npy \
-  --rest meshes/2d/figure_cage.obj --cage meshes/2d/figure_cage_pose.obj -o out/figure_domain_posed.obj
-"$flbc" draw out/figure_domain_posed.obj --weights out/figure_weights.npy \
-  --cage meshes/2d/figure_cage_pose.obj --control-point 32 -o out/figure_posed.png
+run 2d figure --control-point 32
+run 3d limb --control-point 20 --vertices 4000
 
 echo
-echo "Weights, reports, deformed models and pictures are in out/; look at out/figure.png, out/limb.png"
-echo "and, deformed, out/figure_posed.png and out/limb_posed.obj."
+echo "Weights, skins, reports, deformed models and pictures are in out/figure and out/limb; look at"
+echo "function.png and deformation.png there."
