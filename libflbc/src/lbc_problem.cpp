@@ -31,6 +31,13 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
                              DistanceScheme scheme) {
   // Before scaling, so that messages give the user's coordinates.
   auto boundary = boundary_values(cage, mesh, topology);
+  return make_problem(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary),
+                      scheme);
+}
+
+template <int Dim>
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                             BoundaryValues<Dim> boundary, DistanceScheme scheme) {
   const double scale = scale_to_radius(cage, mesh);
   LbcProblem<Dim> problem{
       std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale};
@@ -46,7 +53,9 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
 #define FLBC_INSTANTIATE(Dim)                                                          \
   template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);   \
   template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
-                                        DistanceScheme);
+                                        DistanceScheme);                               \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
+                                        BoundaryValues<Dim>, DistanceScheme);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -14,6 +14,7 @@
 #include "flbc/distance_weights.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/edge_list.h"
+#include "flbc/editing.h"
 #include "flbc/errors.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/mean_value.h"

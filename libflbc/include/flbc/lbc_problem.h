@@ -37,4 +37,11 @@ template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme);
 
+//! The same with boundary values that are known already, as they are after control points and
+//! vertices have moved together. \param boundary  of the mesh, whose vertices lie on the cage
+//! accordingly
+template <int Dim>
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                             BoundaryValues<Dim> boundary, DistanceScheme scheme);
+
 }  // namespace flbc

@@ -19,17 +19,47 @@ PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplice
 }  // namespace
 
 template <int Dim>
-Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+Transfer<Dim>::Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
                         const LbcProblem<Dim>& fine)
     : coarse_(coarse),
       state_(state),
       fine_(fine),
       enlargement_(size_of(fine.cage.points) / size_of(coarse.cage.points)) {
+}
+
+template <int Dim>
+Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+                        const LbcProblem<Dim>& fine)
+    : Transfer(Unlocated{}, coarse, state, fine) {
   vertices_ = locate(fine.mesh.points);
   cells_ = locate(centroids(fine.mesh.points, fine.mesh.cells));
   if (state.potential.size() > 0) {
     facets_ = locate(centroids(fine.mesh.points, fine.topology.facets));
   }
+}
+
+template <int Dim>
+Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
+                                            const MeshState<Dim>& state,
+                                            const LbcProblem<Dim>& after) {
+  using Coordinates = Eigen::Matrix<double, Dim + 1, 1>;
+  Transfer transfer(Unlocated{}, before, state, after);
+  const auto& mesh = before.mesh;
+  const auto& topology = before.topology;
+  transfer.vertices_.resize(mesh.num_vertices());
+  transfer.cells_.resize(mesh.num_cells());
+  if (state.potential.size() > 0) transfer.facets_.resize(topology.num_facets());
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    transfer.cells_[s] = {s, Coordinates::Constant(1.0 / (Dim + 1))};
+    for (int k = 0; k <= Dim; ++k) {
+      transfer.vertices_[mesh.cells(k, s)] = {s, Coordinates::Unit(k)};
+      if (transfer.facets_.empty()) continue;
+      Coordinates middle = Coordinates::Constant(1.0 / Dim);
+      middle[k] = 0;
+      transfer.facets_[topology.cell_facets(k, s)] = {s, middle};
+    }
+  }
+  return transfer;
 }
 
 // Both meshes fill the same cage, whose control points tell how one lies in the other's space.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From the state on one mesh to the start on a finer one of the same cage.
+//! From the state on one mesh to the start on another one of the same cage, or on the same mesh
+//! after it has moved.
 #pragma once
 
 #include <vector>
@@ -19,6 +20,12 @@ template <int Dim>
 class Transfer {
  public:
   Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state, const LbcProblem<Dim>& fine);
+
+  //! Between two shapes of one mesh, where a cell stays the same cell and nothing is looked for.
+  //! Flux densities stay as they are: turning and stretching them with their cells saves no
+  //! iterations.
+  static Transfer between_shapes(const LbcProblem<Dim>& before, const MeshState<Dim>& state,
+                                 const LbcProblem<Dim>& after);
 
   //! The penalty that acts on the fine mesh as the coarse one's did there.
   double penalty() const { return enlargement_ * state_.penalty; }
@@ -39,6 +46,9 @@ class Transfer {
   Eigen::MatrixXd periods() const { return enlargement_ * state_.periods; }
 
  private:
+  struct Unlocated {};
+  Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+           const LbcProblem<Dim>& fine);
   std::vector<Location<Dim>> locate(const PointList<Dim>& fine_points) const;
 
   const LbcProblem<Dim>& coarse_;

@@ -2,15 +2,14 @@
 // The two methods that split on the weights, from start to weights. They differ in the metric and
 // in what follows from it: the penalty, the start and when to stop.
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <vector>
 
 #include "cell_geometry.h"
 #include "flbc/certificate.h"
 #include "flbc/recovery.h"
 #include "laplacian.h"
 #include "method.h"
+#include "splitting/error_estimate.h"
 #include "splitting/weight_splitting.h"
 #include "stopwatch.h"
 
@@ -42,49 +41,20 @@ splitting::Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negati
   return metric;
 }
 
-// Mean squared error of weights, estimated from how much the last iterations changed them. If the
-// changes shrink by the factor r each time, what is left is 1 / (1 - r) times the last one; but
-// they oscillate, so r is taken over some iterations and kept in a range. The least factor is what
-// was measured on the test models, see docs/results.md.
-class ErrorEstimate {
- public:
-  //! \param safety  by which it errs on the safe side
-  explicit ErrorEstimate(double safety) : safety_(safety) {}
-
-  //! \param change  mean squared change of a weight in one iteration
-  double operator()(double change) {
-    constexpr double kLeast = 400;
-    constexpr double kMost = 1e5;
-    constexpr std::size_t kWindow = 20;
-    changes_.push_back(change);
-    double factor = kLeast;
-    if (changes_.size() > kWindow) {
-      const double before = changes_[changes_.size() - 1 - kWindow];
-      const double shrinkage = std::pow(change / before, 0.5 / kWindow);
-      const double rest = std::max(1 - shrinkage, 1 / std::sqrt(kMost));
-      factor = std::max(kLeast, 1 / (rest * rest));
-    }
-    return safety_ * factor * change;
-  }
-
- private:
-  double safety_;
-  std::vector<double> changes_;
-};
-
 template <class Scalar, int Dim>
 void iterate_value(Splitting<Scalar, Dim>& splitting, const SolverOptions& options, bool adaptive,
                    bool warm, double num_weights, SolveReport& report) {
   constexpr double kBalance = 0.3;
   constexpr int kFewest = 8;
-  // After a warm start what shrinks first is what the coarse mesh could not resolve; what it got
-  // wrong shrinks more slowly than that suggests, in 3D noticeably.
-  constexpr double kWarmSafety = Dim == 2 ? 1 : 2;
-  ErrorEstimate estimate(warm ? kWarmSafety : 1);
+  const auto n = static_cast<double>(report.control_points);
+  splitting::ErrorEstimate estimate(warm);
+  auto history = splitting.history();
+  history(0, splitting.data());
   for (int iteration = 1;; ++iteration) {
     const double change = splitting.iterate().change / num_weights;
+    const double difference = history(iteration, splitting.data()) / n;
     report.iterations = iteration;
-    report.primal_residual = estimate(change) / options.tolerance;
+    report.primal_residual = estimate(iteration, change, difference) / options.tolerance;
     const bool adapt =
         adaptive && (iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40);
     if (adapt) splitting.adapt_penalty(kBalance);

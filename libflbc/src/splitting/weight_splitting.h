@@ -12,6 +12,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"
+#include "splitting/error_estimate.h"
 #include "splitting/splitting_kernel.h"
 
 namespace flbc::splitting {
@@ -81,6 +82,12 @@ class WeightSplitting {
   void adapt_penalty(double ratio);
 
   double penalty() const { return penalty_; }
+
+  //! w as the iteration has it, a row of n numbers and padding for every vertex.
+  const Scalar* data() const { return weights_.data(); }
+
+  //! To compare weights of different iterations.
+  WeightHistory<Scalar> history() const { return {vertices_, stride_}; }
 
   //! q - w, n x V, zero on the boundary; empty if w may be negative.
   WeightMatrix vertex_dual() const;

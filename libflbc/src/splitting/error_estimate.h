@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! How far an iteration's weights are from its limit, judged by how it moves: what Method::kValue
+//! stops by.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "aligned_array.h"
+#include "flbc/types.h"
+
+namespace flbc::splitting {
+
+//! Differences of weights over kSpan iterations. Unlike those of single iterations they hardly see
+//! what oscillates and fades soon, and see what drifts slowly kSpan times as large.
+template <class Scalar>
+class WeightHistory {
+ public:
+  static constexpr int kSpan = 32;  //!< iterations
+  static constexpr int kStep = 8;   //!< iterations between two looks
+
+  //! \param vertices  the interior ones; of large meshes some thousands serve as a sample
+  //! \param stride  numbers from one vertex' weights to the next
+  WeightHistory(const std::vector<Index>& vertices, std::size_t stride);
+
+  //! To be called after every iteration. \param weights  a row of `stride` numbers for every vertex
+  //! \return mean squared difference per vertex to the weights kSpan iterations ago, every kStep
+  //! iterations; below 0 at other times
+  double operator()(int iteration, const Scalar* weights);
+
+ private:
+  std::vector<Index> sample_;
+  std::size_t stride_;
+  std::array<AlignedArray<Scalar>, kSpan / kStep> kept_;  // the rows of the sample, in turn
+};
+
+//! Estimates the mean squared error of weights: the last difference over kSpan iterations, times
+//! what is to follow if differences go on to shrink as they did. If they shrink by rho (a length)
+//! from span to span, rho / (1 - rho) times the last one is left. The rate is a regression's over
+//! the last iterations, because differences oscillate; where it falls, as the slow parts of the
+//! error remain, it is taken to fall further. Constants as measured on all test models and warm
+//! starts, see docs/results.md.
+class ErrorEstimate {
+ public:
+  //! \param warm  started from duals: what is wrong with these first shows after a while
+  explicit ErrorEstimate(bool warm) : warm_(warm) {}
+
+  //! Estimates of one run, iteration by iteration.
+  //! \param change  mean squared change of a weight in this iteration
+  //! \param difference  mean squared difference to the weights WeightHistory::kSpan iterations ago;
+  //! below 0 where it is not known
+  //! \return the estimate of this iteration or, where there is none, of the last one that had one;
+  //! not finite if the change is not
+  double operator()(int iteration, double change, double difference);
+
+ private:
+  struct Entry {
+    int iteration;
+    double log_difference;
+  };
+  double rate(double first, double last) const;
+  double rest() const;
+
+  bool warm_;
+  double last_ = 0;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace flbc::splitting
