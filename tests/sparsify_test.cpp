@@ -18,6 +18,7 @@
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 #include "support/model_cages.h"
+#include "support/poisson_problem.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -27,30 +28,6 @@ template <class Dimension>
 class SparsifyTest : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(SparsifyTest, Dimensions);
-
-SparsifyOptions at_most(Index count, double threshold = 0) {
-  SparsifyOptions options;
-  options.max_influences = count;
-  options.threshold = threshold;
-  return options;
-}
-
-template <int Dim>
-void expect_coordinates(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const WeightMatrix& weights, Index most) {
-  const double size = size_of<Dim>(control_points);
-  ASSERT_EQ(weights.cols(), points.cols());
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const auto column = weights.col(v);
-    EXPECT_GE(column.minCoeff(), 0) << v;
-    EXPECT_NEAR(column.sum(), 1, 1e-13) << v;
-    // Far from the origin rounding may have moved the point off the hull by more.
-    const PointList<Dim> offsets = control_points.colwise() - points.col(v);
-    const double rounding = 4 * std::numeric_limits<double>::epsilon() * points.col(v).norm();
-    EXPECT_LE((offsets * column).norm(), 1e-13 * size + rounding) << v;
-    EXPECT_LE((column.array() != 0).count(), most) << v;
-  }
-}
 
 // Control points of every kind that could need special care.
 template <int Dim>
@@ -117,11 +94,11 @@ TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
       for (const Index most : {Dim + 1, Dim + 3}) {
         SCOPED_TRACE(most);
         const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
-        expect_coordinates<Dim>(control_points, points, sparse, most);
+        expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
         EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)), sparse);
       }
       const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05));
-      expect_coordinates<Dim>(control_points, points, dropped, 8);
+      expect_sparse_coordinates<Dim>(control_points, points, dropped, 8);
     }
   }
 }
@@ -182,7 +159,7 @@ TYPED_TEST(SparsifyTest, IsNearTheBestOfAllSupports) {
       points.col(v) = control_points * weights.col(v);
     }
     const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
-    expect_coordinates<Dim>(control_points, points, sparse, most);
+    expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
     for (int v = 0; v < kPoints; ++v) {
       const double cost = (sparse.col(v) - weights.col(v)).squaredNorm();
       const double least = least_cost<Dim>(control_points, points.col(v), weights.col(v), most);
@@ -224,7 +201,7 @@ TYPED_TEST(SparsifyTest, LocalBarycentricCoordinates) {
   double before = std::numeric_limits<double>::infinity();
   for (const Index most : {Dim + 1, Dim + 2, Dim + 4}) {
     const auto sparse = sparsify<Dim>(sample.cage.points, points, solution.weights, at_most(most));
-    expect_coordinates<Dim>(sample.cage.points, points, sparse, most);
+    expect_sparse_coordinates<Dim>(sample.cage.points, points, sparse, most);
     const double error = deformation_error<Dim>(poses, solution.weights, sparse).rms;
     EXPECT_LT(error, before);  // more influences, less error
     before = error;
@@ -246,13 +223,13 @@ TYPED_TEST(SparsifyTest, ThresholdDropsWhatIsBelow) {
   SparsifyOptions options;
   options.threshold = 1e-3;
   const auto sparse = sparsify<Dim>(control_points, points, weights, options);
-  expect_coordinates<Dim>(control_points, points, sparse, Dim + 4);
+  expect_sparse_coordinates<Dim>(control_points, points, sparse, Dim + 4);
   EXPECT_EQ(count_influences(sparse).mean, Dim + 4);
   EXPECT_LT(weight_error(weights, sparse).max, 0.05);
   // Above all weights it must keep as many as the point needs.
   options.threshold = 0.99;
   const auto few = sparsify<Dim>(control_points, points, weights, options);
-  expect_coordinates<Dim>(control_points, points, few, 25);
+  expect_sparse_coordinates<Dim>(control_points, points, few, 25);
   EXPECT_LT(count_influences(few).mean, Dim + 4);
 }
 
@@ -301,7 +278,7 @@ TEST(ForeignWeights, OfTheArm) {
   const auto poses = smooth_poses<3>(control_points, 5);
   for (const Index most : {4, 8}) {
     const auto sparse = sparsify<3>(control_points, points, given, at_most(most));
-    expect_coordinates<3>(control_points, points, sparse, most);
+    expect_sparse_coordinates<3>(control_points, points, sparse, most);
     EXPECT_LT(deformation_error<3>(poses, given, sparse).rms, 0.005 * size_of<3>(points));
   }
 }
