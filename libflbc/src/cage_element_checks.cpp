@@ -7,11 +7,11 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include "cage_checks.h"
 #include "close_points.h"
 #include "describe.h"
+#include "linear/dense.h"
 
 namespace flbc {
 
@@ -121,8 +121,7 @@ void check_references(const Cage<Dim>& cage, DefectList& found) {
 template <int Dim>
 void check_flatness(const Cage<Dim>& cage, DefectList& found) {
   const PointList<Dim> centred = cage.points.colwise() - cage.points.rowwise().mean().eval();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred);  // not the covariance: it halves the digits
-  const double thickness = svd.singularValues()(Dim - 1) / std::sqrt(double(cage.size()));
+  const double thickness = dense::least_pivot(centred.transpose()) / std::sqrt(double(cage.size()));
   if (thickness > kRelativeTolerance * size_of<Dim>(cage.points)) return;
   found.add({std::string("all control points lie in one ") + (Dim == 2 ? "line" : "plane") +
              ", so the cage encloses nothing"});

@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -55,7 +54,7 @@ void DualNewton<Dim>::evaluate(const Eigen::VectorXd& row, const Sums& sums, dou
     active_.push_back(i);
     const Sums q = basis_.row(i).transpose();
     gradient_ += row_[i] * q;
-    hessian_.template triangularView<Eigen::Lower>() += q * q.transpose();
+    hessian_ += q * q.transpose();
   }
 }
 
@@ -63,13 +62,12 @@ template <int Dim>
 typename DualNewton<Dim>::Sums DualNewton<Dim>::newton_direction(double delta) const {
   using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
   if (delta >= kLeastDeltaForHessian) {
-    return -(hessian_ + delta * Square::Identity()).ldlt().solve(gradient_);
+    return -dense::solve_symmetric<Dim + 1>(hessian_ + delta * Square::Identity(), gradient_);
   }
   Basis factors(active_.size() + Dim + 1, Dim + 1);
-  factors << basis_(active_, Eigen::all), std::sqrt(delta) * Square::Identity();
-  const Square r = factors.householderQr().matrixQR().template topRows<Dim + 1>();
-  const auto upper = r.template triangularView<Eigen::Upper>();
-  return -upper.solve(Sums(upper.transpose().solve(gradient_)));
+  for (std::size_t k = 0; k < active_.size(); ++k) factors.row(k) = basis_.row(active_[k]);
+  factors.template bottomRows<Dim + 1>() = std::sqrt(delta) * Square::Identity();
+  return -dense::solve_normal_equations(factors, gradient_);
 }
 
 // Where the derivative of F along the direction vanishes, at most 1. It is a piecewise linear,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "facet_locator.h"
 
-#include <Eigen/QR>
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -20,8 +20,7 @@ FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
     facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
     Eigen::Matrix<double, Dim, Dim - 1> edges;
     for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
-    const Eigen::Matrix<double, Dim, Dim> identity = Eigen::Matrix<double, Dim, Dim>::Identity();
-    facet.to_coordinates = edges.householderQr().solve(identity);
+    facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
   }
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/QR>
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -48,11 +48,9 @@ class Corral {
   Vector<Dim> point() const {
     Vector<Dim> foot = offsets_.col(members_[0]);
     if (size_ == 1) return foot;
-    const auto decomposition = edges().householderQr();
+    const Edges basis = dense::orthonormal_basis(edges());
     for (int pass = 0; pass < 2; ++pass) {
-      foot.applyOnTheLeft(decomposition.householderQ().adjoint());
-      foot.head(size_ - 1).setZero();
-      foot.applyOnTheLeft(decomposition.householderQ());
+      for (int k = 0; k + 1 < size_; ++k) foot -= basis.col(k).dot(foot) * basis.col(k);
     }
     return foot;
   }
@@ -72,7 +70,7 @@ class Corral {
   Weights nearest_in_affine_hull() const {
     Weights weights{1};
     if (size_ == 1) return weights;
-    const auto rest = edges().colPivHouseholderQr().solve(-offsets_.col(members_[0])).eval();
+    const Eigen::VectorXd rest = dense::least_squares(edges(), -offsets_.col(members_[0]));
     for (int k = 1; k < size_; ++k) weights[k] = rest[k - 1];
     weights[0] = 1 - rest.sum();
     return weights;

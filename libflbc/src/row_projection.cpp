@@ -6,12 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "flbc/cage.h"
 #include "hull_point.h"
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -32,9 +29,7 @@ RowProjection<Dim>::RowProjection(const PointList<Dim>& control_points)
       size_(std::max(size_of<Dim>(control_points), std::numeric_limits<double>::min())),
       center_(control_points.rowwise().mean()) {
   const PointList<Dim> offsets = (points_.colwise() - center_) / size_;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> principal(
-      offsets * offsets.transpose());
-  axes_ = principal.eigenvectors();
+  axes_ = dense::principal_axes<Dim>(offsets * offsets.transpose());
   const PointList<Dim> turned = axes_.transpose() * offsets;
   lengths_ = turned.rowwise().norm();
   // Along an axis without extent the coordinates are rounding errors: they must not be blown up.
@@ -146,17 +141,16 @@ void RowProjection<Dim>::correct(const Sums& residual, bool careful,
   for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
     if (weights[i] > 0) support.push_back(i);
   }
-  const typename DualNewton<Dim>::Basis rows = basis_(support, Eigen::all);
+  typename DualNewton<Dim>::Basis rows(support.size(), Dim + 1);
+  for (std::size_t k = 0; k < support.size(); ++k) rows.row(k) = basis_.row(support[k]);
   Eigen::VectorXd change;
   if (careful) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(1e-13);
-    change = decomposition.compute(rows.transpose()).solve(residual);
+    change = dense::least_squares(rows.transpose(), residual, 1e-13);
   } else {
     // A support in a facet of the hull leaves one direction open: nothing is to be moved there.
     Eigen::Matrix<double, Dim + 1, Dim + 1> gram = rows.transpose() * rows;
     gram.diagonal().array() += 1e-15 * gram.trace();
-    change = rows * gram.ldlt().solve(residual);
+    change = rows * dense::solve_symmetric<Dim + 1>(gram, residual);
   }
   for (std::size_t k = 0; k < support.size(); ++k) {
     weights[support[k]] = std::max(0.0, weights[support[k]] - change[k]);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "following_normals.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "flbc/io/cage_io.h"
+#include "linear/dense.h"
 
 namespace flbc::io {
 namespace {
@@ -48,13 +49,6 @@ Matrix3 correlation(const Polygon& corners, const PointList<3>& before, const Po
   return sum;
 }
 
-Matrix3 nearest_rotation(const Matrix3& correlation) {
-  const Eigen::JacobiSVD<Matrix3> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3 u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-  return u * svd.matrixV().transpose();
-}
-
 bool is_still(const Polygon& corners, const PointList<3>& before, const PointList<3>& after) {
   return std::all_of(corners.begin(), corners.end(),
                      [&](Index v) { return after.col(v) == before.col(v); });
@@ -76,9 +70,9 @@ struct Motion {
 
   Vector<3> turn(const Vector<3>& normal) const {
     if (is_still || before.isZero(0) || after.isZero(0)) return normal;
-    const Matrix3 rotation = nearest_rotation(correlation);
+    const Matrix3 rotation = dense::nearest_rotation(correlation);
     const Vector<3> turned_before = rotation * before;
-    return Eigen::Quaterniond::FromTwoVectors(turned_before, after) * (rotation * normal);
+    return dense::rotation_between(turned_before, after) * (rotation * normal);
   }
 };
 

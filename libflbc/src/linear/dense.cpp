@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linear/dense.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/Jacobi>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace flbc::dense {
+
+using PivotedQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+
+template <int N>
+Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
+                                            const Eigen::Matrix<double, N, 1>& right_side) {
+  return matrix.ldlt().solve(right_side);
+}
+
+template Eigen::Vector3d solve_symmetric(const Eigen::Matrix3d&, const Eigen::Vector3d&);
+template Eigen::Vector4d solve_symmetric(const Eigen::Matrix4d&, const Eigen::Vector4d&);
+
+template <int N>
+Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric) {
+  if constexpr (N == 2) {
+    Eigen::JacobiRotation<double> turn;
+    turn.makeJacobi(symmetric, 0, 1);
+    Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
+    axes.applyOnTheRight(0, 1, turn);
+    return axes;
+  } else {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>>(symmetric).eigenvectors();
+  }
+}
+
+template Eigen::Matrix2d principal_axes(const Eigen::Matrix2d&);
+template Eigen::Matrix3d principal_axes(const Eigen::Matrix3d&);
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                              double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(threshold);
+  return decomposition.compute(a).solve(b);
+}
+
+Eigen::VectorXd solve_normal_equations(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const PivotedQr qr(a);
+  const Eigen::MatrixXd factor = qr.matrixQR().topRows(a.cols());
+  const auto upper = factor.triangularView<Eigen::Upper>();
+  Eigen::VectorXd x = qr.colsPermutation().transpose() * b;
+  x = upper.transpose().solve(x);
+  x = upper.solve(x);
+  return qr.colsPermutation() * x;
+}
+
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  const PivotedQr qr(columns);
+  basis.applyOnTheLeft(qr.householderQ());
+  return basis;
+}
+
+double least_pivot(const Eigen::MatrixXd& columns) {
+  return std::abs(PivotedQr(columns).matrixQR().diagonal().tail<1>()[0]);
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(
+      a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
+  return u * svd.matrixV().transpose();
+}
+
+// Two reflections: the first one takes one direction to the other, the second one leaves it there.
+// Where the directions are nearly opposite, any normal of the second will do.
+Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const auto reflection = [](const Eigen::Vector3d& normal) -> Eigen::Matrix3d {
+    return Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+  };
+  const Eigen::Vector3d a = from.normalized();
+  const Eigen::Vector3d b = to.normalized();
+  if (a.dot(b) >= 0) return reflection((a + b).normalized()) * reflection(a);
+  Eigen::Vector3d across = a.cross(b);
+  if (across.norm() < 1e-12) across = b.unitOrthogonal();
+  across.normalize();
+  across -= across.dot(b) * b;  // the product of nearly parallel vectors has few digits
+  return reflection(across.normalized()) * reflection((a - b).normalized());
+}
+
+}  // namespace flbc::dense

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Decompositions of small dense matrices. They stand behind functions because compiling them takes
+//! far longer than what uses them.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace flbc::dense {
+
+//! Solves a symmetric, positive semidefinite system. N = 3, 4.
+template <int N>
+Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
+                                            const Eigen::Matrix<double, N, 1>& right_side);
+
+//! Orthonormal eigenvectors of a symmetric matrix, a column each. N = 2, 3.
+template <int N>
+Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric);
+
+//! The x of least norm that minimises |a x - b|, for each column of b. \param threshold  pivots
+//! below this, relative to the largest, are taken for zero
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                              double threshold = 1e-15);
+
+//! Solves a^T a x = b, to the accuracy of a rather than of a^T a. \param a  of full column rank
+Eigen::VectorXd solve_normal_equations(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+//! An orthonormal basis of the span of independent columns.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
+//! How far the columns are from depending on each other: the last pivot of an orthogonal
+//! decomposition, at most sqrt(columns) times the least singular value for few columns.
+double least_pivot(const Eigen::MatrixXd& columns);
+
+//! The rotation R that maximises trace(R^T a).
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a);
+
+//! The least rotation that turns one direction into another.
+Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace flbc::dense
