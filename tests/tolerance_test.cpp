@@ -196,26 +196,67 @@ TEST(Tolerance3dTest, HoldsOnRoundCages) {
   }
 }
 
-// On round cages with more control points weights may change a lot while the objective hardly does
-// (docs/results.md), and no estimate tells how far they are from the optimum. What can be promised
-// there is an objective that is nearly the least one.
+// With many control points on a round cage weights stand still for long, far from the optimum,
+// while duals grow; then they converge slowly. The reference is told by one with half the
+// iterations how far it is from the optimum itself.
+TEST(Tolerance2dTest, HoldsOnPolygonsOfManyCorners) {
+  for (const Index corners : {30, 60}) {
+    SCOPED_TRACE(corners);
+    const auto cage = regular_polygon(corners);
+    const auto mesh = mesh_of(cage, 500);
+    const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+    const auto exact = optimum(problem, 6000, false);
+    ASSERT_LT(mean_squared_difference(mesh, exact, optimum(problem, 3000, false)), 1e-7);
+    for (const double tolerance : {1e-5, 1e-6}) {
+      SCOPED_TRACE(tolerance);
+      const auto solution = solve(problem, with_tolerance(tolerance));
+      EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+      EXPECT_LT(mean_squared_difference(mesh, solution.weights, exact), kAllowance * tolerance);
+    }
+  }
+}
+
+// Where the promise cannot be kept within the iterations there are, that is what is said; and the
+// objective is nearly the least one all the same.
 template <int Dim>
-void expect_small_gap(const Cage<Dim>& cage, Index vertices) {
+void expect_no_claim(const Cage<Dim>& cage, Index vertices) {
   SCOPED_TRACE(cage.size());
   ASSERT_TRUE(find_defects(cage).empty());
-  const auto solution = solve(cage, mesh_of(cage, vertices), with_tolerance(1e-7));
-  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-  EXPECT_LT(solution.report.certificate.relative_gap, 0.1);
+  auto options = with_tolerance(1e-7);
+  options.max_iterations = 800;
+  const auto solution = solve(cage, mesh_of(cage, vertices), options);
+  EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
+  EXPECT_LT(solution.report.certificate.relative_gap, 0.15);
   EXPECT_GE(solution.report.quality.min_weight, 0);
 }
 
-TEST(Tolerance2dTest, IsNearlyOptimalOnPolygonsOfManyCorners) {
-  expect_small_gap(regular_polygon(30), 1500);
-  expect_small_gap(regular_polygon(250), 4000);
+TEST(Tolerance2dTest, IsNotClaimedTooSoonOnPolygonsOfManyCorners) {
+  expect_no_claim(regular_polygon(60), 1000);
+  expect_no_claim(regular_polygon(250), 3000);
 }
 
-TEST(Tolerance3dTest, IsNearlyOptimalOnRoundCagesOfManyControlPoints) {
-  expect_small_gap(round_octahedron(8), 2500);
+TEST(Tolerance3dTest, IsNotClaimedTooSoonOnRoundCagesOfManyControlPoints) {
+  expect_no_claim(round_octahedron(8), 2000);
+}
+
+// Single precision ends all progress at some error, and no tolerance below it may be claimed.
+TYPED_TEST(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 4, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto exact = optimum(problem, 6000, false);
+  for (const double tolerance : {1e-9, 1e-11, 1e-13, 1e-15}) {
+    SCOPED_TRACE(tolerance);
+    auto options = with_tolerance(tolerance);
+    options.max_iterations = 4000;
+    const auto solution = solve(problem, options);
+    const double error = mean_squared_difference(sample.mesh, solution.weights, exact);
+    if (solution.report.status == SolveStatus::kConverged) {
+      EXPECT_LT(error, kAllowance * tolerance) << solution.report.iterations;
+    } else {
+      EXPECT_LT(tolerance, 1e-9);
+    }
+  }
 }
 
 // As many control points as make the weights unique: no iteration can go wrong.

@@ -91,7 +91,7 @@ TYPED_TEST(WeightSplittingTest, EqualsTheTextbookIterateByIterate) {
       splitting.start_from_weights(start);
       for (int iteration = 1; iteration <= 15; ++iteration) {
         textbook.iterate();
-        const auto residuals = splitting.iterate_measured();
+        const auto residuals = splitting.iterate_with_residuals();
         ASSERT_LT((splitting.weights() - textbook.weights()).cwiseAbs().maxCoeff(), 1e-10)
             << "iteration " << iteration;
         EXPECT_NEAR(residuals.primal, textbook.primal_residual_norm(),
@@ -119,7 +119,7 @@ TYPED_TEST(WeightSplittingTest, IsTheSameForAnyNumberOfThreads) {
       splitting.iterate();
       if (iteration == 5) splitting.adapt_penalty(0.3);
     }
-    splitting.iterate_measured();
+    splitting.iterate_with_residuals();
     return splitting.weights();
   };
   const auto one = run(1);

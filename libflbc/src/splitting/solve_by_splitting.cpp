@@ -41,23 +41,48 @@ splitting::Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negati
   return metric;
 }
 
+// The penalty grows to no more than this: what is balanced are lengths of all that moves, and where
+// the start is nearly right everywhere, as on round cages, that takes the penalty out of the range
+// in which the rest converges.
+template <int Dim>
+double largest_penalty(const LbcProblem<Dim>& problem) {
+  return size_of(problem.cage.points) / 30;
+}
+
 template <class Scalar, int Dim>
-void iterate_value(Splitting<Scalar, Dim>& splitting, const SolverOptions& options, bool adaptive,
-                   bool warm, double num_weights, SolveReport& report) {
+void adapt_penalty(Splitting<Scalar, Dim>& splitting, double largest) {
   constexpr double kBalance = 0.3;
+  splitting.adapt_penalty(kBalance);
+  // Duals are kept, so that a second balance gives any multiple of the first.
+  if (splitting.penalty() > largest) {
+    splitting.adapt_penalty(kBalance * largest / splitting.penalty());
+  }
+}
+
+template <class Scalar, int Dim>
+void iterate_value(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
+                   const SolverOptions& options, bool adaptive, bool warm, SolveReport& report) {
   constexpr int kFewest = 8;
-  const auto n = static_cast<double>(report.control_points);
-  splitting::ErrorEstimate estimate(warm);
+  const double n = problem.num_control_points();
+  const double interior =
+      problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
+  const double num_weights = std::max(1.0, interior) * n;
+  const double size = size_of(problem.cage.points);
+  const double residual_scale = size * size / (n * cell_measures(problem.mesh).sum());
+  splitting::ErrorEstimate estimate(warm, options.tolerance);
   auto history = splitting.history();
   history(0, splitting.data());
   for (int iteration = 1;; ++iteration) {
-    const double change = splitting.iterate().change / num_weights;
+    const auto step =
+        estimate.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
     const double difference = history(iteration, splitting.data()) / n;
     report.iterations = iteration;
-    report.primal_residual = estimate(iteration, change, difference) / options.tolerance;
+    report.primal_residual = estimate(iteration, step.change / num_weights, difference,
+                                      step.violation * residual_scale) /
+                             options.tolerance;
     const bool adapt =
         adaptive && (iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40);
-    if (adapt) splitting.adapt_penalty(kBalance);
+    if (adapt) adapt_penalty(splitting, largest_penalty(problem));
     const bool look = iteration % options.check_interval == 0 ||
                       (iteration >= kFewest && report.primal_residual <= 1) ||
                       iteration == options.max_iterations;
@@ -103,7 +128,7 @@ void iterate_2014(Splitting<Scalar, Dim>& splitting, const SolverOptions& option
       splitting.iterate();
       continue;
     }
-    const auto residuals = splitting.iterate_measured();
+    const auto residuals = splitting.iterate_with_residuals();
     report.primal_residual = residuals.primal / primal_threshold;
     report.dual_residual = residuals.dual / dual_threshold;
     if (finished(iteration, options, report)) return;
@@ -163,11 +188,8 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
     splitting->start_from_weights(harmonic_coordinates(problem));
   }
   if (value) {
-    const double interior =
-        problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
-    iterate_value(*splitting, options, options.penalty == 0 && !resumed && !relay.start,
-                  relay.start != nullptr, std::max(1.0, interior) * problem.num_control_points(),
-                  report);
+    iterate_value(*splitting, problem, options, options.penalty == 0 && !resumed && !relay.start,
+                  relay.start != nullptr, report);
   } else {
     iterate_2014(*splitting, options, report);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "barycentric_constraints.h"
 #include "cell_geometry.h"
@@ -328,17 +329,22 @@ Step WeightSplitting<Scalar, Dim>::iterate() {
 }
 
 template <class Scalar, int Dim>
-Residuals WeightSplitting<Scalar, Dim>::iterate_measured() {
-  AlignedArray<Scalar> before(weights_.size());
-  std::copy_n(weights_.data(), weights_.size(), before.data());
+Step WeightSplitting<Scalar, Dim>::iterate_measured() {
   std::fill_n(violation_.data(), violation_.size(), 0.0);
-  run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
+  Step step{run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
     kernel_.update_vertices_measured(state, columns);
     kernel_.update_cells_measured(state, columns);
-  });
-  double violation = 0;
-  for (Index i = 0; i < n_; ++i) violation += violation_[i];
-  return {std::sqrt(violation), penalty_ * std::sqrt(weight_change_norm2(before))};
+  })};
+  step.violation = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
+  return step;
+}
+
+template <class Scalar, int Dim>
+Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals() {
+  AlignedArray<Scalar> before(weights_.size());
+  std::copy_n(weights_.data(), weights_.size(), before.data());
+  const Step step = iterate_measured();
+  return {std::sqrt(step.violation), penalty_ * std::sqrt(weight_change_norm2(before))};
 }
 
 // Squared norm, in the metric, of what an iteration changed in the gradients and the weights.

@@ -26,7 +26,9 @@ struct Metric {
 
 //! What an iteration did.
 struct Step {
-  double change;  //!< squared change of all weights
+  double change;          //!< squared change of all weights
+  double violation = -1;  //!< of the constraints z = grad w and u = w, squared, in the metric; if
+                          //!< measured
 };
 
 //! Norms of the residual matrices of ADMM, constraints scaled by the square root of the metric.
@@ -74,8 +76,11 @@ class WeightSplitting {
 
   Step iterate();
 
-  //! The same, with the norms.
-  Residuals iterate_measured();
+  //! The same, for half as much again, and what the constraints lacked.
+  Step iterate_measured();
+
+  //! The same, for several times as much, with the norms of the residuals.
+  Residuals iterate_with_residuals();
 
   //! Balances the penalty against how far the weights have moved since the start, and keeps the
   //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|. Not after start_from_duals().
