@@ -2,7 +2,11 @@
 // The compact iteration against the textbook one, iterate by iterate.
 #include "gradient/gradient_admm.h"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
 #include <type_traits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +194,94 @@ TYPED_TEST(GradientAdmmTest, ThreadsDoNotChangeABit) {
     EXPECT_EQ(one.first, many.first);
     EXPECT_TRUE((one.second.array() == many.second.array()).all());
   }
+}
+
+// All of an iteration's state: rows of gradients, flux and facets' pulls, to the bit.
+template <class Scalar, int Dim>
+std::vector<double> state_of(const LbcProblem<Dim>& problem,
+                             gradient::GradientAdmm<Scalar, Dim>& admm) {
+  std::vector<double> state;
+  const auto append = [&](const auto& matrix) {
+    const Eigen::MatrixXd numbers = matrix.template cast<double>();
+    state.insert(state.end(), numbers.data(), numbers.data() + numbers.size());
+  };
+  const auto flux = admm.flux();
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    append(admm.gradients().cell(s));
+    append(flux.cell(s));
+  }
+  for (Index f = 0; f < problem.topology.num_facets(); ++f) append(admm.facet_pull(f));
+  append(admm.period_factors());
+  return state;
+}
+
+// The same cells in an order without any locality.
+template <int Dim>
+DomainMesh<Dim> scattered(DomainMesh<Dim> mesh) {
+  std::vector<Index> order(mesh.num_cells());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  const CellList<Dim> cells = mesh.cells;
+  for (Index s = 0; s < mesh.num_cells(); ++s) mesh.cells.col(s) = cells.col(order[s]);
+  return mesh;
+}
+
+struct Run {
+  std::vector<double> state;
+  gradient::Residuals residuals;
+
+  bool operator==(const Run& other) const {
+    return state == other.state && residuals.primal == other.residuals.primal &&
+           residuals.dual == other.residuals.dual;
+  }
+};
+
+// From harmonic coordinates, so many iterations together at each step.
+template <class Scalar, int Dim>
+Run run_in_steps(const LbcProblem<Dim>& problem, int threads, const std::vector<int>& steps,
+                 double relaxation) {
+  const ThreadScope scope(threads);
+  gradient::GradientAdmm<Scalar, Dim> admm(problem, kPenalty<Dim>, relaxation,
+                                           gradient::boundary_periods(problem));
+  admm.start_from_weights(harmonic_coordinates(problem));
+  Run run;
+  for (const int count : steps) run.residuals = admm.residuals(admm.iterate(count));
+  run.state = state_of(problem, admm);
+  return run;
+}
+
+template <class Scalar, int Dim>
+void expect_same_bits(const LbcProblem<Dim>& problem, double relaxation) {
+  const auto expected = run_in_steps<Scalar>(problem, 1, {1, 1, 1, 1, 1, 1, 1}, relaxation);
+  for (const int threads : {1, 2, 3}) {
+    for (const auto& steps : {std::vector<int>{7}, {5, 2}, {1, 6}, {1, 1, 1, 1, 1, 1, 1}}) {
+      EXPECT_TRUE(run_in_steps<Scalar>(problem, threads, steps, relaxation) == expected)
+          << threads << " threads, " << steps.front() << " iterations at first";
+    }
+  }
+  // and the comparison sees a difference
+  EXPECT_FALSE(run_in_steps<Scalar>(problem, 1, {6}, relaxation) == expected);
+}
+
+// Parts of a mesh (of 512 cells at least) are swept by threads of their own.
+TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 16 : 6, 0.2);
+  ASSERT_GT(sample.mesh.num_cells(), 3 * 512);
+  for (const auto& mesh : {sample.mesh, scattered(sample.mesh)}) {
+    const auto problem = make_problem(sample.cage, mesh, DistanceScheme::kSquare);
+    expect_same_bits<float>(problem, 1.8);
+    expect_same_bits<float>(problem, 1);
+    expect_same_bits<double>(problem, 1);
+  }
+}
+
+TYPED_TEST(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_hollow_sample<kDim>();
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  ASSERT_EQ(gradient::boundary_periods(problem).size(), 1U);
+  expect_same_bits<float>(problem, 1.8);
 }
 
 TYPED_TEST(GradientAdmmTest, StateIsCompact) {

@@ -4,31 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
-#include "barycentric_constraints.h"
 #include "cell_geometry.h"
+#include "flush_denormals.h"
 #include "parallel.h"
 #include "state_memory.h"
 
 namespace flbc::gradient {
 namespace {
 
-// Orthonormal basis of the facet's tangent space, a column per direction.
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet) {
-  const auto point = [&](int k) {
-    return problem.mesh.points.col(problem.topology.facets(k, facet));
-  };
-  Eigen::Matrix<double, Dim, Dim - 1> tangents;
-  tangents.col(0) = (point(1) - point(0)).normalized();
-  if constexpr (Dim == 3) {
-    const Vector<3> edge = point(2) - point(0);
-    tangents.col(1) = (edge - tangents.col(0) * tangents.col(0).dot(edge)).normalized();
-  }
-  return tangents;
+// Calls `body(begin, end)` for blocks of [0, count) in parallel. Every step flushes denormal
+// numbers: they are slow, and steps that differed in this would not give the same bits.
+template <class Body>
+void parallel_blocks(Index count, const Body& body) {
+  parallel_sum(count, 0, [&](Index begin, Index end) {
+    const FlushDenormals scope;
+    body(begin, end);
+    return 0;
+  });
 }
 
 }  // namespace
@@ -54,80 +48,14 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
   extrapolated_ = state(StateArray::kExtrapolatedGradient, cells, Dim);
   tv_dual_ = state(StateArray::kTvDual, cells, Dim);
   facet_dual_ = state(StateArray::kIntegrabilityDual, facets, Dim - 1);
-  set_up_facets(problem);
-  set_up_boundary_slopes(problem);
-  set_up_constraints(problem);
-  set_up_radii(problem);
+  data_ = make_constraint_data<Scalar>(problem, penalty, stride_);
   set_up_periods(periods, storage);
-}
-
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_facets(const LbcProblem<Dim>& problem) {
-  const Index num_facets = problem.topology.num_facets();
-  tangents_.resize(static_cast<std::size_t>(num_facets) * (Dim - 1) * Dim);
-  boundary_slot_.assign(num_facets, -1);
-  Index num_boundary = 0;
-  for (Index f = 0; f < num_facets; ++f) {
-    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(tangents_.data() + f * (Dim - 1) * Dim) =
-        tangent_basis(problem, f).template cast<Scalar>();
-    if (problem.topology.is_boundary(f)) boundary_slot_[f] = num_boundary++;
+  sweep_ = make_sweep(problem.mesh, problem.topology, omp_get_max_threads());
+  for (const auto& part : sweep_.parts) {
+    slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
   }
-  boundary_slope_ =
-      AlignedArray<Scalar>(static_cast<std::size_t>(num_boundary) * (Dim - 1) * stride_);
-}
-
-// h of (9): the derivatives of the boundary values along the facet's tangents.
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_boundary_slopes(const LbcProblem<Dim>& problem) {
-  const auto& facets = problem.topology.facets;
-  Eigen::MatrixXd corner_weights(n_, Dim);
-  for (Index f = 0; f < problem.topology.num_facets(); ++f) {
-    if (boundary_slot_[f] < 0) continue;
-    const auto tangents = tangent_basis(problem, f);
-    corner_weights.setZero();
-    Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
-    for (int k = 0; k < Dim; ++k) {
-      problem.boundary.scatter(problem.boundary.slot[facets(k, f)], corner_weights.col(k));
-      if (k == 0) continue;
-      edges.col(k - 1) = tangents.transpose() * (problem.mesh.points.col(facets(k, f)) -
-                                                 problem.mesh.points.col(facets(0, f)));
-    }
-    const Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> slopes =
-        (corner_weights.template rightCols<Dim - 1>().colwise() - corner_weights.col(0)) *
-        edges.inverse();
-    for (int t = 0; t < Dim - 1; ++t) {
-      for (Index i = 0; i < n_; ++i) {
-        boundary_slope_[(static_cast<std::size_t>(boundary_slot_[f]) * (Dim - 1) + t) * stride_ +
-                        i] = static_cast<Scalar>(slopes(i, t));
-      }
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_constraints(const LbcProblem<Dim>& problem) {
-  const BarycentricConstraints<Dim> constraints(problem.cage.points);
-  basis_ = AlignedArray<Scalar>((Dim + 1) * stride_);
-  const Eigen::Matrix<double, Dim + 1, Dim> target = constraints.gradient_target();
-  for (int k = 0; k <= Dim; ++k) {
-    for (Index i = 0; i < n_; ++i) {
-      basis_[k * stride_ + i] = static_cast<Scalar>(constraints.basis()(i, k));
-    }
-    for (int d = 0; d < Dim; ++d) target_[d * (Dim + 1) + k] = static_cast<Scalar>(target(k, d));
-  }
-}
-
-// phi A / mu: the ball on which the Z-step projects.
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_radii(const LbcProblem<Dim>& problem) {
-  radius_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_cells()) * stride_);
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    const double scale = cell_geometry(problem.mesh, s).measure / penalty_;
-    for (Index i = 0; i < n_; ++i) {
-      radius_[s * stride_ + i] = static_cast<Scalar>(scale * problem.phi(i, s));
-    }
-  }
+  cell_change_.resize(cells);
+  facet_change_.resize(facets);
 }
 
 template <class Scalar, int Dim>
@@ -175,65 +103,6 @@ double GradientAdmm<Scalar, Dim>::update_periods() {
 }
 
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::start_from_least_norm() {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-    for (int d = 0; d < Dim; ++d) {
-      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
-      for (std::size_t i = 0; i < stride_; ++i) {
-        Scalar value = 0;
-        for (int k = 0; k <= Dim; ++k)
-          value += target_[d * (Dim + 1) + k] * basis_[k * stride_ + i];
-        gradient_[row + i] = extrapolated_[row + i] = value;
-      }
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-    const auto gradient =
-        weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights);
-    for (int d = 0; d < Dim; ++d) {
-      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
-      for (Index i = 0; i < n_; ++i) {
-        gradient_[row + i] = extrapolated_[row + i] = static_cast<Scalar>(gradient(i, d));
-      }
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
-                                                 const VectorsAt<Dim>& flux_density,
-                                                 const VectorsAt<Dim>& facet_pull,
-                                                 const Eigen::MatrixXd& period_factors) {
-  start_from_weights(weights);
-  // Rows of an array from those of a matrix, a column each.
-  const auto store = [&](AlignedArray<Scalar>& array, Index element, const auto& columns) {
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-      const std::size_t row = static_cast<std::size_t>(element * columns.cols() + k) * stride_;
-      for (Index i = 0; i < n_; ++i) array[row + i] = static_cast<Scalar>(columns(i, k) / penalty_);
-    }
-  };
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-    store(tv_dual_, s, (-cell_geometry(problem_.mesh, s).measure * flux_density(s)).eval());
-  }
-#pragma omp parallel for schedule(static)
-  for (Index f = 0; f < problem_.topology.num_facets(); ++f) {
-    store(facet_dual_, f, (facet_pull(f) * tangent_basis(problem_, f)).eval());
-  }
-  for (std::size_t p = 0; p < num_periods_; ++p) {
-    const auto column = static_cast<Eigen::Index>(p);
-    store(period_dual_, static_cast<Index>(p),
-          (period_norms_[p] * period_factors.col(column)).eval());
-  }
-}
-
-template <class Scalar, int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> GradientAdmm<Scalar, Dim>::facet_pull(
     Index facet) const {
   Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> dual(n_, Dim - 1);
@@ -257,17 +126,66 @@ Eigen::MatrixXd GradientAdmm<Scalar, Dim>::period_factors() const {
   return factors;
 }
 
+// A sweep takes the G-step of one iteration and the duals of the next one together. Periods need a
+// sum over all cells in between.
 template <class Scalar, int Dim>
-Change GradientAdmm<Scalar, Dim>::iterate() {
-  const auto state = arrays();
-  const auto over = [&](Index count, auto loop) {
-    return parallel_sum(count, Change{},
-                        [&](Index begin, Index end) { return loop(state, begin, end); });
-  };
-  Change change = over(problem_.topology.num_facets(), kernel_.update_facets);
-  change.dual += update_periods();
-  change += over(problem_.mesh.num_cells(), kernel_.update_cells);
+Change GradientAdmm<Scalar, Dim>::iterate(int count) {
+  const auto arrays = make_arrays();
+  if (num_periods_ > 0) {
+    Change change;
+    for (int k = 0; k < count; ++k) {
+      update_duals(arrays);
+      const double period_change = update_periods();
+      change = update_gradients(arrays);
+      change.dual = noted_change() + period_change;
+    }
+    return change;
+  }
+  update_duals(arrays);
+  for (int k = 1; k < count; ++k) sweep(arrays, k == count - 1);
+  Change change = update_gradients(arrays);
+  change.dual = noted_change();
   return change;
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::update_duals(const Arrays<Scalar, Dim>& arrays) {
+  parallel_blocks(problem_.topology.num_facets(),
+                  [&](Index begin, Index end) { kernel_.update_facets(arrays, begin, end); });
+  parallel_blocks(problem_.mesh.num_cells(),
+                  [&](Index begin, Index end) { kernel_.update_tv_duals(arrays, begin, end); });
+}
+
+template <class Scalar, int Dim>
+Change GradientAdmm<Scalar, Dim>::update_gradients(const Arrays<Scalar, Dim>& arrays) {
+  return parallel_sum(problem_.mesh.num_cells(), Change{}, [&](Index begin, Index end) {
+    const FlushDenormals scope;
+    return kernel_.update_gradients(arrays, begin, end);
+  });
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool note) {
+  const auto num_parts = static_cast<Index>(sweep_.parts.size());
+#pragma omp parallel for schedule(static, 1) if (num_parts > 1)
+  for (Index p = 0; p < num_parts; ++p) {
+    const FlushDenormals scope;
+    const auto path = sweep_.parts[p].path();
+    note ? kernel_.sweep_and_note(arrays, path) : kernel_.sweep(arrays, path, slots_[p].data());
+  }
+  parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
+    kernel_.update_listed_facets(arrays, sweep_.seams.data() + begin, end - begin, note);
+  });
+}
+
+template <class Scalar, int Dim>
+double GradientAdmm<Scalar, Dim>::noted_change() const {
+  const auto sum_of = [](const std::vector<double>& changes) {
+    return parallel_sum(static_cast<Index>(changes.size()), 0.0, [&](Index begin, Index end) {
+      return std::accumulate(changes.begin() + begin, changes.begin() + end, 0.0);
+    });
+  };
+  return sum_of(facet_change_) + sum_of(cell_change_);
 }
 
 template <class Scalar, int Dim>
@@ -297,7 +215,7 @@ CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() {
            Rows(tv_dual_.data() + block, Dim, columns);
     const auto length =
         flux.square().colwise().sum().sqrt().max(std::numeric_limits<Scalar>::min());
-    const ConstRow radius(radius_.data() + s * stride_, columns);
+    const ConstRow radius(data_.radius.data() + s * stride_, columns);
     const Eigen::Array<Scalar, 1, Eigen::Dynamic> shrink =
         static_cast<Scalar>(penalty_) * (radius / length).min(Scalar(1));
     flux.rowwise() *= shrink;
@@ -313,25 +231,27 @@ double GradientAdmm<Scalar, Dim>::numbers_per_cell() const {
 }
 
 template <class Scalar, int Dim>
-Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::arrays() {
+Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
   return {stride_,
           gradient_.data(),
           extrapolated_.data(),
           tv_dual_.data(),
           period_dual_.data(),
           facet_dual_.data(),
-          radius_.data(),
-          boundary_slope_.data(),
-          tangents_.data(),
+          cell_change_.data(),
+          facet_change_.data(),
+          data_.radius.data(),
+          data_.boundary_slope.data(),
+          data_.tangents.data(),
           problem_.topology.sides.data(),
-          boundary_slot_.data(),
+          data_.boundary_slot.data(),
           problem_.topology.cell_facets.data(),
           period_fields_.data(),
           num_periods_,
           static_cast<std::size_t>(problem_.mesh.num_cells()),
           static_cast<Scalar>(1 / copies_),
-          basis_.data(),
-          target_,
+          data_.basis.data(),
+          data_.target.data(),
           static_cast<Scalar>(relaxation_)};
 }
 

@@ -26,6 +26,9 @@ struct Arrays {
   Scalar* tv_dual;       // F x Dim: dual of Z = G
   Scalar* period_dual;   // P: duals of the period constraints (boundary_periods.h), whole domain
   Scalar* facet_dual;    // E x (Dim - 1): duals of X = G S_X on the boundary, of Y = G S_Y inside
+  // squared changes of the duals per element, both sides of a facet counted, no control points
+  double* cell_change;   // F
+  double* facet_change;  // E
   // data
   const Scalar* radius;               // F: phi A / mu
   const Scalar* boundary_slope;       // #boundary facets x (Dim - 1): h, tangential derivatives
@@ -57,13 +60,54 @@ struct Change {
   }
 };
 
-//! The loops for one instruction set. `update_facets` is the X- and Y-step with its dual step,
-//! `update_cells` the Z-step with its dual step and the G-step, for elements begin .. end-1.
+//! Where a cell's extrapolated gradient is during a sweep: slot `place` of the sweep's slots, or,
+//! if negative, cell ~place of the whole array.
+using Place = std::int32_t;
+
+//! A facet on whose cells the G-step has been made. On the boundary both places are the one cell's.
+struct Closing {
+  std::int32_t facet;
+  Place first;
+  Place second;
+};
+
+//! A cell, and how many facets it is the last cell of.
+struct Visit {
+  std::int32_t cell;
+  Place place;
+  std::int32_t num_closings;
+};
+
+//! The way of a sweep through its part of the mesh (sweep.h).
+struct SweepPath {
+  const Visit* visits;
+  std::size_t num_visits;
+  const Closing* closings;  // in the order of the visits
+};
+
+//! The loops for one instruction set. A step gives the same bits whichever loop it is part of.
 template <class Scalar, int Dim>
 struct Kernel {
-  using Loop = Change (*)(const Arrays<Scalar, Dim>&, std::int32_t begin, std::int32_t end);
-  Loop update_facets;
-  Loop update_cells;
+  using State = const Arrays<Scalar, Dim>&;
+
+  //! X- and Y-step with their dual step, for facets begin .. end-1.
+  void (*update_facets)(State, std::int32_t begin, std::int32_t end);
+
+  //! The same for some facets; their changes are noted only if `noted`.
+  void (*update_listed_facets)(State, const std::int32_t* facets, std::size_t count, bool noted);
+
+  //! Z-step with its dual step, for cells begin .. end-1.
+  void (*update_tv_duals)(State, std::int32_t begin, std::int32_t end);
+
+  //! G-step, for cells begin .. end-1. \return changes of the gradients and their leads
+  Change (*update_gradients)(State, std::int32_t begin, std::int32_t end);
+
+  //! G-step, and the next iteration's Z-, X- and Y-step. `slots` holds extrapolated gradients
+  //! meanwhile, num_slots x Dim.
+  void (*sweep)(State, const SweepPath& path, Scalar* slots);
+
+  //! The same, with all extrapolated gradients kept in their array and changes of duals noted.
+  void (*sweep_and_note)(State, const SweepPath& path);
 };
 
 //! The best kernel for this processor.

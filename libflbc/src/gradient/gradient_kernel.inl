@@ -10,235 +10,132 @@
 namespace flbc::gradient::FLBC_ISA {
 namespace {
 
-static_assert(kLanes == kRowLanes);
+#include "gradient/lane_sums.inl"
+// after what it uses
+#include "gradient/gradient_steps.inl"
 
-template <class Scalar>
-using Pack = PackN<Scalar, kLanes>;
-
-template <class Scalar>
-inline Pack<Scalar> load(const Scalar* from) {
-  return load_pack<kLanes>(from);
-}
-
-template <class Scalar>
-inline void store(Scalar* to, Pack<Scalar> value) {
-  store_pack<kLanes>(to, value);
-}
-
-template <class Scalar>
-inline double sum(Pack<Scalar> pack) {
-  double total = 0;
-  for (int l = 0; l < kLanes; ++l) total += static_cast<double>(pack[l]);
-  return total;
-}
-
-// (9): the boundary facet's dual grows by the violation of t . g = h.
 template <class Scalar, int Dim>
-double update_boundary_dual(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
-  constexpr int kTangents = Dim - 1;
-  const std::size_t stride = arrays.stride;
-  const Scalar* inner = arrays.extrapolated + std::size_t(arrays.sides[2 * facet]) * Dim * stride;
-  const Scalar* slope =
-      arrays.boundary_slope + std::size_t(arrays.boundary_slot[facet]) * kTangents * stride;
-  const Scalar* tangents = arrays.tangents + std::size_t(facet) * kTangents * Dim;
-  Scalar* dual = arrays.facet_dual + std::size_t(facet) * kTangents * stride;
-  Pack<Scalar> change{};
-  for (int t = 0; t < kTangents; ++t) {
-    for (std::size_t i = 0; i < stride; i += kLanes) {
-      Pack<Scalar> step = load(slope + t * stride + i);
-      for (int d = 0; d < Dim; ++d) step -= tangents[t * Dim + d] * load(inner + d * stride + i);
-      store(dual + t * stride + i, load(dual + t * stride + i) + arrays.relaxation * step);
-      change += step * step;
-    }
-  }
-  return sum<Scalar>(change);
+const Scalar* extrapolated_of(const Arrays<Scalar, Dim>& arrays, std::int32_t cell) {
+  return arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride;
 }
 
-// (10): the interior facet's dual grows by half the jump of the tangential gradient.
-template <class Scalar, int Dim>
-double update_interior_dual(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
-  constexpr int kTangents = Dim - 1;
-  const std::size_t stride = arrays.stride;
-  const Scalar* first = arrays.extrapolated + std::size_t(arrays.sides[2 * facet]) * Dim * stride;
-  const Scalar* second =
-      arrays.extrapolated + std::size_t(arrays.sides[2 * facet + 1]) * Dim * stride;
-  const Scalar* tangents = arrays.tangents + std::size_t(facet) * kTangents * Dim;
-  Scalar* dual = arrays.facet_dual + std::size_t(facet) * kTangents * stride;
-  Pack<Scalar> change{};
-  for (std::size_t i = 0; i < stride; i += kLanes) {
-    Pack<Scalar> half_jump[Dim];
-    for (int d = 0; d < Dim; ++d) {
-      half_jump[d] = Scalar(0.5) * (load(second + d * stride + i) - load(first + d * stride + i));
-    }
-    for (int t = 0; t < kTangents; ++t) {
-      Pack<Scalar> step{};
-      for (int d = 0; d < Dim; ++d) step += tangents[t * Dim + d] * half_jump[d];
-      store(dual + t * stride + i, load(dual + t * stride + i) + arrays.relaxation * step);
-      change += step * step;
-    }
-  }
-  return 2 * sum<Scalar>(change);
+// On the boundary there is no second cell, and nobody asks for it.
+template <bool note, class Scalar, int Dim>
+inline void update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
+  const std::int32_t first = arrays.sides[2 * facet];
+  const std::int32_t second = arrays.sides[2 * facet + 1];
+  const double change = update_facet<note>(arrays, facet, extrapolated_of(arrays, first),
+                                           extrapolated_of(arrays, second < 0 ? first : second));
+  if constexpr (note) arrays.facet_change[facet] = change;
 }
 
-// Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` on the ball of radius
-// phi A / mu. Returns the squared change.
 template <class Scalar, int Dim>
-inline Pack<Scalar> update_tv_dual(Pack<Scalar> radius, const Pack<Scalar>* extrapolated,
-                                   Scalar relaxation, Pack<Scalar>* dual) {
-  Pack<Scalar> norm2 = radius * radius + std::numeric_limits<Scalar>::min();
-  Pack<Scalar> length2{};
-  for (int d = 0; d < Dim; ++d) {
-    const Pack<Scalar> v = extrapolated[d] - dual[d];
-    length2 += v * v;
+void update_facets(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+  for (std::int32_t facet = begin; facet < end; ++facet) update_facet<true>(arrays, facet);
+}
+
+template <class Scalar, int Dim>
+void update_listed_facets(const Arrays<Scalar, Dim>& arrays, const std::int32_t* facets,
+                          std::size_t count, bool noted) {
+  for (std::size_t k = 0; k < count; ++k) {
+    noted ? update_facet<true>(arrays, facets[k]) : update_facet<false>(arrays, facets[k]);
   }
-  norm2 = length2 > norm2 ? length2 : norm2;
-  const Pack<Scalar> shrink = radius * inverse_square_root<Scalar, kLanes>(norm2);
-  Pack<Scalar> change{};
-  for (int d = 0; d < Dim; ++d) {
-    const Pack<Scalar> step = shrink * (dual[d] - extrapolated[d]) - dual[d];
-    dual[d] += relaxation * step;
-    change += step * step;
+}
+
+template <class Scalar, int Dim>
+void update_tv_duals(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+  for (std::int32_t cell = begin; cell < end; ++cell) {
+    const Scalar* extrapolated = extrapolated_of(arrays, cell);
+    SquareSum<Scalar, true> change;
+    for_packs<Scalar>(
+        arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+          constexpr int kCount = decltype(lanes)::kCount;
+          PackN<Scalar, kCount> e[Dim];
+          for (int d = 0; d < Dim; ++d) {
+            e[d] = load_pack<kCount>(extrapolated + d * arrays.stride + i);
+          }
+          update_tv_dual<kCount>(arrays, cell, i, e, change);
+        });
+    arrays.cell_change[cell] = change.total();
+  }
+}
+
+template <class Scalar, int Dim>
+Change update_gradients(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+  Change change;
+  for (std::int32_t cell = begin; cell < end; ++cell) {
+    change += update_cell<true, false, false>(
+        arrays, cell, arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride);
   }
   return change;
 }
 
-// One facet of a cell, as the cell sees it: the dual's direction in space, signed for its side.
-template <class Scalar, int Dim>
-struct FacetPull {
-  const Scalar* dual;
-  Scalar tangents[Dim - 1][Dim];
-};
+// Always inlined: functions that do nothing but prefetch pass for functions that do nothing.
+template <class Scalar>
+[[gnu::always_inline]] inline void prefetch(const Scalar* from, std::size_t count) {
+  constexpr std::size_t kLine = 64 / sizeof(Scalar);
+  for (std::size_t i = 0; i < count; i += kLine) __builtin_prefetch(from + i, 1);
+}
 
+// Asks for what the visit of a cell needs. The facets' duals do not lie in the order of the cells,
+// and too many streams go on at a time for the processor to foresee them.
 template <class Scalar, int Dim>
-inline void gather_facets(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
-                          FacetPull<Scalar, Dim>* pulls) {
+[[gnu::always_inline]] inline void prefetch_cell(const Arrays<Scalar, Dim>& arrays,
+                                                 std::int32_t cell) {
+  const std::size_t stride = arrays.stride;
+  const std::size_t rows = Dim * stride;
+  prefetch(arrays.gradient + std::size_t(cell) * rows, rows);
+  prefetch(arrays.tv_dual + std::size_t(cell) * rows, rows);
+  prefetch(arrays.radius + std::size_t(cell) * stride, stride);
   for (int k = 0; k <= Dim; ++k) {
     const std::int32_t facet = arrays.cell_facets[std::size_t(cell) * (Dim + 1) + k];
-    const Scalar sign = arrays.sides[2 * facet] == cell ? Scalar(1) : Scalar(-1);
-    pulls[k].dual = arrays.facet_dual + std::size_t(facet) * (Dim - 1) * arrays.stride;
-    for (int t = 0; t < Dim - 1; ++t) {
-      for (int d = 0; d < Dim; ++d) {
-        pulls[k].tangents[t][d] =
-            sign * arrays.tangents[(std::size_t(facet) * (Dim - 1) + t) * Dim + d];
-      }
+    prefetch(arrays.facet_dual + std::size_t(facet) * (Dim - 1) * stride, (Dim - 1) * stride);
+  }
+}
+
+// So many visits take as long as memory takes to answer.
+constexpr std::size_t kVisitsAhead = 4;
+
+template <class Scalar, int Dim>
+void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slots) {
+  const std::size_t size = Dim * arrays.stride;
+  const auto extrapolated = [&](Place place) {
+    return place >= 0 ? slots + std::size_t(place) * size
+                      : arrays.extrapolated + std::size_t(~place) * size;
+  };
+  const Closing* closing = path.closings;
+  for (std::size_t k = 0; k < path.num_visits; ++k) {
+    const Visit visit = path.visits[k];
+    if (k + kVisitsAhead < path.num_visits) {
+      prefetch_cell(arrays, path.visits[k + kVisitsAhead].cell);
+    }
+    update_cell<false, true, false>(arrays, visit.cell, extrapolated(visit.place));
+    for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
+      update_facet<false>(arrays, closing->facet, extrapolated(closing->first),
+                          extrapolated(closing->second));
     }
   }
 }
 
-// Average of all candidates for the cell's gradient, r_s of (11): g + (sum of its duals) / M.
 template <class Scalar, int Dim>
-inline void average_candidates(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
-                               const FacetPull<Scalar, Dim>* pulls, std::size_t i,
-                               const Pack<Scalar>* gradient, const Pack<Scalar>* tv_dual,
-                               Pack<Scalar>* average) {
-  const std::size_t stride = arrays.stride;
-  for (int d = 0; d < Dim; ++d) average[d] = tv_dual[d];
-  for (int k = 0; k <= Dim; ++k) {
-    for (int t = 0; t < Dim - 1; ++t) {
-      const Pack<Scalar> dual = load(pulls[k].dual + t * stride + i);
-      for (int d = 0; d < Dim; ++d) average[d] += pulls[k].tangents[t][d] * dual;
+void sweep_and_note(const Arrays<Scalar, Dim>& arrays, const SweepPath& path) {
+  const Closing* closing = path.closings;
+  for (std::size_t k = 0; k < path.num_visits; ++k) {
+    const Visit visit = path.visits[k];
+    Scalar* extrapolated = arrays.extrapolated + std::size_t(visit.cell) * Dim * arrays.stride;
+    arrays.cell_change[visit.cell] =
+        update_cell<false, true, true>(arrays, visit.cell, extrapolated).dual;
+    for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
+      update_facet<true>(arrays, closing->facet);
     }
   }
-  for (std::size_t p = 0; p < arrays.num_periods; ++p) {
-    const Scalar* field = arrays.period_fields + (p * arrays.num_cells + cell) * Dim;
-    const Pack<Scalar> dual = load(arrays.period_dual + p * stride + i);
-    for (int d = 0; d < Dim; ++d) average[d] += field[d] * dual;
-  }
-  for (int d = 0; d < Dim; ++d) average[d] = gradient[d] + arrays.inverse_copies * average[d];
-}
-
-// The Z-step, then the G-step: the average projected on (8) as r - (r Q - target) Q^T.
-template <class Scalar, int Dim>
-Change update_cell(const Arrays<Scalar, Dim>& arrays, std::int32_t cell) {
-  const std::size_t stride = arrays.stride;
-  Scalar* gradient = arrays.gradient + std::size_t(cell) * Dim * stride;
-  Scalar* extrapolated = arrays.extrapolated + std::size_t(cell) * Dim * stride;
-  Scalar* tv_dual = arrays.tv_dual + std::size_t(cell) * Dim * stride;
-  const Scalar* radius = arrays.radius + std::size_t(cell) * stride;
-  FacetPull<Scalar, Dim> pulls[Dim + 1];
-  gather_facets(arrays, cell, pulls);
-
-  Pack<Scalar> dual_change{};
-  Pack<Scalar> lead_change{};
-  Pack<Scalar> projection[Dim][Dim + 1] = {};
-  for (std::size_t i = 0; i < stride; i += kLanes) {
-    Pack<Scalar> g[Dim];
-    Pack<Scalar> e[Dim];
-    Pack<Scalar> u[Dim];
-    Pack<Scalar> r[Dim];
-    for (int d = 0; d < Dim; ++d) {
-      g[d] = load(gradient + d * stride + i);
-      e[d] = load(extrapolated + d * stride + i);
-      u[d] = load(tv_dual + d * stride + i);
-    }
-    dual_change += update_tv_dual<Scalar, Dim>(load(radius + i), e, arrays.relaxation, u);
-    average_candidates<Scalar, Dim>(arrays, cell, pulls, i, g, u, r);
-    for (int k = 0; k <= Dim; ++k) {
-      const Pack<Scalar> q = load(arrays.basis + k * stride + i);
-      for (int d = 0; d < Dim; ++d) projection[d][k] += q * r[d];
-    }
-    for (int d = 0; d < Dim; ++d) {
-      store(tv_dual + d * stride + i, u[d]);
-      // The old extrapolation is needed once more, for the residual, but only its distance from r:
-      // what the projection takes away from r is orthogonal to every difference of gradients.
-      const Pack<Scalar> lead = e[d] - r[d];
-      lead_change += lead * lead;
-      store(extrapolated + d * stride + i, r[d]);
-    }
-  }
-
-  Scalar excess[Dim][Dim + 1];
-  double removed = 0;
-  for (int d = 0; d < Dim; ++d) {
-    for (int k = 0; k <= Dim; ++k) {
-      const double value =
-          sum<Scalar>(projection[d][k]) - static_cast<double>(arrays.target[d * (Dim + 1) + k]);
-      excess[d][k] = static_cast<Scalar>(value);
-      removed += value * value;
-    }
-  }
-
-  Pack<Scalar> gradient_change{};
-  for (std::size_t i = 0; i < stride; i += kLanes) {
-    Pack<Scalar> q[Dim + 1];
-    for (int k = 0; k <= Dim; ++k) q[k] = load(arrays.basis + k * stride + i);
-    for (int d = 0; d < Dim; ++d) {
-      Pack<Scalar> projected = load(extrapolated + d * stride + i);
-      for (int k = 0; k <= Dim; ++k) projected -= excess[d][k] * q[k];
-      const Pack<Scalar> old = load(gradient + d * stride + i);
-      const Pack<Scalar> step = projected - old;
-      store(extrapolated + d * stride + i, projected + step);
-      store(gradient + d * stride + i, old + arrays.relaxation * step);
-      gradient_change += step * step;
-    }
-  }
-
-  Change change;
-  change.dual = sum<Scalar>(dual_change);
-  change.gradient = sum<Scalar>(gradient_change);
-  change.lead = sum<Scalar>(lead_change) - removed;
-  return change;
 }
 
 template <class Scalar, int Dim>
-Change update_facets(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
-  Change change;
-  for (std::int32_t facet = begin; facet < end; ++facet) {
-    change.dual += arrays.sides[2 * facet + 1] < 0 ? update_boundary_dual(arrays, facet)
-                                                   : update_interior_dual(arrays, facet);
-  }
-  return change;
-}
-
-template <class Scalar, int Dim>
-Change update_cells(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
-  Change change;
-  for (std::int32_t cell = begin; cell < end; ++cell) change += update_cell(arrays, cell);
-  return change;
-}
-
-template <class Scalar, int Dim>
-constexpr Kernel<Scalar, Dim> kKernel{update_facets<Scalar, Dim>, update_cells<Scalar, Dim>};
+constexpr Kernel<Scalar, Dim> kKernel{
+    update_facets<Scalar, Dim>,   update_listed_facets<Scalar, Dim>,
+    update_tv_duals<Scalar, Dim>, update_gradients<Scalar, Dim>,
+    sweep<Scalar, Dim>,           sweep_and_note<Scalar, Dim>};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper's solver from start to weights.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -22,11 +23,11 @@ void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& opt
   const double primal_threshold =
       options.tolerance * (options.method == Method::kPaper ? components : std::sqrt(components));
   const double dual_threshold = 10 * primal_threshold;
-  for (int iteration = 1;; ++iteration) {
-    const auto change = admm.iterate();
+  for (int iteration = 0;;) {
+    const int count = std::min(options.check_interval, options.max_iterations - iteration);
+    const auto residuals = admm.residuals(admm.iterate(count));
+    iteration += count;
     report.iterations = iteration;
-    if (iteration % options.check_interval != 0 && iteration < options.max_iterations) continue;
-    const auto residuals = admm.residuals(change);
     report.primal_residual = residuals.primal / primal_threshold;
     report.dual_residual = residuals.dual / dual_threshold;
     if (finished(iteration, options, report)) return;

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The steps of the iteration for one facet or one cell. Included by gradient_kernel.inl within its
+//! namespace of the instruction set. Steps that `note` return or add up what they change.
+
+// (9), (10): the boundary facet's dual grows by the violation of t . g = h, the interior facet's by
+// half the jump of the tangential gradient. \return the squared change, for each side
+template <bool note, class Scalar, int Dim>
+inline double update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet,
+                           const Scalar* first, const Scalar* second) {
+  constexpr int kTangents = Dim - 1;
+  const std::size_t stride = arrays.stride;
+  const Scalar* tangents = arrays.tangents + std::size_t(facet) * kTangents * Dim;
+  Scalar* dual = arrays.facet_dual + std::size_t(facet) * kTangents * stride;
+  SquareSum<Scalar, note> change;
+  const std::int32_t slot = arrays.boundary_slot[facet];
+  if (slot >= 0) {
+    const Scalar* slope = arrays.boundary_slope + std::size_t(slot) * kTangents * stride;
+    for_packs<Scalar>(
+        stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+          constexpr int kCount = decltype(lanes)::kCount;
+          for (int t = 0; t < kTangents; ++t) {
+            auto step = load_pack<kCount>(slope + t * stride + i);
+            for (int d = 0; d < Dim; ++d) {
+              step -= tangents[t * Dim + d] * load_pack<kCount>(first + d * stride + i);
+            }
+            Scalar* place = dual + t * stride + i;
+            store_pack<kCount>(place, load_pack<kCount>(place) + arrays.relaxation * step);
+            change.template add<kCount>(step);
+          }
+        });
+    return note ? change.total() : 0;
+  }
+  for_packs<Scalar>(
+      stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        constexpr int kCount = decltype(lanes)::kCount;
+        PackN<Scalar, kCount> half_jump[Dim];
+        for (int d = 0; d < Dim; ++d) {
+          half_jump[d] = Scalar(0.5) * (load_pack<kCount>(second + d * stride + i) -
+                                        load_pack<kCount>(first + d * stride + i));
+        }
+        for (int t = 0; t < kTangents; ++t) {
+          PackN<Scalar, kCount> step{};
+          for (int d = 0; d < Dim; ++d) step += tangents[t * Dim + d] * half_jump[d];
+          Scalar* place = dual + t * stride + i;
+          store_pack<kCount>(place, load_pack<kCount>(place) + arrays.relaxation * step);
+          change.template add<kCount>(step);
+        }
+      });
+  return note ? 2 * change.total() : 0;
+}
+
+// Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` on the ball of radius
+// phi A / mu.
+template <int lanes, bool note, class Scalar, int Dim>
+[[gnu::always_inline]] inline void update_tv_dual(const Arrays<Scalar, Dim>& arrays,
+                                                  std::int32_t cell, std::size_t i,
+                                                  const PackN<Scalar, lanes>* extrapolated,
+                                                  SquareSum<Scalar, note>& change) {
+  using P = PackN<Scalar, lanes>;
+  Scalar* place = arrays.tv_dual + std::size_t(cell) * Dim * arrays.stride + i;
+  const P radius = load_pack<lanes>(arrays.radius + std::size_t(cell) * arrays.stride + i);
+  P norm2 = radius * radius + std::numeric_limits<Scalar>::min();
+  P length2{};
+  P dual[Dim];
+  for (int d = 0; d < Dim; ++d) {
+    dual[d] = load_pack<lanes>(place + d * arrays.stride);
+    const P v = extrapolated[d] - dual[d];
+    length2 += v * v;
+  }
+  norm2 = length2 > norm2 ? length2 : norm2;
+  const P shrink = radius * inverse_square_root<Scalar, lanes>(norm2);
+  for (int d = 0; d < Dim; ++d) {
+    const P step = shrink * (dual[d] - extrapolated[d]) - dual[d];
+    store_pack<lanes>(place + d * arrays.stride, dual[d] + arrays.relaxation * step);
+    change.template add<lanes>(step);
+  }
+}
+
+// One facet of a cell, as the cell sees it: the dual's direction in space, signed for its side.
+template <class Scalar, int Dim>
+struct FacetPull {
+  const Scalar* dual;
+  Scalar tangents[Dim - 1][Dim];
+};
+
+template <class Scalar, int Dim>
+[[gnu::always_inline]] inline void gather_facets(const Arrays<Scalar, Dim>& arrays,
+                                                 std::int32_t cell, FacetPull<Scalar, Dim>* pulls) {
+  for (int k = 0; k <= Dim; ++k) {
+    const std::int32_t facet = arrays.cell_facets[std::size_t(cell) * (Dim + 1) + k];
+    const Scalar sign = arrays.sides[2 * facet] == cell ? Scalar(1) : Scalar(-1);
+    pulls[k].dual = arrays.facet_dual + std::size_t(facet) * (Dim - 1) * arrays.stride;
+    for (int t = 0; t < Dim - 1; ++t) {
+      for (int d = 0; d < Dim; ++d) {
+        pulls[k].tangents[t][d] =
+            sign * arrays.tangents[(std::size_t(facet) * (Dim - 1) + t) * Dim + d];
+      }
+    }
+  }
+}
+
+// Average of all candidates for the cell's gradient, r_s of (11): g + (sum of its duals) / M.
+template <int lanes, class Scalar, int Dim>
+[[gnu::always_inline]] inline void average_candidates(const Arrays<Scalar, Dim>& arrays,
+                                                      std::int32_t cell,
+                                                      const FacetPull<Scalar, Dim>* pulls,
+                                                      std::size_t i,
+                                                      PackN<Scalar, lanes>* average) {
+  using P = PackN<Scalar, lanes>;
+  const std::size_t stride = arrays.stride;
+  const std::size_t row = std::size_t(cell) * Dim * stride + i;
+  for (int d = 0; d < Dim; ++d) average[d] = load_pack<lanes>(arrays.tv_dual + row + d * stride);
+  for (int k = 0; k <= Dim; ++k) {
+    for (int t = 0; t < Dim - 1; ++t) {
+      const P dual = load_pack<lanes>(pulls[k].dual + t * stride + i);
+      for (int d = 0; d < Dim; ++d) average[d] += pulls[k].tangents[t][d] * dual;
+    }
+  }
+  for (std::size_t p = 0; p < arrays.num_periods; ++p) {
+    const Scalar* field = arrays.period_fields + (p * arrays.num_cells + cell) * Dim;
+    const P dual = load_pack<lanes>(arrays.period_dual + p * stride + i);
+    for (int d = 0; d < Dim; ++d) average[d] += field[d] * dual;
+  }
+  for (int d = 0; d < Dim; ++d) {
+    const P gradient = load_pack<lanes>(arrays.gradient + row + d * stride);
+    average[d] = gradient + arrays.inverse_copies * average[d];
+  }
+}
+
+// Q^T r of (8) by control points, as Dim x (Dim + 1) packs to be summed over their lanes; in
+// eights.
+template <int Dim>
+constexpr int kProjections = Dim*(Dim + 1);
+template <int Dim>
+constexpr int kProjectionEights = (kProjections<Dim> + kLanes - 1) / kLanes;
+
+template <class Scalar, int Dim, int lanes>
+[[gnu::always_inline]] inline void add_projection(const Arrays<Scalar, Dim>& arrays, std::size_t i,
+                                                  const PackN<Scalar, lanes>* average,
+                                                  PackN<Scalar, lanes>* projection) {
+  for (int k = 0; k <= Dim; ++k) {
+    const auto q = load_pack<lanes>(arrays.basis + k * arrays.stride + i);
+    for (int d = 0; d < Dim; ++d) projection[d * (Dim + 1) + k] += q * average[d];
+  }
+}
+
+// What the G-step changes.
+template <class Scalar, bool note>
+struct GradientChange {
+  SquareSum<Scalar, note> gradient;
+  SquareSum<Scalar, note> lead;
+  double removed = 0;  // from the lead, by the projection
+};
+
+// First half of the G-step: the average goes to `extrapolated`, and what it has too much of the
+// projection on (8), r Q - target, to `excess`.
+template <bool note, class Scalar, int Dim>
+[[gnu::always_inline]] inline void average_cell(const Arrays<Scalar, Dim>& arrays,
+                                                std::int32_t cell, Scalar* extrapolated,
+                                                Scalar* excess,
+                                                GradientChange<Scalar, note>& change) {
+  constexpr int kWide = kWideLanes<Scalar>;
+  const std::size_t stride = arrays.stride;
+  FacetPull<Scalar, Dim> pulls[Dim + 1];
+  gather_facets(arrays, cell, pulls);
+  const auto average = [&](auto lanes, std::size_t i, auto* projection)
+      __attribute__((always_inline)) {
+    constexpr int kCount = decltype(lanes)::kCount;
+    PackN<Scalar, kCount> r[Dim];
+    average_candidates<kCount>(arrays, cell, pulls, i, r);
+    add_projection<Scalar, Dim, kCount>(arrays, i, r, projection);
+    for (int d = 0; d < Dim; ++d) {
+      Scalar* place = extrapolated + d * stride + i;
+      // The old extrapolation is needed once more, for the residual, but only its distance from r:
+      // what the projection takes away from r is orthogonal to every difference of gradients.
+      if constexpr (note) change.lead.template add<kCount>(load_pack<kCount>(place) - r[d]);
+      store_pack<kCount>(place, r[d]);
+    }
+  };
+
+  // One by one: a loop over them, or clearing them at once, would take them to memory.
+  Pack<Scalar> projection[kProjectionEights<Dim> * kLanes];
+  std::size_t i = 0;
+  if constexpr (kWide > kLanes) {
+    PackN<Scalar, kWide> wide[kProjections<Dim>];
+#pragma GCC unroll 16
+    for (auto& pack : wide) pack = PackN<Scalar, kWide>{};
+    for (; i + kWide <= stride; i += kWide) average(Lanes<kWide>{}, i, wide);
+#pragma GCC unroll 16
+    for (int k = 0; k < kProjections<Dim>; ++k) projection[k] = fold<Scalar>(wide[k]);
+  } else {
+#pragma GCC unroll 16
+    for (int k = 0; k < kProjections<Dim>; ++k) projection[k] = Pack<Scalar>{};
+  }
+#pragma GCC unroll 16
+  for (int k = kProjections<Dim>; k < kProjectionEights<Dim> * kLanes; ++k) {
+    projection[k] = Pack<Scalar>{};
+  }
+  for (; i < stride; i += kLanes) average(Lanes<kLanes>{}, i, projection);
+
+#pragma GCC unroll 2
+  for (int eight = 0; eight < kProjectionEights<Dim>; ++eight) {
+    const Pack<Scalar> rest = sum_each<Scalar>(projection + eight * kLanes) -
+                              load_pack<kLanes>(arrays.target + eight * kLanes);
+    store_pack<kLanes>(excess + eight * kLanes, rest);
+    if constexpr (note) change.removed += sum<Scalar>(rest * rest);
+  }
+}
+
+// The G-step, the average projected on (8) as r - (r Q - target) Q^T, and with `then_tv` the next
+// iteration's Z-step. \param extrapolated  where it is to go; what is there is needed to note the
+// lead. \return the changes, of the dual only with `then_tv`
+template <bool note_gradient, bool then_tv, bool note_tv, class Scalar, int Dim>
+inline Change update_cell(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
+                          Scalar* extrapolated) {
+  const std::size_t stride = arrays.stride;
+  Scalar* gradient = arrays.gradient + std::size_t(cell) * Dim * stride;
+  GradientChange<Scalar, note_gradient> change;
+  SquareSum<Scalar, note_tv> dual_change;
+  alignas(64) Scalar excess[kProjectionEights<Dim> * kLanes];
+  average_cell(arrays, cell, extrapolated, excess, change);
+  for_packs<Scalar>(
+      stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        constexpr int kCount = decltype(lanes)::kCount;
+        using P = PackN<Scalar, kCount>;
+        P q[Dim + 1];
+        P e[Dim];
+        for (int k = 0; k <= Dim; ++k) q[k] = load_pack<kCount>(arrays.basis + k * stride + i);
+        for (int d = 0; d < Dim; ++d) {
+          P projected = load_pack<kCount>(extrapolated + d * stride + i);
+          for (int k = 0; k <= Dim; ++k) projected -= excess[d * (Dim + 1) + k] * q[k];
+          const P old = load_pack<kCount>(gradient + d * stride + i);
+          const P step = projected - old;
+          e[d] = projected + step;
+          store_pack<kCount>(extrapolated + d * stride + i, e[d]);
+          store_pack<kCount>(gradient + d * stride + i, old + arrays.relaxation * step);
+          change.gradient.template add<kCount>(step);
+        }
+        if constexpr (then_tv) update_tv_dual<kCount>(arrays, cell, i, e, dual_change);
+      });
+  Change result;
+  if constexpr (note_tv) result.dual = dual_change.total();
+  if constexpr (note_gradient) {
+    result.gradient = change.gradient.total();
+    result.lead = change.lead.total() - change.removed;
+  }
+  return result;
+}
