@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <type_traits>
 
 #include <gtest/gtest.h>
 
+#include "distance/eikonal_mesh.h"
 #include "flbc/lbc_problem.h"
+#include "parallel.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -115,6 +118,117 @@ TYPED_TEST(DistanceWeightsTest, GoRoundHoles) {
   const double coarse = error_of(kDim == 2 ? 4 : 3);
   const double fine = error_of(kDim == 2 ? 32 : 9);
   EXPECT_LT(fine, coarse);
+}
+
+TYPED_TEST(DistanceWeightsTest, AreTheSameForAnyNumberOfThreads) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 12 : 4, 0.2);
+  const auto topology = build_topology(sample.mesh);
+  const auto sources = boundary_values(sample.cage, sample.mesh, topology).control_vertices;
+  const auto distances = [&](int threads) {
+    const ThreadScope scope(threads);
+    return geodesic_distances(sample.mesh, topology, sources);
+  };
+  const auto expected = distances(1);
+  EXPECT_EQ(distances(2), expected);
+  EXPECT_EQ(distances(5), expected);
+}
+
+// A simplex of random shape.
+template <int Dim>
+DomainMesh<Dim> random_cell(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (;;) {
+    DomainMesh<Dim> mesh;
+    mesh.points = PointList<Dim>::NullaryExpr(Dim, Dim + 1, [&] { return uniform(random); });
+    mesh.cells = CellList<Dim>(Dim + 1, 1);
+    for (int k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+    if (std::abs(signed_measure(mesh, 0)) < 0.1) continue;
+    normalize_and_validate(mesh);
+    return mesh;
+  }
+}
+
+// A point beyond the side opposite to corner c. The ray from there to c crosses that side, or, if
+// `misses`, its plane beside it.
+template <int Dim>
+Vector<Dim> source_beyond(const DomainMesh<Dim>& mesh, int c, bool misses, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.05, 1);
+  const auto at = [&](int k) { return mesh.points.col(mesh.cells(k % (Dim + 1), 0)); };
+  Vector<Dim> crossing = Vector<Dim>::Zero();
+  double total = 0;
+  for (int turn = 1; turn <= Dim; ++turn) {
+    const bool is_beside = misses && turn == Dim;
+    const double share = is_beside ? -0.5 * total : uniform(random);
+    crossing += share * at(c + turn);
+    total += share;
+  }
+  return at(c) + (crossing / total - at(c)) * (1 + 20 * uniform(random));
+}
+
+template <int Dim>
+std::vector<float> distances_of_corners(const DomainMesh<Dim>& mesh, const Vector<Dim>& source) {
+  std::vector<float> of;
+  for (int k = 0; k <= Dim; ++k) {
+    of.push_back(static_cast<float>((mesh.points.col(mesh.cells(k, 0)) - source).norm()));
+  }
+  return of;
+}
+
+template <int Dim>
+float computed_distance(const distance::EikonalMesh<Dim>& eikonal, int c,
+                        const std::vector<float>& of, float limit) {
+  const auto& cell = eikonal.cells[0];
+  if constexpr (Dim == 3) {
+    return distance_through(cell, c, {of[c ^ 1], of[c ^ 2], of[c ^ 3]}, limit);
+  } else {
+    return distance_through(cell, c, of[(c + 1) % 3], of[(c + 2) % 3], limit);
+  }
+}
+
+TYPED_TEST(DistanceWeightsTest, RaysThroughACellAreExact) {
+  constexpr int kDim = TypeParam::value;
+  const ThreadScope scope(1);  // waking others up takes longer than a cell
+  std::mt19937 random(1);
+  for (int round = 0; round < 500; ++round) {
+    const auto mesh = random_cell<kDim>(random);
+    const auto topology = build_topology(mesh);
+    const distance::EikonalMesh<kDim> eikonal(mesh, topology);
+    for (int c = 0; c <= kDim; ++c) {
+      auto of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, false, random));
+      EXPECT_NEAR(computed_distance(eikonal, c, of, 2 * of[c]), of[c], 1e-4f * of[c]);
+      EXPECT_EQ(computed_distance(eikonal, c, of, 0.99f * of[c]), distance::kNone);
+      of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, true, random));
+      EXPECT_EQ(computed_distance(eikonal, c, of, 2 * of[c]), distance::kNone);
+    }
+  }
+}
+
+// A corner is not denied the ray that reaches it through a corner passed after it, but many others.
+TYPED_TEST(DistanceWeightsTest, UsefulRaysAreNotDenied) {
+  constexpr int kDim = TypeParam::value;
+  const ThreadScope scope(1);
+  std::mt19937 random(2);
+  int num_obtuse = 0;
+  int num_denied = 0;
+  for (int round = 0; round < 500; ++round) {
+    const auto mesh = random_cell<kDim>(random);
+    const auto topology = build_topology(mesh);
+    const distance::EikonalMesh<kDim> eikonal(mesh, topology);
+    const auto& look_back = eikonal.look_back[0];
+    for (int c = 0; c <= kDim; ++c) {
+      const auto of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, false, random));
+      for (int o = 0; o <= kDim; ++o) {
+        if (o == c || (look_back.obtuse_beside(o) >> c & 1u) == 0) continue;
+        EXPECT_TRUE(look_back.can_help(1.001f * of[c], of[o]));
+        // No edge is longer than that.
+        num_denied += look_back.can_help(of[c], of[c] + 2 * std::sqrt(float{kDim})) ? 0 : 1;
+        ++num_obtuse;
+      }
+    }
+  }
+  EXPECT_GT(num_obtuse, 100);
+  EXPECT_EQ(num_denied, num_obtuse);
 }
 
 TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {

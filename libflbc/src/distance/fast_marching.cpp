@@ -2,103 +2,23 @@
 // The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with cells that see the
 // source as a point, so that straight ways are exact. Distances grow outward from the source;
 // where a cell has an obtuse angle, a vertex may be improved again after it has been passed.
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "distance/eikonal_cell.h"
-#include "distance/reflex_edges.h"
+#include "distance/bucket_queue.h"
+#include "distance/cell_tasks.h"
+#include "distance/eikonal_mesh.h"
 #include "flbc/distance_weights.h"
-#include "vertex_cells.h"
 
 namespace flbc {
 namespace {
 
-using distance::EikonalCell;
-
-// An edge as seen from one end.
-struct Edge {
-  Index to;
-  float length;
-};
-
-// What all sources share.
-template <int Dim>
-struct EikonalMesh {
-  const CellList<Dim>& corners;  // of each cell, apart from what is needed seldom
-  std::vector<EikonalCell<Dim>> cells;
-  std::vector<std::uint16_t> obtuse;  // angles of each cell
-  VertexCells vertex_cells;
-  std::vector<std::uint8_t> on_reflex_edge;  // V, 3D: where ways may bend
-  std::vector<Index> first_edge;             // V + 1
-  std::vector<Edge> edges;                   // of each vertex
-  float bucket_width;                        // narrow enough for vertices to come nearly in order
-
-  EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
-};
-
-template <int Dim>
-EikonalMesh<Dim>::EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
-    : corners(mesh.cells),
-      cells(mesh.num_cells()),
-      obtuse(mesh.num_cells()),
-      vertex_cells(mesh),
-      first_edge(1, 0) {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    cells[s] = distance::eikonal_cell(mesh, s);
-    obtuse[s] = distance::obtuse_angles(cells[s]);
-  }
-  if constexpr (Dim == 3) on_reflex_edge = distance::on_reflex_edges(mesh, topology);
-  std::vector<Index> seen_from(mesh.num_vertices(), -1);
-  double total = 0;
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    seen_from[v] = v;
-    for (const Index s : vertex_cells.cells_of(v)) {
-      for (const Index w : corners.col(s)) {
-        if (seen_from[w] == v) continue;
-        seen_from[w] = v;
-        const double length = (mesh.points.col(v) - mesh.points.col(w)).norm();
-        edges.push_back({w, static_cast<float>(length)});
-        total += length;
-      }
-    }
-    first_edge.push_back(static_cast<Index>(edges.size()));
-  }
-  bucket_width = static_cast<float>(0.02 * total / static_cast<double>(edges.size()));
-}
-
-// A queue that is sorted by buckets of distances.
-class BucketQueue {
- public:
-  explicit BucketQueue(float width) : width_(width) {}
-
-  void push(Index vertex, float distance) {
-    const auto bucket = std::max(current_, static_cast<std::size_t>(distance / width_));
-    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
-    buckets_[bucket].push_back(vertex);
-  }
-
-  // -1 if it is empty.
-  Index pop() {
-    for (; current_ < buckets_.size(); ++current_) {
-      auto& bucket = buckets_[current_];
-      if (bucket.empty()) continue;
-      const Index vertex = bucket.back();
-      bucket.pop_back();
-      return vertex;
-    }
-    return -1;
-  }
-
-  void clear() { current_ = 0; }
-
- private:
-  float width_;
-  std::size_t current_ = 0;
-  std::vector<std::vector<Index>> buckets_;
-};
+using distance::CellTasks;
+using distance::Corner;
+using distance::EdgeTo;
+using distance::EikonalMesh;
 
 enum class State : std::uint8_t { kFar, kWaiting, kPassed };
 
@@ -113,133 +33,186 @@ template <int Dim>
 class March {
  public:
   explicit March(const EikonalMesh<Dim>& mesh)
-      : mesh_(mesh), tolerance_(1e-3f * mesh.bucket_width), queue_(mesh.bucket_width) {}
+      : mesh_(mesh),
+        cells_(mesh.cells.data()),
+        // Narrow enough for vertices to come nearly in order.
+        queue_(0.02f * mesh.mean_length),
+        tolerance_(2e-5f * mesh.mean_length) {}
 
   const std::vector<Arrival>& run(Index source) {
-    arrivals_.assign(mesh_.first_edge.size() - 1, Arrival{});
-    num_passed_.assign(mesh_.cells.size(), 0);
-    lower(source, 0, false);
+    arrivals_.assign(mesh_.num_vertices(), Arrival{});
+    passed_.assign(mesh_.cells.size(), 0);
+    queue_.restart();
+    arrive(source, 0, false);
     for (Index v = queue_.pop(); v >= 0; v = queue_.pop()) {
       if (arrivals_[v].state != State::kWaiting) continue;
-      if (Dim == 3 && arrivals_[v].along_edge) look_through_faces(v);
+      if constexpr (Dim == 3) {
+        if (arrivals_[v].along_edge) look_through_facets(v);
+      }
       arrivals_[v].state = State::kPassed;
+      fetch_lists(queue_.next());
+      note_cells(v);
       pass_on_along_edges(v);
+      if constexpr (Dim == 3) pass_on_round_bends(v);
       pass_on_through_cells(v);
     }
-    queue_.clear();
     return arrivals_;
   }
 
  private:
-  void lower(Index vertex, float distance, bool along_edge) {
+  // Larger meshes do not fit in the near caches, and what is read for one vertex has little to do
+  // with what was read for the one before. (A call that only fetches has no effect to the compiler,
+  // which drops it unless it is part of its caller from the beginning.)
+  [[gnu::always_inline]] void fetch_lists(Index vertex) const {
+    if (vertex < 0) return;
+    constexpr int kEdgesPerLine = 64 / sizeof(EdgeTo);
+    __builtin_prefetch(mesh_.corners.of(vertex).begin());
+    __builtin_prefetch(mesh_.edges.of(vertex).begin());
+    __builtin_prefetch(mesh_.edges.of(vertex).begin() + kEdgesPerLine);
+  }
+
+  void arrive(Index vertex, float distance, bool along_edge) {
     auto& arrival = arrivals_[vertex];
-    if (!(distance < arrival.distance - tolerance_)) return;
     if (arrival.state == State::kPassed) {
-      for (const Index s : mesh_.vertex_cells.cells_of(vertex)) --num_passed_[s];
+      for (const Corner at : mesh_.corners.of(vertex)) {
+        passed_[at.simplex()] = static_cast<std::uint8_t>(passed_[at.simplex()] & ~at.bit());
+      }
     }
     arrival = {distance, State::kWaiting, along_edge};
     queue_.push(vertex, distance);
   }
 
+  // Marks the vertex as passed in its cells, and notes and fetches those that have at most one
+  // corner left.
+  void note_cells(Index vertex) {
+    static constexpr CellTasks kTasks = distance::cell_tasks<Dim>();
+    const auto corners = mesh_.corners.of(vertex);
+    const auto most = static_cast<std::size_t>(corners.end() - corners.begin());
+    if (noted_.size() < most) noted_.resize(most);
+    // Bytes may be anything to the compiler, also members of this class: it must not look there.
+    std::uint8_t* const passed = passed_.data();
+    Corner* const noted = noted_.data();
+    std::size_t num_noted = 0;
+    for (const Corner at : corners) {
+      const unsigned set = passed[at.simplex()] | at.bit();
+      passed[at.simplex()] = static_cast<std::uint8_t>(set);
+      noted[num_noted] = at;
+      num_noted += kTasks.is_something[set];  // a branch could not be foreseen
+    }
+    for (std::size_t k = 0; k < num_noted; ++k) __builtin_prefetch(cells_ + noted[k].simplex());
+    num_noted_ = num_noted;
+  }
+
   void pass_on_along_edges(Index vertex) {
-    const float distance = arrivals_[vertex].distance;
-    for (Index e = mesh_.first_edge[vertex]; e < mesh_.first_edge[vertex + 1]; ++e) {
-      lower(mesh_.edges[e].to, distance + mesh_.edges[e].length, true);
+    const Arrival* const arrivals = arrivals_.data();
+    const float distance = arrivals[vertex].distance;
+    const float tolerance = tolerance_;
+    for (const EdgeTo& edge : mesh_.edges.of(vertex)) {
+      const float along = distance + edge.length;
+      if (along < arrivals[edge.vertex].distance - tolerance) arrive(edge.vertex, along, true);
     }
   }
 
-  // A ray through a cell is known once all corners but one have been passed. One that has been
-  // passed before `vertex` can only profit from it at an obtuse angle.
+  // Ways bend round reflex edges of the boundary: rays leave these within facets.
+  void pass_on_round_bends(Index vertex) {
+    for (const Corner at : mesh_.bends.of(vertex)) {
+      const Index* corners = corners_of_facet(at.simplex());
+      const int first = next(at.corner());
+      const Index other = corners[corners[first] == vertex ? next(first) : first];
+      if (arrivals_[other].state != State::kPassed) continue;
+      const Index apex = corners[at.corner()];
+      const float within = distance_within_facet(at, arrivals_[apex].distance - tolerance_);
+      if (within >= 0) arrive(apex, within, false);
+    }
+  }
+
+  // A ray through a cell is known once all corners but one have been passed. An improvement on the
+  // way may have made a cell that was complete one of these.
   void pass_on_through_cells(Index vertex) {
-    for (const Index s : mesh_.vertex_cells.cells_of(vertex)) {
-      if (Dim == 3 && mesh_.on_reflex_edge[vertex] != 0) pass_on_from_reflex_edge(s, vertex);
-      const int num_passed = ++num_passed_[s];
-      if (num_passed < Dim || (num_passed > Dim && mesh_.obtuse[s] == 0)) continue;
-      const Index* corners = corners_of(s);
-      float known[Dim + 1];
-      int waiting = 0;
-      for (int k = 0; k <= Dim; ++k) {
-        known[k] = arrivals_[corners[k]].distance;
-        if (arrivals_[corners[k]].state != State::kPassed) waiting = k;
-      }
-      if (num_passed == Dim) {
-        look_through(s, waiting, known);
+    static constexpr CellTasks kTasks = distance::cell_tasks<Dim>();
+    const float distance = arrivals_[vertex].distance;
+    const Corner* const end = noted_.data() + num_noted_;
+    for (const Corner* at = noted_.data(); at != end; ++at) {
+      const unsigned set = passed_[at->simplex()];
+      if (kTasks.is_something[set] == 0) continue;
+      if (kTasks.missing[set] == CellTasks::kAll) {
+        look_back(*at, distance);
       } else {
-        look_back(s, vertex, known);
+        look_through(at->simplex(), kTasks.missing[set]);
       }
     }
   }
 
-  void look_through(Index s, int corner, const float (&known)[Dim + 1]) {
-    const float through = distance_through(mesh_.cells[s], corner, known);
-    if (through >= 0) lower(corners_of(s)[corner], through, false);
-  }
-
-  void look_back(Index s, Index vertex, const float (&known)[Dim + 1]) {
-    const int own = corner_of(s, vertex);
-    for (int k = 0; k <= Dim; ++k) {
-      if ((mesh_.obtuse[s] >> (4 * k + own) & 1) != 0) look_through(s, k, known);
+  // A corner that has been passed before can only profit from this one at an obtuse angle.
+  void look_back(Corner at, float distance) {
+    const auto& bounds = mesh_.look_back[at.simplex()];
+    for (unsigned left = bounds.obtuse_beside(at.corner()); left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      const float present = arrivals_[cells_[at.simplex()].corners[k]].distance;
+      if (bounds.can_help(present, distance)) look_through(at.simplex(), k);
     }
   }
 
-  // The ray within a face of a cell.
-  float distance_within_face(Index s, int corner, int first, int second) {
-    using Cell = EikonalCell<Dim>;
-    const auto& lengths2 = mesh_.cells[s].lengths2;
-    const auto face = distance::eikonal_triangle({lengths2[Cell::pair(corner, first)],
-                                                  lengths2[Cell::pair(corner, second)],
-                                                  lengths2[Cell::pair(first, second)]});
-    const Index* corners = corners_of(s);
-    return distance_through(
-        face, 0, {0, arrivals_[corners[first]].distance, arrivals_[corners[second]].distance});
-  }
-
-  // Ways bend round reflex edges of the boundary: rays leave these within faces.
-  void pass_on_from_reflex_edge(Index s, Index vertex) {
-    const Index* corners = corners_of(s);
-    const int own = corner_of(s, vertex);
-    for (int other = 0; other <= Dim; ++other) {
-      if (other == own || mesh_.on_reflex_edge[corners[other]] == 0) continue;
-      if (arrivals_[corners[other]].state != State::kPassed) continue;
-      for (int k = 0; k <= Dim; ++k) {
-        if (k == own || k == other) continue;
-        const float within = distance_within_face(s, k, own, other);
-        if (within >= 0) lower(corners[k], within, false);
-      }
+  void look_through(std::size_t s, int corner) {
+    const auto& cell = cells_[s];
+    const auto of = [&](int k) { return arrivals_[cell.corners[k]].distance; };
+    const float limit = of(corner) - tolerance_;
+    float through;
+    if constexpr (Dim == 3) {
+      through =
+          distance_through(cell, corner, {of(corner ^ 1), of(corner ^ 2), of(corner ^ 3)}, limit);
+    } else {
+      through = distance_through(cell, corner, of(next(corner)), of(next(next(corner))), limit);
     }
+    if (through >= 0) arrive(cell.corners[corner], through, false);
   }
 
   // For a vertex that no ray has reached through a cell.
-  void look_through_faces(Index vertex) {
-    auto& arrival = arrivals_[vertex];
-    for (const Index s : mesh_.vertex_cells.cells_of(vertex)) {
-      const Index* corners = corners_of(s);
-      const int own = corner_of(s, vertex);
-      for (int side = 1; side <= Dim; ++side) {
-        const int first = (own + side) % 4;
-        const int second = (own + side % 3 + 1) % 4;
-        if (arrivals_[corners[first]].state != State::kPassed) continue;
-        if (arrivals_[corners[second]].state != State::kPassed) continue;
-        const float within = distance_within_face(s, own, first, second);
-        if (within >= 0) arrival.distance = std::min(arrival.distance, within);
+  void look_through_facets(Index vertex) {
+    for (const Corner at : mesh_.corners.of(vertex)) {
+      const unsigned others = 15u - at.bit();
+      const unsigned waiting = others & ~passed_[at.simplex()];
+      if ((waiting & (waiting - 1)) != 0) continue;  // more than one
+      // A facet lies opposite to a corner and needs the others. Its first cell is to look at it.
+      const auto s = static_cast<Index>(at.simplex());
+      for (unsigned left = waiting == 0 ? others : waiting; left != 0; left &= left - 1) {
+        const Index facet = mesh_.topology.cell_facets(__builtin_ctz(left), s);
+        if (mesh_.topology.sides(0, facet) == s) look_through_facet(facet, vertex);
       }
     }
   }
 
-  const Index* corners_of(Index s) const {
-    return mesh_.corners.data() + std::size_t(s) * (Dim + 1);
+  void look_through_facet(Index facet, Index vertex) {
+    const Index* corners = corners_of_facet(static_cast<std::size_t>(facet));
+    const int corner = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    float& distance = arrivals_[vertex].distance;
+    const float within = distance_within_facet({facet, corner}, distance);
+    if (within >= 0) distance = within;
   }
 
-  int corner_of(Index s, Index vertex) const {
-    const Index* corners = corners_of(s);
-    return static_cast<int>(std::find(corners, corners + Dim, vertex) - corners);
+  float distance_within_facet(Corner at, float limit) const {
+    const Index* corners = corners_of_facet(at.simplex());
+    const auto of = [&](int k) { return arrivals_[corners[k]].distance; };
+    const int first = next(at.corner());
+    return distance_through(mesh_.facets[at.simplex()], at.corner(), of(first), of(next(first)),
+                            limit);
   }
+
+  const Index* corners_of_facet(std::size_t facet) const {
+    return mesh_.topology.facets.data() + facet * Dim;
+  }
+
+  // Of a triangle.
+  static int next(int corner) { return corner == 2 ? 0 : corner + 1; }
 
   const EikonalMesh<Dim>& mesh_;
+  const distance::EikonalCell<Dim>* const cells_;
+  distance::BucketQueue queue_;
   const float tolerance_;  // smaller improvements are not passed on
-  BucketQueue queue_;
   std::vector<Arrival> arrivals_;
-  std::vector<std::uint8_t> num_passed_;  // corners of each cell
+  std::vector<std::uint8_t> passed_;  // corners of each cell, as bits
+  std::vector<Corner> noted_;         // the cells to look at after the present vertex: the first
+  std::size_t num_noted_ = 0;         // so many of them
 };
 
 }  // namespace
