@@ -8,6 +8,7 @@
 #include "experiments.h"
 #include "flbc/deform.h"
 #include "flbc/solver.h"
+#include "iteration_time.h"
 #include "result_table.h"
 #include "run_columns.h"
 #include "stopwatch.h"
@@ -56,27 +57,13 @@ Row row_of(double copy, const std::string& what, double bytes, double seconds) {
 // integrability, and reads phi.
 template <int Dim>
 Row measure_gradient(const Context& context, const Setting<Dim>& setting, double copy) {
-  constexpr int kIterations = 20;
-  SolverOptions options;
-  options.method = Method::kGradient;
-  options.threads = context.threads;
-  options.tolerance = 1e-100;
-  double seconds[2];
-  for (int part = 0; part < 2; ++part) {
-    options.max_iterations = 1 + part * kIterations;
-    options.check_interval = options.max_iterations;
-    seconds[part] = 1e300;
-    for (int k = 0; k < 3; ++k) {
-      seconds[part] = std::min(seconds[part], solve(setting.problem, options).report.seconds.solve);
-    }
-  }
   const auto& problem = setting.problem;
   const double state =
       2.0 * Dim * problem.mesh.num_cells() + (Dim - 1.0) * problem.topology.num_facets();
   const double numbers = 2 * state + problem.mesh.num_cells();
   return row_of(copy, std::string("gradient iteration: ") + setting.model.name,
                 numbers * problem.num_control_points() * sizeof(float),
-                (seconds[1] - seconds[0]) / kIterations);
+                iteration_seconds(problem, Method::kGradient, context.threads));
 }
 
 // Random sparse weights of many points, as rows of dense ones and without their zeros.

@@ -5,6 +5,7 @@
 
 #include "experiments.h"
 #include "flbc/solver.h"
+#include "iteration_time.h"
 #include "references.h"
 #include "result_table.h"
 #include "run_columns.h"
@@ -40,25 +41,6 @@ struct Best {
     if (new_setup + new_solve < total()) *this = {new_setup, new_solve};
   }
 };
-
-// Seconds of one iteration, set-up left out.
-template <int Dim>
-double iteration_seconds(const LbcProblem<Dim>& problem, Method method, int threads) {
-  constexpr int kIterations = 20;
-  SolverOptions options;
-  options.method = method;
-  options.threads = threads;
-  options.tolerance = 1e-100;
-  double seconds[2];
-  for (int part = 0; part < 2; ++part) {
-    options.max_iterations = 1 + part * kIterations;
-    seconds[part] = 1e300;
-    for (int k = 0; k < 3; ++k) {
-      seconds[part] = std::min(seconds[part], solve(problem, options).report.seconds.solve);
-    }
-  }
-  return (seconds[1] - seconds[0]) / kIterations;
-}
 
 // The first iteration whose weights are as good as wanted.
 template <int Dim>

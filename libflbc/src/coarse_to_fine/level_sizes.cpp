@@ -17,7 +17,7 @@ struct Worthwhile {
 };
 
 Worthwhile worthwhile(int dim, Method method) {
-  if (method == Method::kGradient) return {0, dim == 2 ? 500 : 2000};
+  if (method == Method::kGradient) return {0, dim == 2 ? 200 : 2000};
   return {dim == 2 ? 4e5 : std::numeric_limits<double>::infinity(), 2000};
 }
 
