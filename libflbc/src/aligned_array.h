@@ -3,8 +3,8 @@
 //! One block of numbers, aligned for vector instructions and zero at first.
 #pragma once
 
+#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <new>
 
@@ -16,16 +16,19 @@ class AlignedArray {
   AlignedArray() = default;
   explicit AlignedArray(std::size_t size) : size_(size) {
     constexpr std::size_t kAlignment = 64;
-    const std::size_t bytes = (size * sizeof(Scalar) + kAlignment - 1) / kAlignment * kAlignment;
-    data_.reset(static_cast<Scalar*>(std::aligned_alloc(kAlignment, bytes)));
-    if (!data_ && bytes > 0) throw std::bad_alloc();
-    if (bytes > 0) std::memset(data_.get(), 0, bytes);
+    if (size == 0) return;
+    // Memory fresh from the system is zero already, and belongs to the thread that uses it first.
+    void* const block = std::calloc(size + kAlignment / sizeof(Scalar), sizeof(Scalar));
+    if (block == nullptr) throw std::bad_alloc();
+    const auto address = reinterpret_cast<std::uintptr_t>(block);
+    const auto aligned = (address + kAlignment - 1) / kAlignment * kAlignment;
+    data_ = {reinterpret_cast<Scalar*>(aligned), Free{block}};
   }
 
   //! Numbers that belong to someone else and stay where they are. \param data  aligned to 64 bytes
   static AlignedArray borrow(Scalar* data, std::size_t size) {
     AlignedArray array;
-    array.data_ = {data, Free{false}};
+    array.data_ = {data, Free{nullptr}};
     array.size_ = size;
     return array;
   }
@@ -38,10 +41,8 @@ class AlignedArray {
 
  private:
   struct Free {
-    bool owned = true;
-    void operator()(Scalar* data) const {
-      if (owned) std::free(data);
-    }
+    void* block = nullptr;
+    void operator()(Scalar*) const { std::free(block); }
   };
   std::unique_ptr<Scalar[], Free> data_;
   std::size_t size_ = 0;

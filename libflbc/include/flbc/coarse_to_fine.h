@@ -20,8 +20,8 @@ struct CoarseLevels {
   //! meshes means none at all.
   Index coarsest = 0;
 
-  //! Vertices of a mesh relative to the next coarser one, >= 2.
-  double factor = 5;
+  //! Vertices of a mesh relative to the next coarser one, >= 2; 0 = as it was measured to pay.
+  double factor = 0;
 
   //! Tolerance on coarse meshes relative to the one wanted, > 0.
   double looseness = 4;

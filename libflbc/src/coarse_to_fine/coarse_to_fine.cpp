@@ -31,8 +31,9 @@ void validate(const CoarseMesher<Dim>& mesher, const CoarseLevels& levels) {
     throw OptionError("coarsest must be a number of vertices, or 0 for the default, not " +
                       std::to_string(levels.coarsest));
   }
-  if (!(levels.factor >= 2)) {
-    throw OptionError("factor must be at least 2, not " + format_number(levels.factor));
+  if (levels.factor != 0 && !(levels.factor >= 2)) {
+    throw OptionError("factor must be at least 2, or 0 for the default, not " +
+                      format_number(levels.factor));
   }
   if (!(levels.looseness > 0)) {
     throw OptionError("looseness must be positive, not " + format_number(levels.looseness));
