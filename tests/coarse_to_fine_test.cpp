@@ -277,6 +277,7 @@ template <int Dim>
 CoarseLevels test_levels() {
   CoarseLevels levels;
   levels.coarsest = 50;
+  levels.factor = 5;
   return levels;
 }
 

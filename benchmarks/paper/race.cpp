@@ -32,7 +32,6 @@ class Runner {
 
   Solution run(int iterations) const {
     auto options = options_;
-    options.check_interval = std::min(10, iterations);
     options.progress = [iterations](const Progress& progress) {
       return progress.finer_levels > 0 || progress.iteration < iterations;
     };
@@ -49,9 +48,9 @@ class Runner {
     int low = 0;
     int high = 1;  // in tens
     while (error_after(10 * high) > kWanted) {
-      if (20 * high > most) return 0;
+      if (10 * high >= most) return 0;
       low = high;
-      high *= 2;
+      high = std::min(2 * high, most / 10);
     }
     while (high - low > 1) {
       const int middle = (low + high) / 2;
@@ -84,7 +83,10 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
   auto options = method.options(context.threads);
   options.max_iterations = 2 * most;
   options.non_negative = NonNegative::kAuto;
-  if (method.method == Method::kValue) options.tolerance = kWanted / 100;
+  // No method shall stop before. That of the gradient method also serves its coarser meshes.
+  if (method.method == Method::kValue) options.tolerance = kWanted;
+  if (method.method == Method::kPaper) options.tolerance = 1e-100;
+  if (method.method == Method::kLbc2014) options.tolerance = 1e-100;
   const Runner<Dim> runner(setting, optimum.weights, options);
   const int found = runner.first_iterations(most);
   std::optional<Solution> best;
