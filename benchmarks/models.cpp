@@ -19,23 +19,18 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
 
 #include "flbc/flbc.h"
 #include "flbc/io/cage_io.h"
+#include "real_models.h"
 
 namespace {
 
 using namespace flbc;
-
-struct Case {
-  const char* name;
-  const char* cage;
-  Index vertices;
-};
+using namespace flbc::bench;
 
 constexpr Case kCases[] = {
     {"woody", "2d/woody-control-edgeset.obj", 10800},
@@ -47,13 +42,6 @@ constexpr Case kCases[] = {
     {"beast", "3d/beast_cage.obj", 6000},
     {"horse-40k", "3d/horse_cage.obj", 40000},
 };
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
 
 double peak_mebibytes() {
   rusage usage{};
@@ -78,14 +66,7 @@ double error_to_reference(const LbcProblem<Dim>& problem, const WeightMatrix& we
   options.tolerance = 1e-100;
   options.max_iterations = iterations;
   const auto reference = solve(problem, options).weights;
-  double sum = 0;
-  Index interior = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
-    sum += (weights.col(v) - reference.col(v)).squaredNorm();
-    ++interior;
-  }
-  return sum / static_cast<double>(interior * weights.rows());
+  return squared_error(problem, weights, reference);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -189,15 +170,9 @@ int main(int argc, char** argv) {
     std::printf("%s\n", arguments.reference_iterations > 0 ? "     error" : "");
     std::fflush(stdout);
     bool ok = true;
-    for (const auto& test : kCases) {
-      if (!arguments.only_model.empty() && arguments.only_model != test.name) continue;
-      const auto path = std::string(argv[1]) + "/" + test.cage;
-      if (!std::ifstream(path)) {
-        std::fprintf(stderr, "%s: skipped, %s is absent\n", test.name, path.c_str());
-        continue;
-      }
+    for_each_case(argv[1], kCases, arguments.only_model, [&](const Case& test, const auto& path) {
       ok = run_isolated(test, path, arguments) && ok;
-    }
+    });
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

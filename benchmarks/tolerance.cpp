@@ -10,23 +10,18 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
 
 #include "flbc/flbc.h"
 #include "flbc/io/cage_io.h"
+#include "real_models.h"
 
 namespace {
 
 using namespace flbc;
-
-struct Case {
-  const char* name;
-  const char* cage;
-  Index vertices;
-};
+using namespace flbc::bench;
 
 constexpr Case kCases[] = {
     {"woody", "2d/woody-control-edgeset.obj", 2000},
@@ -51,26 +46,6 @@ constexpr Case kCases[] = {
 };
 
 constexpr double kTolerances[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
-
-template <int Dim>
-double mean_squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a,
-                          const WeightMatrix& b) {
-  double sum = 0;
-  Index interior = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
-    sum += (a.col(v) - b.col(v)).squaredNorm();
-    ++interior;
-  }
-  return sum / (static_cast<double>(interior) * static_cast<double>(a.rows()));
-}
 
 struct Totals {
   double worst = 0;
@@ -111,7 +86,7 @@ void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments, To
     options = {};
     options.tolerance = tolerance;
     const auto solution = solve_from(arguments.warm, problem, options);
-    const double ratio = mean_squared_error(problem, solution.weights, reference) / tolerance;
+    const double ratio = squared_error(problem, solution.weights, reference) / tolerance;
     std::printf("  %5d %6.3f", solution.report.iterations, ratio);
     totals.worst = std::max(totals.worst, ratio);
     totals.log_sum += std::log10(std::max(ratio, 1e-3));
@@ -149,16 +124,10 @@ int main(int argc, char** argv) {
     for (const double tolerance : kTolerances) std::printf("  %5.0e  ratio", tolerance);
     std::printf("\n");
     Totals totals;
-    for (const auto& test : kCases) {
-      if (!arguments.only_model.empty() && arguments.only_model != test.name) continue;
-      const auto path = std::string(argv[1]) + "/" + test.cage;
-      if (!std::ifstream(path)) {
-        std::fprintf(stderr, "%s: skipped, %s is absent\n", test.name, path.c_str());
-        continue;
-      }
+    for_each_case(argv[1], kCases, arguments.only_model, [&](const Case& test, const auto& path) {
       const auto cage = io::to_cage(io::read_obj(path), path);
       std::visit([&](const auto& any) { run(test, any, arguments, totals); }, cage);
-    }
+    });
     std::printf("worst ratio %.2f, geometric mean %.2f, %d iterations in all\n", totals.worst,
                 std::pow(10, totals.log_sum / std::max(1, totals.runs)), totals.iterations);
     return totals.worst <= 3 ? 0 : 1;

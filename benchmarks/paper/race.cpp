@@ -5,10 +5,7 @@
 
 #include "experiments.h"
 #include "flbc/solver.h"
-#include "methods.h"
-#include "references.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "methods_table.h"
 #include "stopwatch.h"
 
 namespace flbc::bench {
@@ -82,7 +79,6 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
   const auto optimum = reference(context, setting);
   auto options = method.options(context.threads);
   options.max_iterations = 2 * most;
-  options.non_negative = NonNegative::kAuto;
   // No method shall stop before. That of the gradient method also serves its coarser meshes.
   if (method.method == Method::kValue) options.tolerance = kWanted;
   if (method.method == Method::kPaper) options.tolerance = 1e-100;
@@ -109,23 +105,14 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
 
 bool run_race(const Context& context) {
   ResultTable table(context, "race", columns());
-  for (const auto& model : models()) {
-    const Index vertices = context.size(model.dim, model.paper_size);
-    const auto ready = in_setting(context, "race reference", model, vertices,
-                                  [&](const auto& setting) -> std::string {
-                                    reference(context, setting);
-                                    return "";
-                                  });
-    table.add(ready);
-    if (!ready) continue;
-    for (const auto& method : methods()) {
-      if (method.method == Method::kLbc2014 && method.penalty > 0) continue;  // as published
-      const auto name = std::string("race ") + method.name;
-      table.add(in_setting(context, name, model, vertices, [&](const auto& setting) {
-        return table.line(measure(context, setting, method));
-      }));
-    }
-  }
+  const auto is_wanted = [](const NamedMethod& method) {
+    const bool as_published = method.method == Method::kLbc2014 && method.penalty > 0;
+    return !as_published;
+  };
+  add_methods(context, "race", table, is_wanted,
+              [&](const auto& setting, const NamedMethod& method) {
+                return measure(context, setting, method);
+              });
   return table.write(
       "iterations on the given mesh, in tens, and seconds to a true error of 1e-5; value and "
       "gradient from coarser meshes where flbc solve starts from these, which are made and solved "

@@ -121,21 +121,7 @@ Reference reference(const Context& context, const Setting<Dim>& setting) {
   return {solution.weights, report.certificate.relative_gap};
 }
 
-template <int Dim>
-double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b) {
-  double sum = 0;
-  Index interior = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
-    sum += (a.col(v) - b.col(v)).squaredNorm();
-    ++interior;
-  }
-  return sum / (static_cast<double>(interior) * static_cast<double>(a.rows()));
-}
-
 template Reference reference(const Context&, const Setting<2>&);
 template Reference reference(const Context&, const Setting<3>&);
-template double squared_error(const LbcProblem<2>&, const WeightMatrix&, const WeightMatrix&);
-template double squared_error(const LbcProblem<3>&, const WeightMatrix&, const WeightMatrix&);
 
 }  // namespace flbc::bench

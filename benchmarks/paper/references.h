@@ -23,8 +23,4 @@ SolverOptions optimum_options(const Context& context, NonNegative non_negative);
 template <int Dim>
 Reference reference(const Context& context, const Setting<Dim>& setting);
 
-//! The paper's error (5): the mean squared difference over interior vertices and control points.
-template <int Dim>
-double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b);
-
 }  // namespace flbc::bench

@@ -7,18 +7,9 @@
 
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
-#include "flbc/meshing.h"
 #include "stopwatch.h"
 
 namespace flbc::bench {
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
 
 std::string cage_path(const Context& context, const Model& model) {
   return context.models + "/" + model.cage;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "../real_models.h"
 #include "child.h"
 #include "context.h"
 #include "flbc/coarse_to_fine.h"
@@ -24,10 +25,6 @@ std::string domain_path(const Context& context, const Model& model, Index vertic
 //! Meshes the cage, once in the program's run.
 //! \return false after a message on stderr if that failed
 bool prepare_domain(const Context& context, const Model& model, Index vertices);
-
-//! Meshes a cage with about so many vertices.
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices);
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices);
 
 //! Solves as flbc solve does, from a coarser mesh where that pays.
 template <int Dim>

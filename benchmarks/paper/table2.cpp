@@ -2,10 +2,7 @@
 // Table 2: all methods at the paper's sizes, each by its own stopping rule.
 #include "experiments.h"
 #include "flbc/solver.h"
-#include "methods.h"
-#include "references.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "methods_table.h"
 
 namespace flbc::bench {
 namespace {
@@ -53,22 +50,11 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
 
 bool run_table2(const Context& context) {
   ResultTable table(context, "table2", columns());
-  for (const auto& model : models()) {
-    const Index vertices = context.size(model.dim, model.paper_size);
-    const auto ready = in_setting(context, "table2 reference", model, vertices,
-                                  [&](const auto& setting) -> std::string {
-                                    reference(context, setting);
-                                    return "";
-                                  });
-    table.add(ready);
-    if (!ready) continue;
-    for (const auto& method : methods()) {
-      const auto name = std::string("table2 ") + method.name;
-      table.add(in_setting(context, name, model, vertices, [&](const auto& setting) {
-        return table.line(measure(context, setting, method));
-      }));
-    }
-  }
+  add_methods(
+      context, "table2", table, [](const NamedMethod&) { return true; },
+      [&](const auto& setting, const NamedMethod& method) {
+        return measure(context, setting, method);
+      });
   return table.write("table 2: error = mean squared difference to the certified optimum");
 }
 
