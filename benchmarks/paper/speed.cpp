@@ -100,8 +100,11 @@ Row measure(const Context& context, const Setting<Dim>& setting) {
   if (setting.problem.mesh.num_vertices() < 30000) {
     const auto optimum = reference(context, setting);
     row["error"] = number(squared_error(setting.problem, solution.weights, optimum.weights));
-    row["iterations_to_wanted"] = std::to_string(iterations_to_wanted(
-        setting.problem, optimum.weights, options, solution.report.iterations));
+    // These are counted from a cold start.
+    if (solution.report.coarse_levels.empty()) {
+      row["iterations_to_wanted"] = std::to_string(iterations_to_wanted(
+          setting.problem, optimum.weights, options, solution.report.iterations));
+    }
   }
   return row;
 }
