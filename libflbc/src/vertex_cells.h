@@ -3,9 +3,8 @@
 //! The cells around each vertex.
 #pragma once
 
-#include <vector>
-
 #include "flbc/domain_mesh.h"
+#include "vertex_items.h"
 
 namespace flbc {
 
@@ -14,33 +13,20 @@ class VertexCells {
  public:
   template <int Dim>
   explicit VertexCells(const DomainMesh<Dim>& mesh)
-      : start_(mesh.num_vertices() + 1, 0), cells_(mesh.cells.size()) {
-    for (const Index v : mesh.cells.reshaped()) ++start_[v + 1];
-    for (Index v = 0; v < mesh.num_vertices(); ++v) start_[v + 1] += start_[v];
-    std::vector<Index> next(start_.begin(), start_.end() - 1);
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      for (int k = 0; k <= Dim; ++k) cells_[next[mesh.cells(k, s)]++] = s;
-    }
-  }
+      : around_(items_by_vertex<Index>(mesh.num_vertices(), [&](const auto& visit) {
+          for (Index s = 0; s < mesh.num_cells(); ++s) {
+            for (const Index v : mesh.cells.col(s)) visit(v, s);
+          }
+        })) {}
 
-  struct Range {
-    const Index* first;
-    const Index* last;
-    const Index* begin() const { return first; }
-    const Index* end() const { return last; }
-  };
-
-  Range cells_of(Index vertex) const {
-    return {cells_.data() + start_[vertex], cells_.data() + start_[vertex + 1]};
-  }
+  VertexItems<Index>::Range cells_of(Index vertex) const { return around_.of(vertex); }
 
   //! The same as plain arrays: where the cells of each vertex begin, V + 1, and the cells.
-  const Index* starts() const { return start_.data(); }
-  const Index* cells() const { return cells_.data(); }
+  const Index* starts() const { return around_.start.data(); }
+  const Index* cells() const { return around_.items.data(); }
 
  private:
-  std::vector<Index> start_;
-  std::vector<Index> cells_;
+  VertexItems<Index> around_;
 };
 
 }  // namespace flbc

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "cell_geometry.h"
 #include "distance/reflex_edges.h"
@@ -105,15 +104,11 @@ Tetrahedron eikonal_cell(const DomainMesh<3>& mesh, Index s, const CellLengths<3
 
 template <int Dim>
 VertexItems<Corner> corners_of_vertices(const DomainMesh<Dim>& mesh) {
-  VertexItems<Corner> corners{std::vector<Index>(mesh.num_vertices() + 1, 0), {}};
-  for (const Index v : mesh.cells.reshaped()) ++corners.start[v + 1];
-  std::partial_sum(corners.start.begin(), corners.start.end(), corners.start.begin());
-  corners.items.resize(mesh.cells.size());
-  std::vector<Index> next(corners.start.begin(), corners.start.end() - 1);
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int k = 0; k <= Dim; ++k) corners.items[next[mesh.cells(k, s)]++] = {s, k};
-  }
-  return corners;
+  return items_by_vertex<Corner>(mesh.num_vertices(), [&](const auto& visit) {
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      for (int k = 0; k <= Dim; ++k) visit(mesh.cells(k, s), Corner(s, k));
+    }
+  });
 }
 
 template <int Dim>
@@ -158,32 +153,21 @@ std::vector<Triangle> eikonal_facets(const DomainMesh<3>& mesh, const MeshTopolo
   return facets;
 }
 
-// Calls visit(vertex, corner of a facet) for sides of facets that have both ends on reflex edges:
-// the vertex is one of them, the corner opposite.
-template <class Visit>
-void for_each_bend(const MeshTopology<3>& topology, const std::vector<std::uint8_t>& on_reflex_edge,
-                   const Visit& visit) {
-  for (Index f = 0; f < topology.num_facets(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const Index first = topology.facets((k + 1) % 3, f);
-      const Index second = topology.facets((k + 2) % 3, f);
-      if (on_reflex_edge[first] == 0 || on_reflex_edge[second] == 0) continue;
-      visit(first, Corner(f, k));
-      visit(second, Corner(f, k));
-    }
-  }
-}
-
+// Of sides of facets that have both ends on reflex edges, for each end the corner opposite.
 VertexItems<Corner> bends_of_vertices(const MeshTopology<3>& topology,
                                       const std::vector<std::uint8_t>& on_reflex_edge) {
-  VertexItems<Corner> bends{std::vector<Index>(on_reflex_edge.size() + 1, 0), {}};
-  for_each_bend(topology, on_reflex_edge, [&](Index vertex, Corner) { ++bends.start[vertex + 1]; });
-  std::partial_sum(bends.start.begin(), bends.start.end(), bends.start.begin());
-  bends.items.resize(bends.start.back());
-  std::vector<Index> next(bends.start.begin(), bends.start.end() - 1);
-  for_each_bend(topology, on_reflex_edge,
-                [&](Index vertex, Corner corner) { bends.items[next[vertex]++] = corner; });
-  return bends;
+  const auto num_vertices = static_cast<Index>(on_reflex_edge.size());
+  return items_by_vertex<Corner>(num_vertices, [&](const auto& visit) {
+    for (Index f = 0; f < topology.num_facets(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const Index first = topology.facets((k + 1) % 3, f);
+        const Index second = topology.facets((k + 2) % 3, f);
+        if (on_reflex_edge[first] == 0 || on_reflex_edge[second] == 0) continue;
+        visit(first, Corner(f, k));
+        visit(second, Corner(f, k));
+      }
+    }
+  });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "distance/tetrahedron_ray.h"
 #include "distance/triangle_ray.h"
 #include "flbc/domain_mesh.h"
+#include "vertex_items.h"
 
 namespace flbc::distance {
 
@@ -50,23 +51,6 @@ struct LookBack {
   //! angle there can be between the ray and their edge.
   bool can_help(float of_corner, float of_other) const {
     return (of_other - of_corner) * (of_other + of_corner) < longest2 + 2 * latest * of_corner;
-  }
-};
-
-//! Items that belong to vertices, in one array.
-template <class Item>
-struct VertexItems {
-  std::vector<Index> start;  //!< V + 1
-  std::vector<Item> items;
-
-  struct Range {
-    const Item* first;
-    const Item* last;
-    const Item* begin() const { return first; }
-    const Item* end() const { return last; }
-  };
-  Range of(Index vertex) const {
-    return {items.data() + start[vertex], items.data() + start[vertex + 1]};
   }
 };
 
