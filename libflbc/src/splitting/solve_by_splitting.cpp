@@ -49,26 +49,19 @@ double largest_penalty(const LbcProblem<Dim>& problem) {
   return size_of(problem.cage.points) / 30;
 }
 
-template <class Scalar, int Dim>
-void adapt_penalty(Splitting<Scalar, Dim>& splitting, double largest) {
-  constexpr double kBalance = 0.3;
-  splitting.adapt_penalty(kBalance);
-  // Duals are kept, so that a second balance gives any multiple of the first.
-  if (splitting.penalty() > largest) {
-    splitting.adapt_penalty(kBalance * largest / splitting.penalty());
-  }
-}
-
+//! \param measure  of the domain
 template <class Scalar, int Dim>
 void iterate_value(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
-                   const SolverOptions& options, bool adaptive, bool warm, SolveReport& report) {
+                   double measure, const SolverOptions& options, bool adaptive, bool warm,
+                   SolveReport& report) {
+  constexpr double kBalance = 0.3;
   constexpr int kFewest = 8;
   const double n = problem.num_control_points();
   const double interior =
       problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
   const double num_weights = std::max(1.0, interior) * n;
   const double size = size_of(problem.cage.points);
-  const double residual_scale = size * size / (n * cell_measures(problem.mesh).sum());
+  const double residual_scale = size * size / (n * measure);
   splitting::ErrorEstimate estimate(warm, options.tolerance);
   auto history = splitting.history();
   history(0, splitting.data());
@@ -82,7 +75,7 @@ void iterate_value(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& pro
                              options.tolerance;
     const bool adapt =
         adaptive && (iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40);
-    if (adapt) adapt_penalty(splitting, largest_penalty(problem));
+    if (adapt) splitting.adapt_penalty(kBalance, largest_penalty(problem));
     const bool look = iteration % options.check_interval == 0 ||
                       (iteration >= kFewest && report.primal_residual <= 1) ||
                       iteration == options.max_iterations;
@@ -188,8 +181,8 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
     splitting->start_from_weights(harmonic_coordinates(problem));
   }
   if (value) {
-    iterate_value(*splitting, problem, options, options.penalty == 0 && !resumed && !relay.start,
-                  relay.start != nullptr, report);
+    iterate_value(*splitting, problem, metric.cell.sum(), options,
+                  options.penalty == 0 && !resumed && !relay.start, relay.start != nullptr, report);
   } else {
     iterate_2014(*splitting, options, report);
   }

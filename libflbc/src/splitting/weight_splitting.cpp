@@ -378,7 +378,7 @@ double WeightSplitting<Scalar, Dim>::weight_change_norm2(const AlignedArray<Scal
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::adapt_penalty(double ratio) {
+void WeightSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) {
   if (start_.size() == 0) return;
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
@@ -392,7 +392,7 @@ void WeightSplitting<Scalar, Dim>::adapt_penalty(double ratio) {
     motion2 += motion[i];
   }
   if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double factor = 1 / (ratio * std::sqrt(dual2 / motion2));
+  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
   for_slices([&](const Arrays<Scalar, Dim>& state, Columns columns) {
     kernel_.rescale_duals(state, columns, static_cast<Scalar>(factor));
   });

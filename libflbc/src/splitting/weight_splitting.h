@@ -4,6 +4,7 @@
 //! unknowns and solves a global linear system in each iteration.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "aligned_array.h"
@@ -83,8 +84,9 @@ class WeightSplitting {
   Residuals iterate_with_residuals();
 
   //! Balances the penalty against how far the weights have moved since the start, and keeps the
-  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|. Not after start_from_duals().
-  void adapt_penalty(double ratio);
+  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|, `largest` at most. Not after
+  //! start_from_duals().
+  void adapt_penalty(double ratio, double largest = std::numeric_limits<double>::infinity());
 
   double penalty() const { return penalty_; }
 
