@@ -167,8 +167,7 @@ TEST(ErrorEstimate, DoesNotEndWhereNothingShrinks) {
   }
 }
 
-// ---- what the weights do not show
-// ----------------------------------------------------------------
+// ---- what the weights do not show ---------------------------------------------------------------
 
 // Brings an estimate to where weights alone would end a run that promises 1e-6.
 int bring_to_the_end(ErrorEstimate& estimate) {

@@ -81,10 +81,6 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-bool inherits(Method method) {
-  return method == Method::kValue || method == Method::kGradient;
-}
-
 }  // namespace
 
 // All that belongs to one shape of the cage.

@@ -23,8 +23,13 @@ struct Outcome {
   std::function<Certificate(const WeightMatrix&)> certify;
 };
 
+//! Whether a method can start from weights and duals found elsewhere.
+inline bool inherits(Method method) {
+  return method == Method::kValue || method == Method::kGradient;
+}
+
 //! How an iteration takes over from one on a coarser mesh and hands over to one on a finer mesh;
-//! either may be null. For Method::kValue and kGradient.
+//! either may be null. For methods that inherits() holds for.
 template <int Dim>
 struct Relay {
   const Transfer<Dim>* start = nullptr;  //!< where to start

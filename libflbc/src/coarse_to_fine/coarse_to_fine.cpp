@@ -144,9 +144,8 @@ Solution solve_coarse_to_fine(const LbcProblem<Dim>& problem, const CoarseMesher
   validate(user_options);
   validate(mesher, levels);
   const auto options = resolve(user_options, Dim);
-  const bool inherits = options.method == Method::kValue || options.method == Method::kGradient;
   const bool resumed = storage != nullptr && storage->penalty() > 0;
-  if (!inherits || resumed) return solve(problem, user_options, storage);
+  if (!inherits(options.method) || resumed) return solve(problem, user_options, storage);
   const ThreadScope threads(options.threads);
   Cascade<Dim> cascade(problem, mesher, options, levels);
   cascade.climb();

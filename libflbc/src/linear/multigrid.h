@@ -38,8 +38,6 @@ class Multigrid {
   //! Stored numbers of all matrices, relative to those of the given one.
   double operator_complexity() const { return complexity_; }
 
-  int num_levels() const { return static_cast<int>(levels_.size()) + 1; }
-
  private:
   struct LevelData {
     std::vector<Index> starts, columns, upper;

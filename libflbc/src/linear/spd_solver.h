@@ -34,9 +34,6 @@ class SpdSolver {
   //! The row of every unknown in the arrays handed to solve_slice().
   const std::vector<Index>& position() const { return position_; }
 
-  //! Whether a solve is exact up to rounding.
-  bool is_direct() const { return std::holds_alternative<PanelCholesky<Scalar>>(solver_); }
-
   //! Solves, or takes one cycle, for the columns begin .. end - 1, multiples of 8, in the calling
   //! thread and in place; see PanelCholesky and Multigrid.
   void solve_slice(Scalar* rows, std::size_t stride, std::size_t begin, std::size_t end) {
