@@ -4,8 +4,8 @@
 #include <new>
 #include <string>
 
-#include "commands.h"
-#include "exit_status.h"
+#include "commands/commands.h"
+#include "commands/exit_status.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
 

@@ -6,25 +6,28 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)
 
 # An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that a
 # distribution may put the components with copyleft licences into packages of their own.
-function(flbc_install_library target component)
-  if(NOT TARGET ${target})
-    return()
-  endif()
-  install(TARGETS ${target} EXPORT flbc_${component}
-    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+function(flbc_install_component component)
+  foreach(target IN LISTS ARGN)
+    if(NOT TARGET ${target})
+      return()
+    endif()
+    install(TARGETS ${target} EXPORT flbc_${component}
+      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endforeach()
   install(EXPORT flbc_${component} NAMESPACE flbc:: FILE flbc-${component}.cmake
     DESTINATION ${package_dir})
 endfunction()
-flbc_install_library(flbc core)
-flbc_install_library(flbc_cgal cgal)
-flbc_install_library(flbc_tetgen tetgen)
-flbc_install_library(flbc_openmesh openmesh)
+flbc_install_component(core flbc flbc_io)
+flbc_install_component(cgal flbc_cgal)
+flbc_install_component(tetgen flbc_tetgen)
+flbc_install_component(openmesh flbc_openmesh)
 if(TARGET flbc_app)
   install(TARGETS flbc_app)
 endif()
 
 # ---- headers -------------------------------------------------------------------------------------
-install(DIRECTORY libflbc/include/flbc $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
+install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc
+  $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 if(TARGET flbc_openmesh)
   install(DIRECTORY openmesh_bindings DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

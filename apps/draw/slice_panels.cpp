@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "draw/weight_painter.h"
+#include "flbc/bounding_box.h"
 
 namespace flbc::draw {
 namespace {
@@ -66,7 +67,7 @@ void paint_panels(Canvas& canvas, const Scene& scene, const Box& strip, Index co
   const Vector<2> panel_size =
       row ? Vector<2>(length, strip.size().y()) : Vector<2>(strip.size().x(), length);
   const Vector<3> highlighted = scene.cage.points.col(control_point);
-  const double near = 0.01 * size_of<3>(scene.cage.points);
+  const double near = 0.01 * bounding_box_diagonal<3>(scene.cage.points);
 
   for (std::size_t k = 0; k < slices.size(); ++k) {
     const Slice& slice = *slices[k];

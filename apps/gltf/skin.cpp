@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "flbc/errors.h"
+#include "flbc/poses.h"
+#include "flbc/sparsify_error.h"
 #include "gltf/glb_writer.h"
 
 namespace flbc::gltf {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "flbc/sparsify.h"
+#include "flbc/sparsify_error.h"
 #include "gltf/joint_weights.h"
 #include "gltf/surface.h"
 

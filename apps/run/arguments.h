@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solve_settings.h"
+#include "solve/solve_settings.h"
 
 namespace flbc::app {
 

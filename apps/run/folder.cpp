@@ -11,11 +11,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "files/held_signals.h"
+#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "held_signals.h"
-#include "load.h"
-#include "report_json.h"
+#include "report/report_json.h"
 #include "run/names.h"
 
 namespace flbc::app {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/inputs.h"
 
-#include "animation.h"
-#include "file_sequence.h"
+#include "files/load.h"
 #include "flbc/errors.h"
-#include "load.h"
+#include "poses/animation.h"
+#include "poses/file_sequence.h"
 #include "run/names.h"
 
 namespace flbc::app {

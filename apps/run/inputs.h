@@ -8,7 +8,7 @@
 
 #include "flbc/cage.h"
 #include "gltf/skin.h"
-#include "poses.h"
+#include "poses/poses.h"
 #include "run/arguments.h"
 #include "run/shape.h"
 

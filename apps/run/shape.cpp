@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "files/load.h"
+#include "files/load_surface.h"
 #include "flbc/errors.h"
-#include "load.h"
-#include "load_surface.h"
 
 namespace flbc::app {
 namespace {

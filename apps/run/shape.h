@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/edge_list.h"
 #include "gltf/surface.h"
-#include "movable_model.h"
 
 namespace flbc::app {
 

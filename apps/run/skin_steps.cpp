@@ -3,15 +3,17 @@
 #include <cmath>
 #include <filesystem>
 
+#include "files/load.h"
+#include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poisson_reduction.h"
+#include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
-#include "load.h"
+#include "report/sparsify_report.h"
 #include "run/facts.h"
 #include "run/steps.h"
-#include "sparsify_report.h"
 
 namespace flbc::app {
 namespace {
@@ -123,7 +125,7 @@ void export_shape(Run<Dim>& run) {
   const auto& animation = run.inputs.animation;
   const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
                                       options, animation);
-  const double size = size_of<Dim>(shape.points);
+  const double size = bounding_box_diagonal<Dim>(shape.points);
   run.report["export"] = {
       {"file", kSkin},
       {"bytes", skin.glb.size()},

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/steps.h"
 
-#include "checks.h"
-#include "file_sequence.h"
+#include "files/load.h"
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
-#include "load.h"
+#include "flbc/quality.h"
+#include "poses/file_sequence.h"
+#include "report/checks.h"
 #include "run/facts.h"
 
 namespace flbc::app {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "cage_solver.h"
-#include "displacement.h"
+#include "poses/displacement.h"
 #include "run/arguments.h"
 #include "run/folder.h"
 #include "run/inputs.h"
 #include "run/names.h"
+#include "solve/cage_solver.h"
 
 namespace flbc::app {
 

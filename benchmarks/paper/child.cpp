@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "child.h"
+#include "paper/child.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

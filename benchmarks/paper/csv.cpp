@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "csv.h"
+#include "paper/csv.h"
 
 #include <algorithm>
 #include <cmath>

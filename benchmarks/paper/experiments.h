@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "context.h"
+#include "paper/context.h"
 
 namespace flbc::bench {
 

@@ -2,11 +2,11 @@
 // Figure 3: time and memory against the resolution of the mesh.
 #include <algorithm>
 
-#include "experiments.h"
 #include "flbc/solver.h"
-#include "methods.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "paper/experiments.h"
+#include "paper/methods.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
 
 namespace flbc::bench {
 namespace {

@@ -3,12 +3,12 @@
 // iterations, so that time and weights are those a user would get by stopping there.
 #include <algorithm>
 
-#include "experiments.h"
 #include "flbc/solver.h"
-#include "methods.h"
-#include "references.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "paper/experiments.h"
+#include "paper/methods.h"
+#include "paper/references.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
 
 namespace flbc::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "machine.h"
+#include "paper/machine.h"
 
 #include <malloc.h>
 

@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiments.h"
-#include "machine.h"
-#include "stopwatch.h"
+#include "paper/experiments.h"
+#include "paper/machine.h"
+#include "paper/stopwatch.h"
 
 namespace flbc::bench {
 

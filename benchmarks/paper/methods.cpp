@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "methods.h"
+#include "paper/methods.h"
 
 namespace flbc::bench {
 

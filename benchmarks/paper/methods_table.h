@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "methods.h"
-#include "references.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "paper/methods.h"
+#include "paper/references.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
 
 namespace flbc::bench {
 

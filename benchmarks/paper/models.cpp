@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models.h"
+#include "paper/models.h"
 
 #include <stdexcept>
 #include <string>

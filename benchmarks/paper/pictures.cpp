@@ -3,11 +3,11 @@
 // lists what `flbc draw` has to be told about each picture.
 #include <filesystem>
 
-#include "experiments.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/solver.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "paper/experiments.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
 
 namespace flbc::bench {
 namespace {

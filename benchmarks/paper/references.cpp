@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "references.h"
+#include "paper/references.h"
 
 #include <cstdint>
 #include <cstdio>

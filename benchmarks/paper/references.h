@@ -3,9 +3,9 @@
 //! Optima to measure errors against, kept under OUT/references.
 #pragma once
 
-#include "context.h"
 #include "flbc/options.h"
-#include "setting.h"
+#include "paper/context.h"
+#include "paper/setting.h"
 
 namespace flbc::bench {
 

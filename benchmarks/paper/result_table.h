@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "context.h"
-#include "csv.h"
-#include "machine.h"
+#include "paper/context.h"
+#include "paper/csv.h"
+#include "paper/machine.h"
 
 namespace flbc::bench {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "csv.h"
 #include "flbc/report.h"
-#include "setting.h"
+#include "paper/csv.h"
+#include "paper/setting.h"
 
 namespace flbc::bench {
 

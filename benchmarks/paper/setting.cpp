@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "setting.h"
+#include "paper/setting.h"
 
 #include <filesystem>
 #include <set>
@@ -7,7 +7,7 @@
 
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
-#include "stopwatch.h"
+#include "paper/stopwatch.h"
 
 namespace flbc::bench {
 

@@ -9,12 +9,12 @@
 #include <optional>
 #include <string>
 
-#include "../real_models.h"
-#include "child.h"
-#include "context.h"
 #include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
-#include "models.h"
+#include "paper/child.h"
+#include "paper/context.h"
+#include "paper/models.h"
+#include "speed/real_models.h"
 
 namespace flbc::bench {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Table 1: what non-negativity costs and changes. Both optima are computed by the same method to
 // the same accuracy; they are not read from the cache, because their times are the result.
-#include "experiments.h"
 #include "flbc/solver.h"
-#include "references.h"
-#include "result_table.h"
-#include "run_columns.h"
+#include "paper/experiments.h"
+#include "paper/references.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
 
 namespace flbc::bench {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Table 2: all methods at the paper's sizes, each by its own stopping rule.
-#include "experiments.h"
 #include "flbc/solver.h"
-#include "methods_table.h"
+#include "paper/experiments.h"
+#include "paper/methods_table.h"
 
 namespace flbc::bench {
 namespace {

@@ -15,6 +15,8 @@
 #include <flbc/coordinates.h>
 #include <flbc/io/cage_io.h>
 #include <flbc/meshing.h>
+#include <flbc/interpolate.h>
+#include <flbc/cell_locator.h>
 #include <openmesh_bindings/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {

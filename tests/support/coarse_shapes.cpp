@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse_shapes.h"
+#include "support/coarse_shapes.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 
 #include <Eigen/Dense>
 
-#include "judge.h"
-#include "sample_meshes.h"
-#include "simplex.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+#include "support/simplex.h"
 
 namespace flbc::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "judge.h"
+#include "support/judge.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,8 @@
 
 #include <Eigen/QR>
 
-#include "simplex.h"
+#include "flbc/quality.h"
+#include "support/simplex.h"
 
 namespace flbc::testing {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/quality.h"
 
 namespace flbc::testing {
 

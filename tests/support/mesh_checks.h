@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 
@@ -105,7 +106,7 @@ FacetList<Dim> boundary_facets(const DomainMesh<Dim>& mesh) {
 template <int Dim>
 bool covers_edges(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
   const FacetList<Dim> boundary = boundary_facets(mesh);
-  const double tolerance = 1e-9 * size_of<Dim>(cage.points);
+  const double tolerance = 1e-9 * bounding_box_diagonal<Dim>(cage.points);
   for (Index facet = 0; facet < boundary.cols(); ++facet) {
     if (!lies_in_one_facet<Dim>(cage, mesh.points, boundary.col(facet), tolerance)) return false;
   }
@@ -121,7 +122,7 @@ void expect_fills(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, double int
   EXPECT_NEAR(total_volume(mesh), interior_measure, 1e-9 * interior_measure);
 
   const FacetList<Dim> boundary = boundary_facets(mesh);
-  const double tolerance = 1e-9 * size_of<Dim>(cage.points);
+  const double tolerance = 1e-9 * bounding_box_diagonal<Dim>(cage.points);
   Index num_astray = 0;
   for (Index vertex : boundary.reshaped()) {
     // A vertex is a facet whose corners coincide.

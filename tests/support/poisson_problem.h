@@ -9,12 +9,15 @@
 
 #include <gtest/gtest.h>
 
-#include "feasible_vertices.h"
+#include "flbc/bounding_box.h"
 #include "flbc/cage.h"
+#include "flbc/edge_error.h"
 #include "flbc/poisson_reduction.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify.h"
-#include "sample_meshes.h"
+#include "flbc/sparsify_error.h"
+#include "support/feasible_vertices.h"
+#include "support/sample_meshes.h"
 
 namespace flbc::testing {
 
@@ -85,7 +88,7 @@ PoissonProblem<Dim> problem_on_a_curve(const PointList<Dim>& control_points, int
 template <int Dim>
 void expect_sparse_coordinates(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                const WeightMatrix& weights, Index most) {
-  const double size = size_of<Dim>(control_points);
+  const double size = bounding_box_diagonal<Dim>(control_points);
   ASSERT_EQ(weights.cols(), points.cols());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     const auto column = weights.col(v);

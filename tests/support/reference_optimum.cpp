@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference_optimum.h"
+#include "support/reference_optimum.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_meshes.h"
+#include "support/sample_meshes.h"
 
 #include <cstdint>
 #include <limits>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "coarse_shapes.h"
-#include "simplex.h"
+#include "support/coarse_shapes.h"
+#include "support/simplex.h"
 
 namespace flbc::testing {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "coarse_shapes.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "support/coarse_shapes.h"
 
 namespace flbc::testing {
 

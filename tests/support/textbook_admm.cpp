@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "textbook_admm.h"
+#include "flbc/quality.h"
+#include "support/textbook_admm.h"
 
 #include <stdexcept>
 #include <utility>

@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "simplex.h"
+#include "flbc/quality.h"
+#include "support/simplex.h"
 
 namespace flbc::testing {
 

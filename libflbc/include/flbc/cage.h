@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/bounding_box.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -21,10 +22,6 @@ struct Cage {
   //! Number of control points n.
   Index size() const { return static_cast<Index>(points.cols()); }
 };
-
-//! The cage's size, to which all its tolerances are relative: the diagonal of its bounding box.
-template <int Dim>
-double size_of(const PointList<Dim>& points);
 
 //! One defect of a cage or mesh, ready to be shown.
 struct Defect {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "flbc/types.h"
 
@@ -26,5 +27,9 @@ struct CellFieldView {
         .template cast<double>();
   }
 };
+
+//! One vector per control point on a cell or facet, n x Dim, computed on demand.
+template <int Dim>
+using VectorsAt = std::function<Eigen::Matrix<double, Eigen::Dynamic, Dim>(Index)>;
 
 }  // namespace flbc

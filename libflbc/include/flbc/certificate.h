@@ -5,9 +5,15 @@
 
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/report.h"
 
 namespace flbc {
+
+//! Proof of how good weights are, by weak duality (certificate.h).
+struct Certificate {
+  double objective = 0;     //!< of the weights, made feasible and non-negative where they are not
+  double lower_bound = 0;   //!< of the objective of all feasible, non-negative weights
+  double relative_gap = 0;  //!< (objective - lower_bound) / objective
+};
 
 //! The Lagrangian dual function. For every cell field p with |p_s^i| <= phi_s^i A_s, any feasible w
 //! has an objective of at least

@@ -5,35 +5,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/report.h"
+#include "flbc/quality.h"
 
 namespace flbc {
-
-//! What is worth knowing about a sound cage.
-template <int Dim>
-struct CageFacts {
-  Index parts = 0;              //!< outer loops (2D) or shells (3D)
-  Index holes = 0;              //!< loops or shells that bound holes or cavities
-  double size = 0;              //!< diagonal of the bounding box
-  double measure = 0;           //!< area (2D) or volume (3D) of the interior
-  double shortest_edge = 0;     //!< length
-  Index shortest_ends[2] = {};  //!< the control points between which it runs
-};
-
-//! \param cage  has passed validate() and does not intersect itself
-template <int Dim>
-CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
-
-//! Points outside a cage by more than 1e-6 of its size; those inside holes are outside.
-//! \param cage  has passed validate() \param points  Dim x P
-//! \return their indices, ascending
-template <int Dim>
-std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
 
 //! The largest or smallest value of something and where it is.
 template <int Dim>
@@ -102,14 +80,5 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights);
-
-//! Errors above this are violations of what coordinates must satisfy.
-constexpr double kCheckTolerance = 1e-6;
-
-//! What the weights violate of that which all coordinates of a cage satisfy: being finite, sum,
-//! reproduction, Lagrange property and linearity on facets. Negative weights are no violation.
-//! \return a sentence each, with place and value; empty if there are none
-template <int Dim>
-std::vector<std::string> find_violations(const WeightCheck<Dim>& check);
 
 }  // namespace flbc

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "flbc/distance_weights.h"
+#include "flbc/linear_solver.h"
 
 namespace flbc {
 
@@ -30,13 +31,6 @@ enum class NonNegative {
 
 //! Arithmetic of the iteration; set-up and recovery are always in double precision.
 enum class Precision { kSingle, kDouble };
-
-//! How Method::kValue and kLbc2014 solve their linear systems.
-enum class LinearSolver {
-  kAuto,      //!< by what is faster: kMultigrid for kValue on large meshes, else kDirect
-  kDirect,    //!< one factorisation, exact solves
-  kMultigrid  //!< a cycle of algebraic multigrid per iteration: time and memory grow as the mesh
-};
 
 //! How weights are recovered from gradients.
 enum class Recovery {

@@ -48,13 +48,4 @@ double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& 
                     const EdgeList& edges, const WeightMatrix& before, const WeightMatrix& after,
                     const std::vector<PointList<Dim>>& poses);
 
-//! Of the differences along edges between points deformed with either weights, relative to the
-//! edges at rest: with e = |C_p (d_a - d_b)|, rms = sqrt(mean_p sum k e^2 / sum k |x_a - x_b|^2)
-//! and max = max e / |x_a - x_b|, over the edges that have a length.
-//! \param points  Dim x P \param poses  Dim x n each \throws InputError if sizes do not fit
-template <int Dim>
-ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
-                      const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                      const WeightMatrix& after);
-
 }  // namespace flbc

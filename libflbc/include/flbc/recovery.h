@@ -25,8 +25,4 @@ template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients);
 
-//! Harmonic coordinates (Joshi et al. 2007) on the same mesh. \return n x V \throws SolverError
-template <int Dim>
-WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem);
-
 }  // namespace flbc

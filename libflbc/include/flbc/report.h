@@ -5,7 +5,9 @@
 
 #include <vector>
 
+#include "flbc/certificate.h"
 #include "flbc/options.h"
+#include "flbc/quality.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -23,21 +25,6 @@ struct StageSeconds {
   double solve = 0;    //!< the iteration with its set-up and start
   double recover = 0;  //!< from gradients to weights, and making them non-negative
   double certify = 0;  //!< the lower bound
-};
-
-//! Properties of weights, measured on the weights themselves.
-struct Quality {
-  double min_weight = 0;              //!< smallest w_i
-  double max_partition_error = 0;     //!< max |sum_i w_i - 1|
-  double max_reproduction_error = 0;  //!< max |sum_i w_i c_i - x| / size of the cage
-  double mean_influences = 0;         //!< mean number of |w_i| > 1e-4 per point
-};
-
-//! Proof of how good weights are, by weak duality (certificate.h).
-struct Certificate {
-  double objective = 0;     //!< of the weights, made feasible and non-negative where they are not
-  double lower_bound = 0;   //!< of the objective of all feasible, non-negative weights
-  double relative_gap = 0;  //!< (objective - lower_bound) / objective
 };
 
 //! A coarser mesh that was solved for a start (coarse_to_fine.h).

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <limits>
-#include <vector>
 
 #include "flbc/types.h"
 
@@ -38,38 +37,5 @@ void validate(const SparsifyOptions& options);
 template <int Dim>
 WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
                       const WeightMatrix& weights, const SparsifyOptions& options);
-
-//! Weights other than 0 per point.
-struct Influences {
-  double mean = 0;
-  Index max = 0;
-};
-Influences count_influences(const WeightMatrix& weights);
-
-//! Root of the mean square, and largest.
-struct ErrorNorms {
-  double rms = 0;
-  double max = 0;
-};
-
-//! Of the differences of all single weights, both n x P. \throws InputError if sizes differ
-ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
-
-//! Of the distances between points deformed with either weights, over all points and poses, in
-//! units of the poses. \param poses  Dim x n each, the displaced control points
-//! \throws InputError if sizes do not fit
-template <int Dim>
-ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                             const WeightMatrix& after);
-
-//! Poses in which every control point is displaced by 10 % of the cage's size in a random direction
-//! of its own. The same ones on every machine.
-template <int Dim>
-std::vector<PointList<Dim>> independent_poses(const PointList<Dim>& control_points, int count);
-
-//! Poses made by random smooth maps, a linear and a quadratic part of about 10 % of the cage's size
-//! each. The same ones on every machine.
-template <int Dim>
-std::vector<PointList<Dim>> smooth_poses(const PointList<Dim>& control_points, int count);
 
 }  // namespace flbc

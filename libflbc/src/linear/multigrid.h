@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "aligned_array.h"
+#include "base/aligned_array.h"
 #include "flbc/types.h"
 #include "linear/aggregation.h"
 #include "linear/multigrid_kernel.h"

@@ -6,7 +6,7 @@
 
 #include <type_traits>
 
-#include "pack.h"
+#include "base/simd.h"
 
 namespace flbc::multigrid::FLBC_ISA {
 namespace {

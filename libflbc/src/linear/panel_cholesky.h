@@ -9,7 +9,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "aligned_array.h"
+#include "base/aligned_array.h"
 #include "flbc/types.h"
 #include "linear/panel_kernel.h"
 

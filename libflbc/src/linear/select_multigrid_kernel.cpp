@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernel_choice.h"
+#include "base/kernel_dispatch.h"
 #include "linear/multigrid_kernel.h"
 
 namespace flbc::multigrid {

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc check: defects of a cage, quality of weights.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "flbc/cage_facts.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "report/checks.h"
+#include "report/report_json.h"
+
+namespace flbc::app {
+namespace {
+
+struct CheckArguments {
+  std::string cage;
+  std::string model;
+  std::string weights;
+  std::string domain;
+  std::string json;
+};
+
+void check_arguments(const CheckArguments& arguments) {
+  if (!arguments.weights.empty() && arguments.model.empty() && arguments.domain.empty()) {
+    throw OptionError("--weights needs --model or --domain: the points to which its rows belong");
+  }
+  if (arguments.json != "-") require_writable(arguments.json, {"json"});
+  require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},
+                   {arguments.json});
+}
+
+template <int Dim>
+void check_model(CheckReport<Dim>& report) {
+  auto points = load_model<Dim>(report.model_file);
+  auto outside = points_outside(report.cage, points);
+  report.model = ModelCheck<Dim>{std::move(points), std::move(outside)};
+}
+
+// What the files must have in common. Said here as well, because here the files have names.
+template <int Dim>
+void check_sizes(const CheckReport<Dim>& report, const WeightMatrix& weights,
+                 const std::string& points_file, Eigen::Index num_points) {
+  if (weights.rows() != report.cage.size()) {
+    throw InputError(report.weights_file + ": has weights for " + std::to_string(weights.rows()) +
+                     " control points, but " + report.cage_file + " has " +
+                     std::to_string(report.cage.size()));
+  }
+  if (weights.cols() != num_points) {
+    throw InputError(report.weights_file + ": has weights of " + std::to_string(weights.cols()) +
+                     " points, but " + points_file + " has " + std::to_string(num_points) +
+                     " vertices");
+  }
+}
+
+template <int Dim>
+void check_weight_file(CheckReport<Dim>& report) {
+  const auto weights = io::read_weights(report.weights_file);
+  if (report.domain_file.empty()) {
+    const auto& points = report.model->points;
+    check_sizes(report, weights, report.model_file, points.cols());
+    check_weights_of(report, points, weights);
+  } else {
+    const auto domain = io::read_domain<Dim>(report.domain_file);
+    check_sizes(report, weights, report.domain_file, domain.num_vertices());
+    naming(report.domain_file, [&] { check_weights_of(report, domain, weights); });
+  }
+}
+
+// The table, unless the standard output is wanted for JSON.
+template <int Dim>
+void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
+  if (json_file != "-") print_check(std::cout, report);
+  if (json_file.empty()) return;
+  const auto json = to_text(check_json(report));
+  const HeldSignals held;
+  io::write_file(json_file, [&](std::ostream& file) { file << json; });
+}
+
+template <int Dim>
+int check(const Cage<Dim>& cage, const CheckArguments& arguments) {
+  auto report = check_cage(cage, arguments.cage);
+  report.model_file = arguments.model;
+  report.domain_file = arguments.domain;
+  report.weights_file = arguments.weights;
+  if (report.defects.empty()) {
+    if (!arguments.model.empty()) check_model(report);
+    if (!arguments.weights.empty()) check_weight_file(report);
+  }
+  deliver(report, arguments.json);
+  if (!report.defects.empty()) {
+    std::cerr << "flbc: " << arguments.cage << ": " << report.defects.front().message << '\n';
+  }
+  for (const auto& violation : report.violations) {
+    std::cerr << "flbc: " << arguments.weights << ": " << violation << '\n';
+  }
+  return report.is_fine() ? kDone : kBadInput;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<CheckArguments>();
+  auto& a = *arguments;
+  auto* command =
+      app.add_subcommand("check", "Tell what is wrong with a cage, a model in it, and weights");
+  command->footer(
+      "Exit status: 0 if nothing is wrong, or nothing but negative weights, local extrema or a\n"
+      "model outside; 2 for a defective cage or weights that are no coordinates of the cage.");
+  command->add_option("CAGE", a.cage, "closed polylines (2D) or surface (3D)")->required();
+  command->add_option("--model", a.model, "a model that should be inside the cage");
+  auto* weights = command->add_option(
+      "--weights", a.weights, "weights of the domain's vertices, without --domain of the model's");
+  command->add_option("--domain", a.domain, "mesh of the interior to whose vertices they belong")
+      ->needs(weights);
+  command->add_option("--json", a.json, "write the same as JSON, '-' to print that instead");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto cage = io::to_cage(load_polygons(arguments->cage), arguments->cage);
+    exit_status = std::visit([&](const auto& any) { return check(any, *arguments); }, cage);
+  });
+}
+
+}  // namespace flbc::app

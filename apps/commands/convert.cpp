@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc convert: weights or meshes from one format to another.
+#include <cmath>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/convert_mesh.h"
+#include "files/convert_weights.h"
+#include "files/load.h"
+#include "files/mesh_file.h"
+#include "files/movable_model.h"
+#include "flbc/errors.h"
+
+namespace flbc::app {
+namespace {
+
+struct ConvertArguments {
+  WeightConversion files;
+  bool quiet = false;
+};
+
+void check_weight_arguments(const WeightConversion& files) {
+  if (is_mesh_file(files.output)) throw OptionError(files.output + ": weights are no mesh");
+  require_writable(files.output, {"mtx", "dmat", "npy", "txt"});
+  if (files.threshold && !(*files.threshold >= 0 && std::isfinite(*files.threshold))) {
+    throw OptionError("--threshold must be a number that is not negative");
+  }
+}
+
+void check_mesh_arguments(const WeightConversion& files) {
+  if (!is_mesh_file(files.input)) {
+    throw OptionError(files.input +
+                      ": cannot tell the format; weights end in .mtx, .dmat, .npy or .txt, meshes "
+                      "in .obj, .off, .ply, .stl, .om, .vtu, .mesh, .node, .ele or .msh");
+  }
+  if (is_weight_file(files.output)) throw OptionError(files.output + ": a mesh is no weights");
+  require_mesh_writable(files.output);
+  if (files.transpose || files.threshold || !files.cage.empty() || !files.points.empty()) {
+    throw OptionError("--cage, --points, --transpose and --threshold are for weights, but " +
+                      files.input + " is a mesh");
+  }
+}
+
+void check_arguments(const ConvertArguments& arguments) {
+  const auto& files = arguments.files;
+  if (is_weight_file(files.input)) {
+    check_weight_arguments(files);
+  } else {
+    check_mesh_arguments(files);
+  }
+  auto inputs = files_of_model(files.input);
+  inputs.insert(inputs.end(), {files.cage, files.points});
+  for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  auto& a = arguments->files;
+  auto* command =
+      app.add_subcommand("convert", "Write weights, a mesh or a model in another format");
+  command->footer(
+      "Weights: .mtx, .dmat, .npy, and .txt with \"CONTROL_POINT POINT WEIGHT\" on every line,\n"
+      "numbered from 0. They become each other without loss.\n"
+      "Models: .obj, .off, .ply, .stl, .om. Meshes: 2D .obj, .off, .vtu; 3D .mesh, .node, .ele,\n"
+      ".msh, .vtu. What the new format has no place for is told. A .ply or .stl result is text if\n"
+      "the model's file is.");
+  command->add_option("IN", a.input, "what to convert; the extension tells its kind")->required();
+  command->add_option("-o,--output", a.output, "a file of the same kind")->required();
+  command->add_option("--cage", a.cage, "the cage of the weights: checks their number");
+  command->add_option("--points", a.points,
+                      "model or mesh whose vertices the weights belong to: checks their number");
+  command->add_flag("--transpose", a.transpose,
+                    "IN has control points as rows (.txt: \"POINT CONTROL_POINT WEIGHT\")");
+  command->add_option("--threshold", a.threshold, "drop weights up to this size");
+  command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto& files = arguments->files;
+    if (is_weight_file(files.input)) {
+      convert_weights(files, arguments->quiet);
+    } else {
+      convert_mesh(files.input, files.output, arguments->quiet);
+    }
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

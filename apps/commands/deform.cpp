@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc deform: a model moves with its cage.
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "files/movable_model.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "poses/displacement.h"
+#include "poses/file_sequence.h"
+#include "poses/poses.h"
+#include "solve/weights_of_model.h"
+
+namespace flbc::app {
+namespace {
+
+struct DeformArguments {
+  MovedFile file;
+  std::string weights;
+  std::vector<std::string> cages;
+  std::string keyframes;
+  std::string rest;
+  std::string displacement;
+  bool quiet = false;
+};
+
+void check_arguments(const DeformArguments& arguments) {
+  if (arguments.cages.empty() && arguments.keyframes.empty()) {
+    throw OptionError("a pose is missing: give --cage or --keyframes");
+  }
+  if (arguments.rest.empty() && !arguments.keyframes.empty()) {
+    throw OptionError("--keyframes needs --rest: keyframes are displacements of that cage");
+  }
+  if (arguments.rest.empty() && !arguments.displacement.empty()) {
+    throw OptionError("--displacement needs --rest: it is measured from there");
+  }
+  if (arguments.rest.empty() && arguments.file.shows_displacement) {
+    throw OptionError("--show-displacement needs --rest: it is measured from there");
+  }
+  require_formats(arguments.file);
+  require_writable(arguments.displacement, {"npy", "dmat", "mtx"});
+}
+
+// No result may replace a file that is read, nor the other result.
+void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
+                   const std::vector<std::string>& outputs) {
+  auto inputs = files_of_model(arguments.file.model);
+  inputs.insert(inputs.end(), {arguments.weights, arguments.keyframes, arguments.rest});
+  inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
+  require_distinct(inputs, {arguments.displacement});
+  for (const auto& output : outputs) {
+    for (const auto& file : files_of_model(output)) {
+      // What is not there yet is no input. A sequence would take long otherwise.
+      std::error_code error;
+      if (!std::filesystem::exists(file, error)) continue;
+      require_distinct(inputs, {file, arguments.displacement});
+    }
+  }
+}
+
+template <int Dim>
+std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
+                                      const std::string& pattern) {
+  if (poses.size() > 1 && !has_number(pattern)) {
+    throw OptionError(pattern + ": there are " + std::to_string(poses.size()) +
+                      " poses, so that this name needs a %d, as in out_%03d.obj");
+  }
+  std::vector<std::string> names;
+  for (const auto& pose : poses) names.push_back(with_number(pattern, pose.number));
+  return names;
+}
+
+// Weights that fit the model and all poses, and that belong to them as far as is known.
+template <int Dim>
+SparseWeights load_weights(const MovableModel<Dim>& model, const PointList<Dim>& rest,
+                           const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+  const auto dense = io::read_weights(arguments.weights);
+  const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
+    check_sizes(dense, control_points.cols(), model.points().cols(),
+                {arguments.weights, name, arguments.file.model});
+  };
+  if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
+  for (const auto& pose : poses) check_cage(pose.name, pose.points);
+  SparseWeights weights(dense);
+  if (!arguments.rest.empty()) {
+    check_reproduction(weights, rest, model.points(),
+                       {arguments.weights, arguments.rest, arguments.file.model});
+  }
+  return weights;
+}
+
+template <int Dim>
+void write_results(const MovableModel<Dim>& model, const SparseWeights& weights,
+                   const std::vector<Pose<Dim>>& poses, const Displacement& displacement,
+                   const std::vector<std::string>& outputs, const DeformArguments& arguments) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const auto points = deform(weights, poses[k].points);
+    Eigen::VectorXd lengths;
+    if (arguments.file.shows_displacement) lengths = displacement.lengths.row(k).transpose();
+    const HeldSignals held;
+    naming(outputs[k], [&] { model.write(outputs[k], points, lengths, displacement.largest); });
+  }
+  if (arguments.displacement.empty()) return;
+  const HeldSignals held;
+  io::write_weights(arguments.displacement, displacement.lengths);
+}
+
+template <int Dim>
+void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>& poses,
+                   const Displacement& displacement, double seconds,
+                   const DeformArguments& arguments) {
+  const auto& [input, output, shows_displacement] = arguments.file;
+  std::cerr << output << ": " << model.points().cols() << " points, " << poses.size()
+            << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
+  if (!arguments.rest.empty()) std::cerr << "; largest displacement " << displacement.largest;
+  if (displacement.largest > 0) {
+    std::cerr << " at vertex " << displacement.point << " (" << poses[displacement.pose].name
+              << ')';
+  }
+  if (shows_displacement) {
+    std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark red)";
+  }
+  std::cerr << '\n';
+  print_losses(input, output, model.losses());
+  if (model.num_loose_normals() > 0) {
+    std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
+              << " normals belong to no face with an area and stay as they are\n";
+  }
+}
+
+template <int Dim>
+void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
+  require_formats_of<Dim>(arguments.file);
+  PointList<Dim> rest;
+  if (!arguments.rest.empty()) rest = load_control_points<Dim>(arguments.rest);
+  const auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
+                                                 : load_keyframes<Dim>(arguments.keyframes, rest);
+  const auto outputs = name_outputs(poses, arguments.file.output);
+  check_outputs(arguments, cages, outputs);
+
+  const MovableModel<Dim> model(arguments.file);
+  const auto weights = load_weights(model, rest, poses, arguments);
+  const auto start = std::chrono::steady_clock::now();
+  Displacement displacement;
+  if (!arguments.rest.empty()) {
+    displacement = measure_displacement(weights, model.points(), poses);
+  }
+  write_results(model, weights, poses, displacement, outputs, arguments);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (!arguments.quiet) print_summary(model, poses, displacement, seconds.count(), arguments);
+}
+
+}  // namespace
+
+void add_deform_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<DeformArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("deform", "Move a model or a domain mesh with its cage");
+  command->footer(
+      "If MODEL and the result have the same format, nothing changes but the coordinates and\n"
+      "normals of a model; in 2D z stays. Into another format polygons, colours, normals and\n"
+      "texture coordinates go as far as it has places for them; what it does not keep is told.\n"
+      "A sequence numbers its results as --cage pose_%d.obj is numbered, or from 0.\n"
+      "Keyframes are text: 'k TIME' begins a keyframe, and 'c KEYFRAME DX DY DZ' is how far a\n"
+      "control point is from where it rests, in the order of the control points.");
+  command
+      ->add_option("MODEL", a.file.model,
+                   "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh)")
+      ->required();
+  command
+      ->add_option("--weights", a.weights,
+                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
+      ->required();
+  auto* cage = command->add_option(
+      "--cage", a.cages, "the cage in its new pose; several, or a pattern as pose_%d.obj");
+  command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
+      ->excludes(cage);
+  command->add_option("--rest", a.rest,
+                      "the cage the weights were computed for: checks that they belong to MODEL");
+  command
+      ->add_option("-o,--output", a.file.output,
+                   "the result, a file of either kind as MODEL is; with %d or %03d in its name for "
+                   "several poses")
+      ->required();
+  command->add_option("--displacement", a.displacement,
+                      "write how far vertices moved, a column per pose: .npy, .dmat or .mtx");
+  command->add_flag("--show-displacement", a.file.shows_displacement,
+                    "show how far vertices moved: as their colours; in .vtu and .mesh as a field");
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto cages = find_cages(arguments->cages);
+    const auto& first = arguments->keyframes.empty() ? cages.paths.front() : arguments->rest;
+    if (dimension_of_cage(first) == 2) {
+      deform_model<2>(*arguments, cages);
+    } else {
+      deform_model<3>(*arguments, cages);
+    }
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc export: a model that moves with its cage in other programs.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "files/load_surface.h"
+#include "files/movable_model.h"
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "gltf/skin.h"
+#include "poses/animation.h"
+#include "poses/poses.h"
+#include "solve/weights_of_model.h"
+
+namespace flbc::app {
+namespace {
+
+struct ExportArguments {
+  std::string model;
+  std::string weights;
+  std::string cage;
+  std::vector<std::string> poses;
+  std::string keyframes;
+  double frames_per_second = 24;
+  int bits = 0;  // 0 = float
+  std::string output;
+  bool quiet = false;
+  gltf::SkinOptions options;
+};
+
+// Beyond that vertices visibly tremble.
+constexpr double kWorthATell = 1e-5;
+
+void check_arguments(ExportArguments& arguments) {
+  using gltf::WeightFormat;
+  if (arguments.bits != 0 && arguments.bits != 8 && arguments.bits != 16) {
+    throw OptionError("--quantize must be 8 or 16 bits, not " + std::to_string(arguments.bits));
+  }
+  if (!(arguments.frames_per_second >= 1e-3 && arguments.frames_per_second <= 1e6)) {
+    throw OptionError("--fps must be from 0.001 to 1000000");
+  }
+  if (arguments.bits == 16) arguments.options.weight_format = WeightFormat::kUnsignedShort;
+  if (arguments.bits == 8) arguments.options.weight_format = WeightFormat::kUnsignedByte;
+  arguments.options.name = std::filesystem::path(arguments.model).stem().string();
+  require_surface_readable(arguments.model);
+  require_writable(arguments.output, {"glb"});
+}
+
+void check_files(const ExportArguments& arguments, const CageFiles& poses) {
+  auto inputs = files_of_model(arguments.model);
+  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.keyframes});
+  inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
+  require_distinct(inputs, {arguments.output});
+}
+
+template <int Dim>
+gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFiles& poses,
+                                 const PointList<Dim>& rest) {
+  if (arguments.keyframes.empty()) {
+    return load_animation<Dim>(poses, arguments.frames_per_second, rest);
+  }
+  auto animation = load_animation<Dim>(arguments.keyframes, rest);
+  naming(arguments.keyframes, [&] { gltf::validate(animation, rest.cols()); });
+  return animation;
+}
+
+// \param size  of the model
+template <int Dim>
+void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
+                   double size, const ExportArguments& arguments) {
+  std::cerr << arguments.output << ": " << skin.vertices << " vertices, " << skin.triangles
+            << " triangles, " << skin.joints << " joints, at most " << skin.influences
+            << " influences per vertex";
+  const bool are_reduced = skin.given_influences > skin.influences;
+  if (are_reduced) std::cerr << " (before " << skin.given_influences << ')';
+  if (!animation.poses.empty()) {
+    std::cerr << ", " << animation.poses.size() << " poses in " << animation.times.back()
+              << " s that move " << skin.moving_joints << " joints";
+  }
+  std::cerr << "; " << skin.glb.size() << " bytes";
+  if (are_reduced || arguments.bits != 0) {
+    const auto& error = skin.deformation_error;
+    std::cerr << "; deformation error over "
+              << (animation.poses.empty() ? "random smooth poses " : "these poses ")
+              << 100 * error.rms / size << " % of the size rms, " << 100 * error.max / size
+              << " % max";
+  }
+  std::cerr << '\n';
+}
+
+template <int Dim>
+void export_model(const ExportArguments& arguments, const CageFiles& poses) {
+  const auto rest = load_control_points<Dim>(arguments.cage);
+  const auto animation = load_motion<Dim>(arguments, poses, rest);
+  const auto model = load_surface<Dim>(arguments.model);
+  const auto weights = io::read_weights(arguments.weights);
+  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
+  check_sizes(weights, rest.cols(), model.points.cols(), files);
+  check_reproduction(SparseWeights(weights), rest, model.points, files);
+
+  const auto skin = naming(arguments.model, [&] {
+    return gltf::export_skin(rest, model.points, weights, model.surface, arguments.options,
+                             animation);
+  });
+  {
+    const HeldSignals held;
+    io::write_file(arguments.output, [&](std::ostream& file) { file << skin.glb; });
+  }
+  const double size = bounding_box_diagonal<Dim>(model.points);
+  if (!arguments.quiet) print_summary(skin, animation, size, arguments);
+  const double change = skin.position_change / size;
+  if (change > kWorthATell) {
+    std::cerr << "flbc: " << arguments.output << ": single precision, which glTF has, moves "
+              << "vertices by up to " << change << " of the model's size; move cage and model "
+              << "closer to the origin\n";
+  }
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<ExportArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("export", "Write a model as glTF skin that its cage moves");
+  command->footer(
+      "Every control point becomes a joint, control_point_0 and so on, that only translates. "
+      "Where\n"
+      "texture coordinates or normals part a vertex, or one is left out, the attribute _VERTEX\n"
+      "tells the numbers of the vertices in MODEL. Normals stay as they are at rest.");
+  command
+      ->add_option("MODEL", a.model,
+                   "model (.obj, .off, .ply, .stl) or domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh), of which the boundary is shown")
+      ->required();
+  command
+      ->add_option("--weights", a.weights,
+                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
+      ->required();
+  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
+  auto* cages = command->add_option("--cages", a.poses,
+                                    "an animation: the cage in its poses, or a pattern as "
+                                    "pose_%d.obj");
+  command
+      ->add_option("--keyframes", a.keyframes,
+                   "an animation: displacements of the cage, with times in seconds")
+      ->excludes(cages);
+  command->add_option("--fps", a.frames_per_second, "poses of --cages per second (24)")
+      ->needs(cages);
+  command->add_option("-k,--max-influences", a.options.max_influences,
+                      "most influences per vertex, 8 or 4 (8)");
+  command->add_option("--quantize", a.bits, "store weights with 16 or 8 bits (as float)");
+  command->add_option("-o,--output", a.output, "the skin, .glb")->required();
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto poses = find_cages(arguments->poses);
+    check_files(*arguments, poses);
+    if (dimension_of_cage(arguments->cage) == 2) {
+      export_model<2>(*arguments, poses);
+    } else {
+      export_model<3>(*arguments, poses);
+    }
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

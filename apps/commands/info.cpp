@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc info: what is in a file.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "files/load.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/meshing.h"
+#include "flbc/self_intersections.h"
+
+namespace flbc::app {
+namespace {
+
+void print_box(const Eigen::MatrixXd& points) {
+  const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
+  std::cout << "  from " << points.rowwise().minCoeff().transpose().format(row) << " to "
+            << points.rowwise().maxCoeff().transpose().format(row) << '\n';
+}
+
+void print_weights(const std::string& path) {
+  const auto weights = io::read_weights(path);
+  std::cout << path << ": weights of " << weights.cols() << " points for " << weights.rows()
+            << " control points\n";
+  if (weights.size() == 0) return;
+  const auto influences = (weights.array().abs() > 1e-4).count();
+  std::cout << "  minimum " << weights.minCoeff() << ", maximum " << weights.maxCoeff()
+            << "\n  largest |sum - 1| " << (weights.colwise().sum().array() - 1).abs().maxCoeff()
+            << "\n  influences above 1e-4 per point "
+            << static_cast<double>(influences) / static_cast<double>(weights.cols()) << '\n';
+}
+
+template <int Dim>
+void print_domain(const std::string& path) {
+  const auto domain = io::read_domain<Dim>(path);
+  const auto topology = build_topology(domain);
+  const auto on_boundary = boundary_vertices(topology, domain.num_vertices());
+  double measure = 0;
+  for (Index s = 0; s < domain.num_cells(); ++s) measure += signed_measure(domain, s);
+  std::cout << path << ": mesh of " << domain.num_vertices() << " vertices ("
+            << std::count(on_boundary.begin(), on_boundary.end(), false) << " inside), "
+            << domain.num_cells() << (Dim == 2 ? " triangles, area " : " tetrahedra, volume ")
+            << measure << '\n';
+  print_box(domain.points);
+}
+
+template <int Dim>
+void print_cage(const Cage<Dim>& cage) {
+  auto defects = find_defects(cage);
+#ifdef FLBC_WITH_CGAL
+  if (defects.empty()) defects = find_self_intersections(cage);
+#endif
+  if (defects.empty()) {
+    std::cout << "  a sound " << Dim << "D cage of " << cage.size() << " control points and "
+              << cage.facets.cols() << (Dim == 2 ? " edges\n" : " triangles\n");
+    return;
+  }
+  std::cout << "  no cage:\n";
+  for (const auto& defect : defects) std::cout << "    " << defect.message << '\n';
+}
+
+void print_polygons(const std::string& path) {
+  const auto soup = load_polygons(path);
+  std::cout << path << ": " << soup.points.size() << " vertices, " << soup.polygons.size()
+            << " polygons, " << soup.polylines.size() << " polylines\n";
+  if (soup.points.empty()) return;
+  print_box(io::to_points<3>(soup, path));
+  std::visit([](const auto& cage) { print_cage(cage); }, io::to_cage(soup, path));
+}
+
+void print_info(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  if (extension == "mtx" || extension == "dmat" || extension == "npy") {
+    print_weights(path);
+  } else if (extension == "mesh" || extension == "node" || extension == "ele" ||
+             extension == "msh") {
+    print_domain<3>(path);
+  } else {
+    print_polygons(path);
+  }
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int&) {
+  auto path = std::make_shared<std::string>();
+  auto* command = app.add_subcommand("info", "Tell what is in a cage, mesh, model or weight file");
+  command->add_option("FILE", *path, "the file")->required();
+  command->callback([path] { print_info(*path); });
+}
+
+}  // namespace flbc::app

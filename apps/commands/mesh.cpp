@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc mesh: a cage's interior as triangles or tetrahedra.
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "files/domain_formats.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "solve/make_domain.h"
+
+namespace flbc::app {
+namespace {
+
+struct MeshArguments {
+  std::string cage;
+  std::string output;
+  std::string model;
+  Index vertices = 0;
+  bool quiet = false;
+};
+
+template <int Dim>
+void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
+  require_domain_writable<Dim>(arguments.output);
+  PointList<Dim> embedded;
+  if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
+  const auto domain =
+      make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded);
+  {
+    const HeldSignals held;
+    io::write_domain(arguments.output, domain);
+  }
+  if (!arguments.quiet) {
+    std::cerr << arguments.output << ": " << domain.num_vertices() << " vertices, "
+              << domain.num_cells() << (Dim == 2 ? " triangles\n" : " tetrahedra\n");
+  }
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, int&) {
+  auto arguments = std::make_shared<MeshArguments>();
+  auto* command = app.add_subcommand("mesh", "Mesh the interior of a cage");
+  command->add_option("CAGE", arguments->cage, "closed polylines (2D) or surface (3D)")->required();
+  command->add_option("-o,--output", arguments->output, domain_formats_help())->required();
+  command->add_option("--vertices", arguments->vertices, "number of mesh vertices wanted")
+      ->check(refuse_vertex_count);
+  command->add_option("--model", arguments->model, "make this model's vertices mesh vertices");
+  command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
+  command->callback([arguments] {
+    require_distinct({arguments->cage, arguments->model}, {arguments->output});
+    std::visit([&](const auto& cage) { mesh(cage, *arguments); }, load_cage(arguments->cage));
+  });
+}
+
+}  // namespace flbc::app

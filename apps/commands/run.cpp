@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc run: from a cage, a model and poses to everything that can be made of them.
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/load.h"
+#include "flbc/errors.h"
+#include "flbc/sparsify.h"
+#include "flbc/version.h"
+#include "run/facts.h"
+#include "run/pictures.h"
+#include "run/steps.h"
+
+namespace flbc::app {
+namespace {
+
+void check_arguments(const RunArguments& arguments) {
+  validate(arguments.settings.options);
+  if (arguments.reduction != kPoisson && arguments.reduction != kQuadratic) {
+    throw OptionError("--sparsify: '" + arguments.reduction + "' is none of poisson|quadratic");
+  }
+  const double rate = arguments.frames_per_second;
+  if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
+    throw OptionError("--fps must be from 0.001 to 1000000");
+  }
+}
+
+template <int Dim>
+void check_control_point(const Cage<Dim>& cage, Index control_point) {
+  if (control_point >= -1 && control_point < cage.size()) return;
+  throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
+                    "], not " + std::to_string(control_point));
+}
+
+// Errors of a step begin with its name.
+template <class Action>
+void naming_step(const std::string& step, const Action& action) {
+  const auto text = [&](const std::exception& error) {
+    return "step " + step + ": " + error.what();
+  };
+  try {
+    action();
+  } catch (const OptionError& error) {
+    throw OptionError(text(error));
+  } catch (const IoError& error) {
+    throw IoError(text(error));
+  } catch (const std::bad_alloc&) {
+    throw InputError("step " + step + ": out of memory; try fewer --vertices");
+  } catch (const std::exception& error) {
+    throw InputError(text(error));
+  }
+}
+
+template <int Dim>
+struct Step {
+  const char* name;
+  void (*take)(Run<Dim>&);
+};
+
+template <int Dim>
+void take_steps(Run<Dim>& run) {
+  const Step<Dim> steps[] = {
+      {"mesh", mesh_interior},         {"solve", compute_weights}, {"check", check_weights_of_mesh},
+      {"sparsify", reduce_influences}, {"deform", deform_shape},   {"export", export_shape},
+      {"pictures", draw_pictures},
+  };
+  double total = 0;
+  for (const auto& [name, take] : steps) {
+    const auto start = std::chrono::steady_clock::now();
+    naming_step(name, [&, step = take] { step(run); });
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    run.report["seconds"][name] = seconds.count();
+    total += seconds.count();
+  }
+  run.report["seconds"]["total"] = total;
+}
+
+template <int Dim>
+void print_summary(const Run<Dim>& run) {
+  const auto& after = run.report["sparsify"]["after"];
+  const auto& error = run.report["sparsify"]["deformation_error"];
+  Facts facts;
+  facts << run.shape().points.cols() << " points, at most " << after["max_influences"]
+        << " influences, deformation error " << 100 * error["rms"].template get<double>()
+        << " % rms, reproduction error " << after["max_reproduction_error"].template get<double>()
+        << ", " << run.report["seconds"]["total"].template get<double>() << " s";
+  std::cerr << run.arguments.output << ": " << facts.text() << '\n';
+}
+
+// \return the exit status
+template <int Dim>
+int finish(Run<Dim>& run) {
+  run.folder.add_report(run.report, "all of this in numbers");
+  if (!run.arguments.quiet) print_summary(run);
+  for (const auto& violation : run.report["check"]["weights"]["violations"]) {
+    std::cerr << "flbc: " << run.arguments.output << ": " << violation.template get<std::string>()
+              << '\n';
+  }
+  if (!tell_convergence(run.solver.report(), run.arguments.settings)) return kNotConverged;
+  return run.report["check"]["fine"] ? kDone : kBadInput;
+}
+
+// Of a run that failed; it must not hide why.
+template <int Dim>
+void leave_report(Run<Dim>& run, const std::string& failure) {
+  run.report["failed"] = failure;
+  try {
+    run.folder.add_report(run.report, "");
+  } catch (const IoError&) {
+  }
+}
+
+template <int Dim>
+int run_cage(const Cage<Dim>& cage, const RunArguments& arguments) {
+  const auto& settings = arguments.settings;
+  validate<Dim>(SparsifyOptions{arguments.max_influences});
+  check_control_point(cage, arguments.control_point);
+  auto inputs = load_inputs(cage, arguments);
+  const PointList<Dim> model = inputs.shape.points;
+  CageSolver<Dim> solver(cage, model, settings);
+  RunFolder folder(arguments.output,
+                   {inputs.files, names_of_results(inputs), arguments.force, arguments.quiet});
+  Run<Dim> run{arguments, cage, inputs, solver, folder};
+  run.report = {{"command", "run"},      {"version", FLBC_VERSION}, {"dim", Dim},
+                {"cage", settings.cage}, {"model", settings.model}, {"inputs", inputs.files}};
+  try {
+    take_steps(run);
+  } catch (const Error& error) {
+    leave_report(run, error.what());
+    throw;
+  }
+  return finish(run);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  auto& a = *arguments;
+  auto& settings = a.settings;
+  auto* command = app.add_subcommand(
+      "run", "Mesh, solve, check, sparsify, deform, export and draw, all at once");
+  command->footer(
+      "OUTDIR gets the mesh of the interior, dense and sparse weights, the model in every pose,\n"
+      "model.glb, which is a skin that moves through them, pictures, and report.json. What an\n"
+      "earlier run has made there is replaced. Model and skin move by the sparse weights. If a\n"
+      "step fails, what was made before stays.");
+  command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
+  auto* model = command->add_option("MODEL", settings.model,
+                                    "what is inside and moves along: .obj .off .ply .stl .om; "
+                                    "without it the mesh of the interior");
+  auto* deformed = command->add_option(
+      "--deformed", a.deformed, "the cage in its new pose; several, or a pattern as pose_%d.obj");
+  auto* keyframes = command->add_option(
+      "--keyframes", a.keyframes, "poses as displacements of the cage, with times in seconds");
+  keyframes->excludes(deformed);
+  command->add_option("-o,--output", a.output, "folder for all results")
+      ->required()
+      ->type_name("OUTDIR");
+  command->add_option("-k,--max-influences", a.max_influences, "most influences per point (8)");
+  command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
+      ->check(refuse_vertex_count);
+  command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices")
+      ->needs(model);
+  command
+      ->add_option("--sparsify", a.reduction,
+                   "how influences are reduced: poisson: no seams between neighbours; quadratic: "
+                   "every point for itself, faster (poisson)")
+      ->type_name("poisson|quadratic");
+  command
+      ->add_option("--fps", a.frames_per_second,
+                   "poses of --deformed per second in model.glb (24, but 1 for a single one)")
+      ->needs(deformed);
+  command->add_option("--control-point", a.control_point,
+                      "whose function is drawn, from 0 (the one that moves most)");
+  add_solver_options(*command, settings);
+  command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto cage = load_cage(arguments->settings.cage);
+    exit_status = std::visit([&](const auto& any) { return run_cage(any, *arguments); }, cage);
+  });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc solve: from a cage to coordinates.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/domain_formats.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/quality.h"
+#include "report/report_json.h"
+#include "solve/cage_solver.h"
+
+namespace flbc::app {
+namespace {
+
+struct SolveArguments {
+  SolveSettings settings;
+  std::string output;
+  std::string save_domain;
+  std::string report;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+void check_outputs(const SolveArguments& arguments) {
+  const auto& settings = arguments.settings;
+  require_writable(arguments.output, {"mtx", "dmat", "npy"});
+  if (arguments.report != "-") require_writable(arguments.report, {"json"});
+  require_distinct({settings.cage, settings.domain, settings.model},
+                   {arguments.output, arguments.save_domain, arguments.report});
+}
+
+template <int Dim>
+void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solver,
+                   const Quality& delivered) {
+  const auto& report = solver.report();
+  std::cerr << arguments.output << ": " << report.control_points << " control points, "
+            << report.vertices << " vertices, " << report.cells
+            << (Dim == 2 ? " triangles; " : " tetrahedra; ") << report.iterations << " iterations, "
+            << report.seconds.solve << (solver.is_cached() ? " s, from the cache" : " s")
+            << "; minimum weight " << delivered.min_weight << ", reproduction error "
+            << delivered.max_reproduction_error;
+  if (arguments.settings.options.certify) {
+    std::cerr << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
+  }
+  std::cerr << '\n';
+}
+
+template <int Dim>
+int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
+  const auto& settings = arguments.settings;
+  require_domain_writable<Dim>(arguments.save_domain);
+  PointList<Dim> model;
+  if (!settings.model.empty()) model = load_model<Dim>(settings.model);
+
+  CageSolver<Dim> solver(cage, model, settings);
+  solver.make_domain();
+  solver.solve(arguments.quiet);
+  const auto rows = solver.rows();
+  const auto delivered = measure_quality(cage.points, solver.points(), rows);
+  const auto json = to_text(solver.json(delivered));
+  {
+    const HeldSignals held;
+    io::write_weights(arguments.output, rows);
+    if (!arguments.save_domain.empty()) io::write_domain(arguments.save_domain, solver.domain());
+    if (!arguments.report.empty()) {
+      io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
+    }
+  }
+  if (arguments.verbose) std::cerr << json;
+  if (!arguments.quiet) print_summary(arguments, solver, delivered);
+  return tell_convergence(solver.report(), settings) ? kDone : kNotConverged;
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<SolveArguments>();
+  auto& a = *arguments;
+  auto& settings = a.settings;
+  auto* command = app.add_subcommand("solve", "Compute the coordinates of a cage");
+  command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
+  command
+      ->add_option("-o,--output", a.output,
+                   "weights, a row per point and a column per control point: .mtx, .dmat or .npy")
+      ->required();
+  auto* vertices =
+      command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
+          ->check(refuse_vertex_count);
+  auto* domain = command->add_option("--domain", settings.domain, "use this mesh of the interior");
+  auto* model =
+      command->add_option("--model", settings.model, "write weights at this model's vertices");
+  auto* embed =
+      command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices")
+          ->needs(model);
+  domain->excludes(vertices)->excludes(embed);
+  command->add_option("--save-domain", a.save_domain, domain_formats_help());
+  command->add_option("--report", a.report, "write what happened to this .json file");
+  add_solver_options(*command, settings);
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_flag("-v,--verbose", a.verbose, "print the report");
+  command->callback([arguments, &exit_status] {
+    validate(arguments->settings.options);
+    check_outputs(*arguments);
+    const auto cage = load_cage(arguments->settings.cage);
+    exit_status = std::visit([&](const auto& any) { return solve_cage(any, *arguments); }, cage);
+  });
+}
+
+}  // namespace flbc::app

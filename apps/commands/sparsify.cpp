@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc sparsify: few influences per point.
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "flbc/edge_list.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/io/weights_triplets.h"
+#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
+#include "flbc/version.h"
+#include "report/report_json.h"
+#include "report/sparsify_report.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kQuadratic = "quadratic";
+constexpr const char* kPoisson = "poisson";
+
+struct SparsifyArguments {
+  std::string weights;
+  std::string cage;
+  std::string points;
+  std::string output;
+  std::vector<std::string> poses;
+  std::string report;
+  std::string method = kQuadratic;
+  bool quiet = false;
+  SparsifyOptions options;
+};
+
+void check_files(const SparsifyArguments& arguments) {
+  require_writable(arguments.output, {"mtx", "dmat", "npy"});
+  if (arguments.report != "-") require_writable(arguments.report, {"json"});
+  auto inputs = arguments.poses;
+  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.points});
+  require_distinct(inputs, {arguments.output, arguments.report});
+}
+
+template <int Dim>
+struct ConnectedPoints {
+  PointList<Dim> points;
+  EdgeList edges;
+};
+
+// The vertices of a domain mesh or a model, by the file's name.
+template <int Dim>
+ConnectedPoints<Dim> load_points(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  for (const char* domain : {"mesh", "node", "ele", "msh", "vtu"}) {
+    if (extension != domain) continue;
+    auto mesh = io::read_domain<Dim>(path);
+    auto edges = edges_of_cells(mesh);
+    return {std::move(mesh.points), std::move(edges)};
+  }
+  const auto soup = load_polygons(path);
+  auto points = io::to_points<Dim>(soup, path);
+  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
+  auto edges =
+      naming(path, [&] { return edges_of_polygons(points, soup.polygons, soup.polylines); });
+  return {std::move(points), std::move(edges)};
+}
+
+template <int Dim>
+WeightMatrix load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
+                          const PointList<Dim>& points) {
+  if (io::extension_of(arguments.weights) == "txt") {
+    return io::read_weight_triplets(arguments.weights, static_cast<Index>(control_points.cols()),
+                                    static_cast<Index>(points.cols()));
+  }
+  auto weights = io::read_weights(arguments.weights);
+  if (weights.rows() != control_points.cols()) {
+    throw InputError(arguments.weights + ": has weights for " + std::to_string(weights.rows()) +
+                     " control points, but " + arguments.cage + " has " +
+                     std::to_string(control_points.cols()));
+  }
+  if (weights.cols() != points.cols()) {
+    throw InputError(arguments.weights + ": has weights of " + std::to_string(weights.cols()) +
+                     " points, but " + arguments.points + " has " + std::to_string(points.cols()) +
+                     " vertices");
+  }
+  return weights;
+}
+
+template <int Dim>
+std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments, Eigen::Index size) {
+  std::vector<PointList<Dim>> poses;
+  for (const auto& path : arguments.poses) {
+    poses.push_back(load_model<Dim>(path));
+    if (poses.back().cols() == size) continue;
+    throw InputError(path + ": has " + std::to_string(poses.back().cols()) + " vertices, but " +
+                     arguments.cage + " has " + std::to_string(size));
+  }
+  return poses;
+}
+
+std::uintmax_t size_of_file(const std::string& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  return error ? 0 : bytes;
+}
+
+template <int Dim>
+WeightMatrix make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
+                         const WeightMatrix& weights, const std::vector<PointList<Dim>>& poses,
+                         const SparsifyArguments& arguments) {
+  if (arguments.method == kPoisson) {
+    return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
+                                  arguments.options);
+  }
+  return sparsify<Dim>(control_points, model.points, weights, arguments.options);
+}
+
+template <int Dim>
+int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
+  validate<Dim>(arguments.options);
+  const auto model = load_points<Dim>(arguments.points);
+  if (arguments.method == kPoisson && model.edges.ends.empty()) {
+    throw InputError(arguments.points +
+                     ": has neither faces nor lines, but --method poisson needs to know which "
+                     "vertices are neighbours");
+  }
+  const auto before = load_weights(arguments, cage.points, model.points);
+  const auto poses = load_poses<Dim>(arguments, cage.points.cols());
+  const auto start = std::chrono::steady_clock::now();
+  const auto after = naming(arguments.points, [&] {
+    return make_sparse<Dim>(cage.points, model, before, poses, arguments);
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  Json report{{"method", arguments.method},
+              {"dim", Dim},
+              {"control_points", cage.size()},
+              {"points", model.points.cols()},
+              {"seconds", seconds.count()}};
+  report["options"] = {{"threshold", arguments.options.threshold}};
+  if (arguments.options.max_influences < std::numeric_limits<Index>::max()) {
+    report["options"]["max_influences"] = arguments.options.max_influences;
+  }
+  report["before"] = weights_json(arguments.weights, size_of_file(arguments.weights), before,
+                                  cage.points, model.points);
+  report["error"] = errors_json<Dim>(
+      {cage.points, model.points, model.edges, before, after, poses, arguments.poses});
+  report["version"] = FLBC_VERSION;
+  {
+    const HeldSignals held;
+    io::write_weights(arguments.output, after);
+    report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
+                                   cage.points, model.points);
+    if (!arguments.report.empty()) {
+      io::write_file(arguments.report, [&](std::ostream& file) { file << to_text(report); });
+    }
+  }
+  if (!arguments.quiet) std::cerr << summary_of(report) << '\n';
+  return kDone;
+}
+
+std::string refuse_method(const std::string& name) {
+  if (name == kQuadratic || name == kPoisson) return {};
+  return "'" + name + "' is none of quadratic|poisson";
+}
+
+}  // namespace
+
+void add_sparsify_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<SparsifyArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("sparsify", "Keep few influences per point");
+  command->footer(
+      "The weights that are left are >= 0, sum to 1 and reproduce the points, also where those\n"
+      "given do not.");
+  command
+      ->add_option("WEIGHTS", a.weights,
+                   ".mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
+      ->required();
+  command->add_option("--cage", a.cage, "the cage of the weights")->required();
+  command
+      ->add_option("--points", a.points,
+                   "model or mesh of the interior to whose vertices the weights belong")
+      ->required();
+  auto* count = command->add_option("-k,--max-influences", a.options.max_influences,
+                                    "most influences per point, at least 3 in 2D and 4 in 3D");
+  auto* threshold = command->add_option("--threshold", a.options.threshold,
+                                        "drop weights below this first, if the rest reproduces");
+  command
+      ->add_option("--method", a.method,
+                   "quadratic: every point for itself; poisson: no seams between neighbours "
+                   "(quadratic)")
+      ->type_name("quadratic|poisson")
+      ->check(refuse_method);
+  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat or .npy")->required();
+  command
+      ->add_option("--pose", a.poses,
+                   "measure the error in this pose of the cage, which poisson makes small, too "
+                   "(repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("--report", a.report, "write what happened to this .json file");
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, count, threshold, &exit_status] {
+    if (count->count() + threshold->count() == 0) {
+      throw OptionError("give -k, the most influences per point, or --threshold, or both");
+    }
+    check_files(*arguments);
+    const auto cage = load_cage(arguments->cage);
+    exit_status =
+        std::visit([&](const auto& any) { return sparsify_weights(any, *arguments); }, cage);
+  });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poses/poses.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "files/load.h"
+#include "flbc/errors.h"
+#include "flbc/io/keyframes.h"
+#include "poses/file_sequence.h"
+
+namespace flbc::app {
+
+CageFiles find_cages(const std::vector<std::string>& cages) {
+  CageFiles files;
+  for (const auto& cage : cages) {
+    if (!has_number(cage)) {
+      files.paths.push_back(cage);
+      continue;
+    }
+    for (const auto& file : find_files(cage)) {
+      files.paths.push_back(file.path);
+      files.numbers.push_back(file.number);
+    }
+  }
+  if (cages.size() == 1 && has_number(cages.front())) return files;
+  files.numbers.resize(files.paths.size());
+  std::iota(files.numbers.begin(), files.numbers.end(), 0);
+  return files;
+}
+
+int dimension_of_cage(const std::string& path) {
+  const auto soup = load_polygons(path);
+  if (!soup.polylines.empty()) return 2;
+  const bool is_flat = std::all_of(soup.points.begin(), soup.points.end(), [&](const auto& point) {
+    return point.z() == soup.points.front().z();
+  });
+  return soup.polygons.size() <= 1 && is_flat ? 2 : 3;
+}
+
+template <int Dim>
+PointList<Dim> load_control_points(const std::string& path) {
+  return io::to_points<Dim>(load_polygons(path), path);
+}
+
+template <int Dim>
+std::vector<Pose<Dim>> load_poses(const CageFiles& files) {
+  std::vector<Pose<Dim>> poses;
+  for (std::size_t k = 0; k < files.paths.size(); ++k) {
+    poses.push_back({files.paths[k], files.numbers[k], load_control_points<Dim>(files.paths[k])});
+  }
+  return poses;
+}
+
+template <int Dim>
+std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest) {
+  const auto keyframes = io::read_keyframes(path);
+  std::vector<Pose<Dim>> poses;
+  for (const auto& keyframe : keyframes) {
+    const auto number = static_cast<std::int64_t>(poses.size());
+    if (keyframe.displacements.cols() != rest.cols()) {
+      throw InputError(path + ": the keyframes are for " +
+                       std::to_string(keyframe.displacements.cols()) +
+                       " control points, but the rest cage has " + std::to_string(rest.cols()));
+    }
+    poses.push_back({path + ", keyframe " + std::to_string(number), number,
+                     rest + keyframe.displacements.template topRows<Dim>()});
+  }
+  return poses;
+}
+
+template PointList<2> load_control_points(const std::string&);
+template PointList<3> load_control_points(const std::string&);
+template std::vector<Pose<2>> load_poses(const CageFiles&);
+template std::vector<Pose<3>> load_poses(const CageFiles&);
+template std::vector<Pose<2>> load_keyframes(const std::string&, const PointList<2>&);
+template std::vector<Pose<3>> load_keyframes(const std::string&, const PointList<3>&);
+
+}  // namespace flbc::app

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What flbc check writes for programs.
+#include <nlohmann/json.hpp>
+
+#include "flbc/version.h"
+#include "report/check_report.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Derived>
+Json list(const Eigen::MatrixBase<Derived>& numbers) {
+  Json json = Json::array();
+  for (const auto& number : numbers.reshaped()) json.push_back(number);
+  return json;
+}
+
+// Null if there was nothing to measure.
+template <int Dim>
+Json to_json(const Extreme<Dim>& extreme) {
+  if (extreme.point < 0) return nullptr;
+  Json json{{"value", extreme.value}, {"point", extreme.point}, {"place", list(extreme.place)}};
+  if (extreme.control_point >= 0) json["control_point"] = extreme.control_point;
+  return json;
+}
+
+template <int Dim>
+Json cage_json(const CheckReport<Dim>& report) {
+  Json json{{"file", report.cage_file},
+            {"dim", Dim},
+            {"control_points", report.cage.size()},
+            {"facets", report.cage.facets.cols()},
+            {"sound", report.defects.empty()},
+            {"self_intersections_checked", report.intersections_checked},
+            {"defects", Json::array()}};
+  for (const auto& defect : report.defects) {
+    json["defects"].push_back({{"message", defect.message},
+                               {"control_points", defect.vertices},
+                               {"facets", defect.facets}});
+  }
+  if (!report.facts) return json;
+  const auto& facts = *report.facts;
+  json["parts"] = facts.parts;
+  json["holes"] = facts.holes;
+  json["low"] = list(report.cage.points.rowwise().minCoeff());
+  json["high"] = list(report.cage.points.rowwise().maxCoeff());
+  json["size"] = facts.size;
+  json["measure"] = facts.measure;
+  json["shortest_edge"] = {{"length", facts.shortest_edge},
+                           {"control_points", facts.shortest_ends}};
+  return json;
+}
+
+template <int Dim>
+Json model_json(const CheckReport<Dim>& report) {
+  const auto& [points, outside] = *report.model;
+  Json json{{"file", report.model_file}, {"points", points.cols()}, {"outside", outside.size()}};
+  if (outside.empty()) return json;
+  json["first_outside"] = {{"point", outside.front()},
+                           {"place", list(points.col(outside.front()))}};
+  return json;
+}
+
+template <int Dim>
+Json mesh_json(const MeshCheck<Dim>& mesh) {
+  return {{"interior_vertices", mesh.interior_vertices},
+          {"local_minima", mesh.local_minima},
+          {"local_maxima", mesh.local_maxima},
+          {"deepest_minimum", to_json(mesh.deepest_minimum)},
+          {"highest_maximum", to_json(mesh.highest_maximum)},
+          {"total_variation", mesh.total_variation},
+          {"harmonic_total_variation", mesh.harmonic_total_variation},
+          {"harmonic_mean_influences", mesh.harmonic_mean_influences},
+          {"influence_ratio", mesh.influence_ratio}};
+}
+
+template <int Dim>
+Json weights_json(const CheckReport<Dim>& report) {
+  const auto& check = *report.weights;
+  Json json{{"file", report.weights_file},
+            {"domain", report.domain_file},
+            {"points", check.points},
+            {"control_points", check.control_points},
+            {"min_weight", check.quality.min_weight},
+            {"max_partition_error", check.quality.max_partition_error},
+            {"max_reproduction_error", check.quality.max_reproduction_error},
+            {"mean_influences", check.quality.mean_influences},
+            {"max_influences", check.influences.value},
+            {"non_finite", check.non_finite},
+            {"negative", check.negative},
+            {"control_points_found", check.control_points_found},
+            {"points_on_cage", check.points_on_cage}};
+  json["worst"] = {
+      {"non_finite", to_json(check.first_non_finite)}, {"min_weight", to_json(check.min_weight)},
+      {"max_weight", to_json(check.max_weight)},       {"partition", to_json(check.partition)},
+      {"reproduction", to_json(check.reproduction)},   {"lagrange", to_json(check.lagrange)},
+      {"linearity", to_json(check.linearity)},         {"influences", to_json(check.influences)}};
+  if (check.mesh) json["mesh"] = mesh_json(*check.mesh);
+  json["violations"] = report.violations;
+  return json;
+}
+
+}  // namespace
+
+template <int Dim>
+Json check_json(const CheckReport<Dim>& report) {
+  Json json{{"fine", report.is_fine()}, {"cage", cage_json(report)}};
+  if (report.model) json["model"] = model_json(report);
+  if (report.weights) json["weights"] = weights_json(report);
+  json["version"] = FLBC_VERSION;
+  return json;
+}
+
+template Json check_json(const CheckReport<2>&);
+template Json check_json(const CheckReport<3>&);
+
+}  // namespace flbc::app

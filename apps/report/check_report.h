@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What flbc check found out, as a table and as JSON.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/cage_facts.h"
+#include "flbc/check.h"
+
+namespace flbc::app {
+
+//! More defects are not looked for.
+constexpr std::size_t kMostDefects = 16;
+
+//! A model in its cage.
+template <int Dim>
+struct ModelCheck {
+  PointList<Dim> points;
+  std::vector<Index> outside;  //!< their indices
+};
+
+//! Everything found out. What was not asked for, or could not be looked at because the cage is
+//! defective, is absent.
+template <int Dim>
+struct CheckReport {
+  std::string cage_file, model_file, domain_file, weights_file;
+  Cage<Dim> cage;
+  std::vector<Defect> defects;         //!< at most kMostDefects
+  bool intersections_checked = false;  //!< whether this build can look for them, and did
+  std::optional<CageFacts<Dim>> facts{};
+  std::optional<ModelCheck<Dim>> model{};
+  std::optional<WeightCheck<Dim>> weights{};
+  std::vector<std::string> violations{};  //!< by the weights
+
+  bool is_fine() const { return defects.empty() && violations.empty(); }
+};
+
+//! A line a property, with value, verdict and worst place.
+template <int Dim>
+void print_check(std::ostream& out, const CheckReport<Dim>& report);
+
+template <int Dim>
+nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
+
+}  // namespace flbc::app

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What flbc check prints.
+#include <algorithm>
+#include <cstdio>
+#include <iomanip>
+#include <numeric>
+#include <ostream>
+
+#include "flbc/violations.h"
+#include "report/check_report.h"
+
+namespace flbc::app {
+namespace {
+
+std::string number(double value, int digits = 6) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+template <int Dim>
+std::string position(const Vector<Dim>& point) {
+  std::string text = "(";
+  for (int axis = 0; axis < Dim; ++axis) text += (axis > 0 ? ", " : "") + number(point[axis]);
+  return text + ")";
+}
+
+// Empty where there is nothing worth a look.
+template <int Dim>
+std::string place(const Extreme<Dim>& extreme) {
+  if (extreme.point < 0 || extreme.value == 0) return "";
+  auto text = "point " + std::to_string(extreme.point) + " at " + position<Dim>(extreme.place);
+  if (extreme.control_point >= 0) {
+    text += ", control point " + std::to_string(extreme.control_point);
+  }
+  return text;
+}
+
+// "1 point", "2 points".
+std::string count(std::int64_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+void print_fact(std::ostream& out, const std::string& name, const std::string& value) {
+  out << "  " << std::left << std::setw(16) << name << value << '\n';
+}
+
+// A line of the table of weights.
+void print_line(std::ostream& out, const std::string& name, const std::string& value,
+                const std::string& verdict, const std::string& where) {
+  std::string line = "  " + name;
+  const auto pad = [&](std::size_t column) { line.resize(std::max(line.size() + 2, column), ' '); };
+  pad(34);
+  line += value;
+  pad(48);
+  line += verdict;
+  pad(53);
+  line += where;
+  line.erase(line.find_last_not_of(' ') + 1);
+  out << line << '\n';
+}
+
+std::string yes_no(bool is_fine) {
+  return is_fine ? "ok" : "no";
+}
+
+template <int Dim>
+void print_error(std::ostream& out, const std::string& name, const Extreme<Dim>& error) {
+  if (error.point < 0) return print_line(out, name, "-", "", "no such points");
+  const bool is_fine = error.value <= kCheckTolerance;
+  print_line(out, name, number(error.value, 3), yes_no(is_fine), place(error));
+}
+
+template <int Dim>
+void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
+  const auto& cage = report.cage;
+  if (!report.defects.empty()) {
+    out << report.cage_file << ": no cage, "
+        << (report.defects.size() == kMostDefects ? "at least " : "")
+        << count(static_cast<std::int64_t>(report.defects.size()), "defect") << '\n';
+    for (const auto& defect : report.defects) out << "  " << defect.message << '\n';
+    if (!report.model_file.empty() || !report.weights_file.empty()) {
+      out << "Nothing else was looked at: it has no meaning without a sound cage.\n";
+    }
+    return;
+  }
+  const auto& facts = *report.facts;
+  out << report.cage_file << ": a sound " << Dim << "D cage"
+      << (report.intersections_checked ? "" : " (self-intersections were not looked for)") << '\n';
+  print_fact(out, "control points", std::to_string(cage.size()));
+  print_fact(out, Dim == 2 ? "edges" : "triangles", std::to_string(cage.facets.cols()));
+  print_fact(out, Dim == 2 ? "outer loops" : "outer shells", std::to_string(facts.parts));
+  print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
+  print_fact(out, "bounding box",
+             "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +
+                 position<Dim>(cage.points.rowwise().maxCoeff()));
+  print_fact(out, "size", number(facts.size) + ", the diagonal of the bounding box");
+  print_fact(out, Dim == 2 ? "area" : "volume", number(facts.measure));
+  print_fact(out, "shortest edge",
+             number(facts.shortest_edge) + ", between control points " +
+                 std::to_string(facts.shortest_ends[0]) + " and " +
+                 std::to_string(facts.shortest_ends[1]));
+}
+
+template <int Dim>
+void print_model(std::ostream& out, const CheckReport<Dim>& report) {
+  const auto& [points, outside] = *report.model;
+  out << report.model_file << ": ";
+  if (outside.empty()) {
+    out << count(points.cols(), "point") << ", none outside the cage\n";
+    return;
+  }
+  const Index first = outside.front();
+  out << outside.size() << " of " << count(points.cols(), "point")
+      << " lie outside the cage, the first is vertex " << first << " at "
+      << position<Dim>(points.col(first)) << '\n';
+}
+
+template <int Dim>
+void print_on_mesh(std::ostream& out, const MeshCheck<Dim>& mesh, const Quality& quality) {
+  const auto print_extrema = [&](const std::string& name, const std::vector<Index>& numbers,
+                                 const Extreme<Dim>& worst) {
+    const auto total = std::accumulate(numbers.begin(), numbers.end(), std::int64_t{0});
+    print_line(out, name, std::to_string(total), yes_no(total == 0),
+               total == 0 ? "" : "by " + number(worst.value, 3) + " at " + place(worst));
+  };
+  print_extrema("local minima inside", mesh.local_minima, mesh.deepest_minimum);
+  print_extrema("local maxima inside", mesh.local_maxima, mesh.highest_maximum);
+  print_line(out, "total variation", number(mesh.total_variation, 4), "",
+             "harmonic coordinates: " + number(mesh.harmonic_total_variation, 4));
+  print_line(out, "influences / harmonic", number(mesh.influence_ratio, 3), "",
+             number(quality.mean_influences, 4) + " / " + number(mesh.harmonic_mean_influences, 4) +
+                 " a point");
+}
+
+template <int Dim>
+void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
+  const auto& check = *report.weights;
+  out << report.weights_file << ": weights of " << count(check.points, "point") << " ("
+      << (report.domain_file.empty() ? report.model_file : report.domain_file) << ") for "
+      << count(check.control_points, "control point") << '\n';
+  print_line(out, "property", "value", "", "worst place");
+  print_line(out, "finite", check.non_finite == 0 ? "all" : count(check.non_finite, "not"),
+             yes_no(check.non_finite == 0), place(check.first_non_finite));
+  print_error(out, "sum to 1", check.partition);
+  print_error(out, "reproduce points", check.reproduction);
+  print_error(out, "Lagrange, " + count(check.control_points_found, "control point"),
+              check.lagrange);
+  print_error(out, "linear on facets, " + count(check.points_on_cage, "point"), check.linearity);
+  print_line(out, "smallest weight", number(check.min_weight.value, 3), yes_no(check.negative == 0),
+             place(check.min_weight));
+  print_line(out, "negative weights", std::to_string(check.negative), yes_no(check.negative == 0),
+             "");
+  print_line(out, "largest weight", number(check.max_weight.value, 3), "", place(check.max_weight));
+  print_line(out, "influences above 1e-4, mean", number(check.quality.mean_influences, 4), "", "");
+  print_line(out, "influences above 1e-4, most", number(check.influences.value), "",
+             place(check.influences));
+  if (check.mesh) print_on_mesh(out, *check.mesh, check.quality);
+}
+
+}  // namespace
+
+template <int Dim>
+void print_check(std::ostream& out, const CheckReport<Dim>& report) {
+  print_cage(out, report);
+  if (report.model) print_model(out, report);
+  if (report.weights) print_weights(out, report);
+}
+
+template void print_check(std::ostream&, const CheckReport<2>&);
+template void print_check(std::ostream&, const CheckReport<3>&);
+
+}  // namespace flbc::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "flbc/names.h"
+#include "flbc/version.h"
+
+namespace flbc::app {
+
+namespace {
+
+nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& level : levels) {
+    json.push_back({{"vertices", level.vertices},
+                    {"cells", level.cells},
+                    {"iterations", level.iterations},
+                    {"seconds",
+                     {{"mesh", level.mesh_seconds},
+                      {"setup", level.setup_seconds},
+                      {"solve", level.solve_seconds}}}});
+  }
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
+                                   const RunContext& context) {
+  const auto& given = settings.options;
+  const auto options = resolve(given, context.dim);
+  nlohmann::ordered_json json;
+  json["method"] = name_of(report.method);
+  json["dim"] = context.dim;
+  json["control_points"] = report.control_points;
+  json["vertices"] = report.vertices;
+  json["cells"] = report.cells;
+  json["iterations"] = report.iterations;
+  json["converged"] = report.status == SolveStatus::kConverged;
+  json["status"] = name_of(report.status);
+  json["cached"] = context.cached;
+  json["primal_residual"] = report.primal_residual;
+  json["dual_residual"] = report.dual_residual;
+  json["objective"] = report.objective;
+  if (options.certify) {
+    json["lower_bound"] = report.certificate.lower_bound;
+    json["certified_objective"] = report.certificate.objective;
+    json["relative_gap"] = report.certificate.relative_gap;
+  }
+  json["seconds"] = {{"mesh", context.mesh_seconds},
+                     {"setup", report.seconds.setup},
+                     {"solve", report.seconds.solve},
+                     {"recover", report.seconds.recover},
+                     {"certify", report.seconds.certify}};
+  json["coarse_levels"] = levels_json(report.coarse_levels);
+  json["min_weight"] = context.delivered.min_weight;
+  json["max_partition_error"] = context.delivered.max_partition_error;
+  json["max_reproduction_error"] = context.delivered.max_reproduction_error;
+  json["mean_influences"] = context.delivered.mean_influences;
+  json["penalty"] = report.penalty;
+  json["numbers_per_cell"] = report.numbers_per_cell;
+  json["version"] = FLBC_VERSION;
+  json["options"] = {{"cage", settings.cage},
+                     {"domain", settings.domain},
+                     {"model", settings.model},
+                     {"embed", settings.embed},
+                     {"vertices", settings.vertices},
+                     {"method", name_of(given.method)},
+                     {"non_negative", name_of(options.non_negative)},
+                     {"coarse_to_fine", name_of(settings.coarse_to_fine)},
+                     {"certify", options.certify},
+                     {"phi", name_of(options.phi)},
+                     {"recovery", name_of(options.recovery)},
+                     {"precision", options.precision == Precision::kSingle ? "single" : "double"},
+                     {"tolerance", options.tolerance},
+                     {"max_iterations", options.max_iterations},
+                     {"penalty", options.penalty},
+                     {"relaxation", options.relaxation},
+                     {"threads", options.threads},
+                     {"cache", settings.cache}};
+  return json;
+}
+
+std::string to_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The report of a run as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "flbc/report.h"
+#include "solve/solve_settings.h"
+
+namespace flbc::app {
+
+//! What the program did around the solver.
+struct RunContext {
+  int dim = 0;
+  double mesh_seconds = 0;
+  bool cached =
+      false;  //!< the weights are from the cache, and all seconds from when they got there
+  Quality delivered{};  //!< of the rows written: the model's if there is one
+};
+
+//! \param settings  as given; what the solver made of its options is written too
+nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
+                                   const RunContext& context);
+
+//! Text for a file, with a line break at the end. File names in it need not be UTF-8, which JSON
+//! must be: what is not is replaced.
+std::string to_text(const nlohmann::ordered_json& json);
+
+}  // namespace flbc::app

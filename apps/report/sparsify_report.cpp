@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/sparsify_report.h"
+
+#include <sstream>
+
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/coordinates.h"
+#include "flbc/edge_error.h"
+#include "flbc/poisson_reduction.h"
+#include "flbc/poses.h"
+#include "flbc/quality.h"
+#include "flbc/sparsify.h"
+#include "flbc/sparsify_error.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of either kind.
+constexpr int kRandomPoses = 20;
+
+Json norms_json(const ErrorNorms& norms) {
+  return {{"rms", norms.rms}, {"max", norms.max}};
+}
+
+// \param measure  makes ErrorNorms of poses
+template <int Dim, class Measure>
+Json over_poses(const SparsifiedWeights<Dim>& weights, const Measure& measure) {
+  const auto& control_points = weights.control_points;
+  Json errors{{"random_poses", kRandomPoses},
+              {"independent", norms_json(measure(independent_poses(control_points, kRandomPoses)))},
+              {"smooth", norms_json(measure(smooth_poses(control_points, kRandomPoses)))}};
+  errors["poses"] = Json::array();
+  for (std::size_t k = 0; k < weights.poses.size(); ++k) {
+    auto entry = norms_json(measure({weights.poses[k]}));
+    entry["file"] = weights.pose_files[k];
+    errors["poses"].push_back(entry);
+  }
+  return errors;
+}
+
+// "over random poses 1 % rms, 2 % max, over smooth ones .."
+std::string percents(const Json& errors) {
+  std::ostringstream text;
+  const auto add = [&](const char* poses, const Json& norms) {
+    text << "over " << poses << " " << 100 * norms["rms"].get<double>() << " % rms, "
+         << 100 * norms["max"].get<double>() << " % max";
+  };
+  add("random poses", errors["independent"]);
+  text << ", ";
+  add("smooth ones", errors["smooth"]);
+  return text.str();
+}
+
+}  // namespace
+
+template <int Dim>
+Json weights_json(const std::string& file, std::uintmax_t bytes, const WeightMatrix& weights,
+                  const PointList<Dim>& control_points, const PointList<Dim>& points) {
+  const auto influences = count_influences(weights);
+  const auto quality = measure_quality(control_points, points, weights);
+  return {{"file", file},
+          {"bytes", bytes},
+          {"mean_influences", influences.mean},
+          {"max_influences", influences.max},
+          {"min_weight", quality.min_weight},
+          {"max_partition_error", quality.max_partition_error},
+          {"max_reproduction_error", quality.max_reproduction_error}};
+}
+
+template <int Dim>
+Json errors_json(const SparsifiedWeights<Dim>& weights) {
+  using Poses = std::vector<PointList<Dim>>;
+  Json errors{{"weight", norms_json(weight_error(weights.before, weights.after))}};
+  const double size = bounding_box_diagonal<Dim>(weights.points);
+  errors["deformation"] = over_poses(weights, [&](const Poses& poses) {
+    const auto norms = deformation_error(poses, weights.before, weights.after);
+    return size > 0 ? ErrorNorms{norms.rms / size, norms.max / size} : norms;
+  });
+  if (weights.edges.ends.empty()) return errors;
+  errors["edge"] = over_poses(weights, [&](const Poses& poses) {
+    return edge_error<Dim>(weights.points, weights.edges, poses, weights.before, weights.after);
+  });
+  return errors;
+}
+
+std::string summary_of(const Json& report) {
+  const auto& before = report["before"];
+  const auto& after = report["after"];
+  const auto& error = report["error"];
+  std::ostringstream text;
+  text << after["file"].get<std::string>() << ": " << after["mean_influences"].get<double>()
+       << " influences per point, at most " << after["max_influences"] << " (before "
+       << before["mean_influences"].get<double>() << ", " << before["max_influences"] << "); "
+       << after["bytes"] << " bytes (before " << before["bytes"] << "); deformation error "
+       << percents(error["deformation"]) << " of the size";
+  if (error.contains("edge")) {
+    text << "; error of edges " << percents(error["edge"]) << " of their length";
+  }
+  return text.str();
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                         \
+  template Json weights_json(const std::string&, std::uintmax_t, const WeightMatrix&, \
+                             const PointList<Dim>&, const PointList<Dim>&);           \
+  template Json errors_json(const SparsifiedWeights<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/cage_solver.h"
+
+#include <chrono>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "flbc/cell_locator.h"
+#include "flbc/coarse_to_fine.h"
+#include "flbc/errors.h"
+#include "flbc/interpolate.h"
+#include "flbc/io/mesh_io.h"
+#include "report/report_json.h"
+#include "solve/cache_key.h"
+#include "solve/make_domain.h"
+#include "solve/progress_bar.h"
+
+namespace flbc::app {
+namespace {
+
+// Starts from coarser meshes where that pays and a mesher was built in.
+template <int Dim>
+Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                      const SolverOptions& options, CoarseToFine coarse_to_fine) {
+  const auto mesher = coarse_mesher<Dim>();
+  CoarseLevels levels;
+  if (coarse_to_fine == CoarseToFine::kOn) {
+    constexpr Index kCoarsest = 500;
+    levels.coarsest = kCoarsest;
+    if (!mesher) {
+      throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
+                        std::to_string(Dim) + "D");
+    }
+  }
+  if (coarse_to_fine == CoarseToFine::kOff || !mesher) return solve(cage, domain, options);
+  return solve_coarse_to_fine(cage, domain, mesher, options, levels);
+}
+
+// Weights that cannot be kept are delivered nevertheless.
+template <int Dim>
+void keep(const WeightsCache& cache, const std::string& key, const SolvedDomain<Dim>& solved) {
+  try {
+    const HeldSignals held;
+    cache.store(key, solved);
+  } catch (const IoError& error) {
+    std::cerr << "flbc: the weights are not kept in the cache: " << error.what() << '\n';
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
+                            const SolveSettings& settings)
+    : cage_(cage), model_(model), settings_(settings) {
+  if (!settings.cache.empty()) cache_.emplace(settings.cache);
+}
+
+template <int Dim>
+bool CageSolver<Dim>::find_in_cache() {
+  if (!cache_) return false;
+  const bool has_domain = !settings_.domain.empty();
+  key_ = key_of<Dim>({cage_, has_domain ? &solved_.domain : nullptr,
+                      settings_.embed ? &model_ : nullptr, settings_.vertices,
+                      name_of(settings_.coarse_to_fine), bool(coarse_mesher<Dim>()),
+                      settings_.options});
+  auto answer = cache_->find<Dim>(key_);
+  if (!answer.complaint.empty()) {
+    std::cerr << "flbc: " << answer.complaint << "; the weights are computed anew\n";
+  }
+  if (!answer.solved) return false;
+  solved_ = std::move(*answer.solved);
+  return true;
+}
+
+template <int Dim>
+void CageSolver<Dim>::make_domain() {
+  const auto start = std::chrono::steady_clock::now();
+  const bool has_domain = !settings_.domain.empty();
+  if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
+  is_cached_ = find_in_cache();
+  if (!is_cached_) {
+    if (!has_domain) {
+      solved_.domain = app::make_domain(settings_.cage, cage_, settings_.vertices,
+                                        settings_.embed ? settings_.model : "", model_);
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    solved_.mesh_seconds = seconds.count();
+  }
+  if (settings_.model.empty() || settings_.embed) return;
+  places_ = naming(settings_.model, [&] { return locate_points(solved_.domain, model_); });
+}
+
+template <int Dim>
+void CageSolver<Dim>::solve(bool quiet) {
+  if (is_cached_) return;
+  auto options = settings_.options;
+  {
+    ProgressBar bar(quiet);
+    options.progress = [&](const Progress& progress) {
+      bar.show(progress);
+      return true;
+    };
+    solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
+      return solve_domain(cage_, solved_.domain, options, settings_.coarse_to_fine);
+    });
+  }
+  if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
+}
+
+template <int Dim>
+const PointList<Dim>& CageSolver<Dim>::points() const {
+  return settings_.model.empty() ? solved_.domain.points : model_;
+}
+
+template <int Dim>
+WeightMatrix CageSolver<Dim>::rows() const {
+  const auto& weights = solved_.solution.weights;
+  if (settings_.model.empty()) return weights;
+  if (settings_.embed) return weights.middleCols(cage_.size(), model_.cols());
+  return interpolate(solved_.domain, weights, places_);
+}
+
+template <int Dim>
+nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
+  return report_json(report(), settings_, {Dim, mesh_seconds(), is_cached_, delivered});
+}
+
+bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
+  if (report.status == SolveStatus::kConverged) return true;
+  std::cerr << "flbc: not converged within " << settings.options.max_iterations
+            << " iterations; the result was written nevertheless (see --max-iterations)\n";
+  return false;
+}
+
+template class CageSolver<2>;
+template class CageSolver<3>;
+
+}  // namespace flbc::app

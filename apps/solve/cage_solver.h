@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From a cage to weights, as settings say, from the cache if they are there.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/cage.h"
+#include "flbc/coordinates.h"
+#include "solve/solve_settings.h"
+#include "solve/weights_cache.h"
+
+namespace flbc::app {
+
+//! The steps of a solve, to be taken in this order: make_domain(), solve(). Errors name the files.
+template <int Dim>
+class CageSolver {
+ public:
+  //! Keeps references to all. \param model  Dim x P, not looked at if settings name no model
+  //! \throws IoError if the cache cannot be used
+  CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
+
+  //! Finds mesh and weights in the cache; or reads the mesh, or makes it. Then finds the model's
+  //! vertices in it, so that a model outside its cage is refused before the solve. Says on standard
+  //! error if a file of the cache is of no use.
+  void make_domain();
+
+  //! Nothing, if the weights were in the cache; else they go there if they have converged.
+  //! \param quiet  without a progress bar
+  void solve(bool quiet);
+
+  const DomainMesh<Dim>& domain() const { return solved_.domain; }
+  const WeightMatrix& domain_weights() const { return solved_.solution.weights; }
+  const SolveReport& report() const { return solved_.solution.report; }
+  bool is_cached() const { return is_cached_; }
+  double mesh_seconds() const { return solved_.mesh_seconds; }
+
+  //! What gets weights: the model's vertices, or those of the mesh.
+  const PointList<Dim>& points() const;
+  //! Their weights.
+  WeightMatrix rows() const;
+
+  //! The report of the whole. \param delivered  quality of rows()
+  nlohmann::ordered_json json(const Quality& delivered) const;
+
+ private:
+  bool find_in_cache();
+
+  const Cage<Dim>& cage_;
+  const PointList<Dim>& model_;
+  const SolveSettings& settings_;
+  std::optional<WeightsCache> cache_;
+  std::string key_;
+  SolvedDomain<Dim> solved_;
+  bool is_cached_ = false;
+  std::vector<Location<Dim>> places_;  // of the model's vertices
+};
+
+//! That weights are not what was asked for, on standard error. \return whether they are
+bool tell_convergence(const SolveReport& report, const SolveSettings& settings);
+
+}  // namespace flbc::app

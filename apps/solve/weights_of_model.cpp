@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/weights_of_model.h"
+
+#include <sstream>
+
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/errors.h"
+
+namespace flbc::app {
+namespace {
+
+// Weights reproduce their model up to rounding and the tolerance of a solve.
+constexpr double kReproduction = 1e-6;
+
+}  // namespace
+
+void check_sizes(const WeightMatrix& weights, Eigen::Index num_control_points,
+                 Eigen::Index num_points, const WeightFiles& files) {
+  if (weights.cols() != num_points) {
+    throw InputError(files.weights + ": has weights of " + std::to_string(weights.cols()) +
+                     " points, but " + files.model + " has " + std::to_string(num_points) +
+                     " vertices");
+  }
+  if (weights.rows() != num_control_points) {
+    throw InputError(files.weights + ": has weights for " + std::to_string(weights.rows()) +
+                     " control points, but " + files.cage + " has " +
+                     std::to_string(num_control_points));
+  }
+}
+
+template <int Dim>
+void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest,
+                        const PointList<Dim>& points, const WeightFiles& files) {
+  const auto moved = deform(weights, rest);
+  Eigen::Index worst = 0;
+  const double error = displacements(points, moved).maxCoeff(&worst) / bounding_box_diagonal(rest);
+  if (error <= kReproduction) return;
+  const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
+  std::ostringstream text;
+  text << files.weights << ": the weights do not belong to this model: with " << files.cage
+       << " they put vertex " << worst << " of " << files.model << " at "
+       << moved.col(worst).transpose().format(row) << ", not at "
+       << points.col(worst).transpose().format(row) << "; that is " << error
+       << " of the cage's size, more than " << kReproduction;
+  throw InputError(text.str());
+}
+
+template void check_reproduction(const SparseWeights&, const PointList<2>&, const PointList<2>&,
+                                 const WeightFiles&);
+template void check_reproduction(const SparseWeights&, const PointList<3>&, const PointList<3>&,
+                                 const WeightFiles&);
+
+}  // namespace flbc::app

@@ -1,0 +1,25 @@
+# Inner loops are compiled for several instruction sets and chosen at run time, so that one binary is
+# fast everywhere. They are optimised in every build type: nothing in them is worth stepping through,
+# and without inlining one set's code could be linked into another's.
+include_guard(DIRECTORY)
+set(flbc_kernel_flags -O3 -fno-math-errno -fno-trapping-math -Wno-psabi)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_definitions(flbc PRIVATE FLBC_WITH_X86_KERNELS)
+endif()
+
+# One kernel of the core: NAME_baseline.cpp and, on x86-64, NAME_avx2.cpp and NAME_avx512.cpp.
+function(flbc_add_kernel name)
+  set(flags_baseline "")
+  set(flags_avx2 -mavx2 -mfma)
+  set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mfma)
+  set(sets baseline)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND sets avx2 avx512)
+  endif()
+  foreach(set IN LISTS sets)
+    target_sources(flbc PRIVATE ${name}_${set}.cpp)
+    set_source_files_properties(${name}_${set}.cpp TARGET_DIRECTORY flbc PROPERTIES
+      COMPILE_OPTIONS "${flbc_kernel_flags};${flags_${set}}"
+      SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+  endforeach()
+endfunction()

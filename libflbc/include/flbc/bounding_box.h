@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The size of a set of points, to which all tolerances are relative.
+#pragma once
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Diagonal of the axis-parallel bounding box.
+//! \param points  Dim x P, finite
+//! \return a length in the units of the points, 0 if there are none
+template <int Dim>
+double bounding_box_diagonal(const PointList<Dim>& points);
+
+}  // namespace flbc

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Sizes and parts of a sound cage, and which points lie outside it.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! What is worth knowing about a sound cage.
+template <int Dim>
+struct CageFacts {
+  Index parts = 0;              //!< outer loops (2D) or shells (3D)
+  Index holes = 0;              //!< loops or shells that bound holes or cavities
+  double size = 0;              //!< diagonal of the bounding box
+  double measure = 0;           //!< area (2D) or volume (3D) of the interior
+  double shortest_edge = 0;     //!< length
+  Index shortest_ends[2] = {};  //!< the control points between which it runs
+};
+
+//! \param cage  has passed validate() and does not intersect itself
+template <int Dim>
+CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
+
+//! Points outside a cage by more than 1e-6 of its size; those inside holes are outside.
+//! \param cage  has passed validate() \param points  Dim x P
+//! \return their indices, ascending
+template <int Dim>
+std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+}  // namespace flbc

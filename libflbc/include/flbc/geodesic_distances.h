@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Distances inside the domain from its control points.
+#pragma once
+
+#include <vector>
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Geodesic distances inside the domain, by fast marching over the cells (Kimmel and Sethian 1998),
+//! which see the source as a point: exact to single precision where the way is straight, of first
+//! order in the size of the cells where it bends round the boundary. Time and memory grow with the
+//! mesh as its number of cells.
+//! \param topology  of the mesh \param sources  vertices of the mesh, one per control point
+//! \return #sources x V, in the units of the mesh, >= 0
+template <int Dim>
+Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                                   const std::vector<Index>& sources);
+
+}  // namespace flbc

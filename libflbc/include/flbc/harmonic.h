@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Harmonic coordinates, for comparison and as a start.
+#pragma once
+
+#include "flbc/lbc_problem.h"
+
+namespace flbc {
+
+//! Harmonic coordinates (Joshi et al. 2007) on the same mesh. \return n x V \throws SolverError
+template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem);
+
+}  // namespace flbc

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Weights at any points inside, by linear interpolation.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cell_locator.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Weights at located points, by linear interpolation in the containing cell. Reproduction and
+//! partition of unity carry over exactly.
+//! \param weights  n x V
+//! \return n x #places
+template <int Dim>
+WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
+                         const std::vector<Location<Dim>>& places);
+
+}  // namespace flbc

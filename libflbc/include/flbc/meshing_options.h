@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What the mesh of a cage's interior has to be like.
+#pragma once
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! What the mesh of a cage's interior has to be like.
+template <int Dim>
+struct MeshingOptions {
+  //! Number of vertices wanted, met within 5 % in 2D and about 10 % in 3D; 0 = as few as quality
+  //! demands. \throws OptionError from the meshers if it is below what quality demands.
+  Index vertices = 0;
+
+  //! Points inside the cage that become mesh vertices: they follow the control points directly, in
+  //! this order, with their coordinates unchanged.
+  PointList<Dim> embedded_points{};
+
+  //! Longest time in seconds for one run of an external mesher, after which it is stopped.
+  double time_limit = 600;
+};
+
+}  // namespace flbc

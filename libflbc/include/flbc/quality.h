@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! How good weights are, measured on the weights themselves.
+#pragma once
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! A weight counts as an influence if |w_i| is above it.
+constexpr double kInfluenceThreshold = 1e-4;
+
+//! Properties of weights, measured on the weights themselves.
+struct Quality {
+  double min_weight = 0;              //!< smallest w_i
+  double max_partition_error = 0;     //!< max |sum_i w_i - 1|
+  double max_reproduction_error = 0;  //!< max |sum_i w_i c_i - x| / size of the cage
+  double mean_influences = 0;         //!< mean number of |w_i| > 1e-4 per point
+};
+
+//! Measures weights from nothing but points and control points.
+//! \param points  Dim x P \param weights  n x P
+//! \throws InputError if the sizes do not belong together
+template <int Dim>
+Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                        const WeightMatrix& weights);
+
+//! The paper's objective (7), sum_s sum_i phi_s^i A_s |grad w_i|_s, of weights n x V.
+template <int Dim>
+double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
+                 const WeightMatrix& weights);
+
+//! The total variation sum_s sum_i A_s |grad w_i|_s of weights n x V, in units of the
+//! mesh^(Dim - 1).
+template <int Dim>
+double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights);
+
+}  // namespace flbc

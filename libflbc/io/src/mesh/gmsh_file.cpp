@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gmsh .msh in text form, versions 2 and 4.1: sections between $Name and $EndName; nodes and
+// elements have arbitrary tags. Only tetrahedra count; points, curves and surfaces are passed over.
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+
+#include "flbc/io/files.h"
+#include "mesh/mesh_formats.h"
+#include "text/text_reader.h"
+
+namespace flbc::io {
+namespace {
+
+// Gmsh's numbers for kinds of elements.
+constexpr std::int64_t kTetrahedron = 4;
+// Points, lines, triangles and quadrilaterals of first and second order.
+constexpr std::int64_t kKindsOnBoundaries[] = {15, 1, 2, 3, 8, 9, 10, 16};
+
+class GmshReader {
+ public:
+  explicit GmshReader(const std::string& path) : reader_(path, read_file(path), {}) {}
+
+  DomainMesh<3> read() {
+    read_format();
+    while (reader_.next_line()) {
+      const std::string name(reader_.word());
+      if (name[0] != '$') reader_.fail_expected("the start of a section", name);
+      if (name == "$Nodes") {
+        if (!index_of_.empty()) reader_.fail("a second section $Nodes");
+        if (is_version_4_) {
+          read_nodes_4();
+        } else {
+          read_nodes_2();
+        }
+        expect_end("$EndNodes");
+      } else if (name == "$Elements") {
+        if (!cells_.empty()) reader_.fail("a second section $Elements");
+        if (is_version_4_) {
+          read_elements_4();
+        } else {
+          read_elements_2();
+        }
+        expect_end("$EndElements");
+      } else {
+        skip_to("$End" + name.substr(1));
+      }
+    }
+    if (index_of_.empty()) reader_.fail("the file has no nodes");
+    if (cells_.empty()) reader_.fail("the file has no tetrahedra");
+    return mesh();
+  }
+
+ private:
+  void read_format() {
+    if (!reader_.next_line() || reader_.word() != "$MeshFormat") {
+      reader_.fail("not a Gmsh file: the first line must be $MeshFormat");
+    }
+    if (!reader_.next_line()) reader_.fail("the file ends before its version");
+    const std::string version(reader_.word());
+    is_version_4_ = version == "4.1";
+    if (!is_version_4_ && version != "2" && version.substr(0, 2) != "2.") {
+      reader_.fail("version " + quoted(version) + " is not supported, only 2.2 and 4.1");
+    }
+    if (reader_.integer() != 0) {
+      reader_.fail("binary Gmsh files are not supported; save the mesh as text");
+    }
+    skip_to("$EndMeshFormat");
+  }
+
+  void skip_to(const std::string& end) {
+    while (reader_.next_line()) {
+      if (reader_.word() == end) return;
+    }
+    reader_.fail("the file ends before " + quoted(end));
+  }
+
+  void expect_end(const char* end) {
+    if (!reader_.next_line()) reader_.fail("the file ends before " + quoted(end));
+    const std::string_view found = reader_.word();
+    if (found != end) reader_.fail_expected(quoted(end), found);
+  }
+
+  void next_section_line() {
+    if (!reader_.next_line()) reader_.fail("the file ends inside a section");
+  }
+
+  void add_node(std::int64_t tag, const Vector<3>& point) {
+    if (!index_of_.emplace(tag, static_cast<Index>(points_.size())).second) {
+      reader_.fail("node " + std::to_string(tag) + " occurs twice");
+    }
+    points_.push_back(point);
+  }
+
+  void add_tetrahedron() {
+    Vertices& cell = cells_.emplace_back();
+    for (Index& vertex : cell) {
+      const std::int64_t tag = reader_.integer();
+      const auto found = index_of_.find(tag);
+      if (found == index_of_.end()) {
+        reader_.fail("the element refers to node " + std::to_string(tag) +
+                     ", which does not exist");
+      }
+      vertex = found->second;
+    }
+  }
+
+  // \return whether elements of this kind make up the mesh, rather than lie on its boundary
+  bool is_tetrahedron(std::int64_t kind) const {
+    if (kind == kTetrahedron) return true;
+    const auto end = std::end(kKindsOnBoundaries);
+    if (std::find(std::begin(kKindsOnBoundaries), end, kind) != end) return false;
+    reader_.fail("elements of Gmsh's type " + std::to_string(kind) +
+                 " are not supported; cells must be tetrahedra with 4 nodes (type 4)");
+  }
+
+  void read_nodes_2() {
+    next_section_line();
+    const Index count = reader_.count("nodes", 8);
+    for (Index v = 0; v < count; ++v) {
+      reader_.next_line_of("nodes", v, count);
+      const std::int64_t tag = reader_.integer();
+      add_node(tag, reader_.point());
+    }
+  }
+
+  void read_elements_2() {
+    next_section_line();
+    const Index count = reader_.count("elements", 6);
+    for (Index s = 0; s < count; ++s) {
+      reader_.next_line_of("elements", s, count);
+      reader_.integer();
+      const std::int64_t kind = reader_.integer();
+      const Index num_tags = reader_.count("tags", 2);
+      if (!is_tetrahedron(kind)) continue;
+      for (Index k = 0; k < num_tags; ++k) reader_.integer();
+      add_tetrahedron();
+    }
+  }
+
+  // "BLOCKS COUNT MINTAG MAXTAG", then blocks.
+  Index read_number_of_blocks() {
+    next_section_line();
+    return reader_.count("blocks", 8);
+  }
+
+  // A block has the tags of its nodes first and their points next.
+  void read_nodes_4() {
+    const Index num_blocks = read_number_of_blocks();
+    for (Index b = 0; b < num_blocks; ++b) {
+      reader_.next_line_of("blocks of nodes", b, num_blocks);
+      for (int k = 0; k < 3; ++k) reader_.integer();
+      const Index count = reader_.count("nodes", 8);
+      std::vector<std::int64_t> tags(count);
+      for (Index v = 0; v < count; ++v) {
+        reader_.next_line_of("tags of nodes", v, count);
+        tags[v] = reader_.integer();
+      }
+      for (Index v = 0; v < count; ++v) {
+        reader_.next_line_of("nodes", v, count);
+        add_node(tags[v], reader_.point());
+      }
+    }
+  }
+
+  void read_elements_4() {
+    const Index num_blocks = read_number_of_blocks();
+    for (Index b = 0; b < num_blocks; ++b) {
+      reader_.next_line_of("blocks of elements", b, num_blocks);
+      for (int k = 0; k < 2; ++k) reader_.integer();
+      const bool is_used = is_tetrahedron(reader_.integer());
+      const Index count = reader_.count("elements", 4);
+      for (Index s = 0; s < count; ++s) {
+        reader_.next_line_of("elements", s, count);
+        reader_.integer();
+        if (is_used) add_tetrahedron();
+      }
+    }
+  }
+
+  DomainMesh<3> mesh() const {
+    DomainMesh<3> result;
+    result.points.resize(3, static_cast<Eigen::Index>(points_.size()));
+    for (std::size_t v = 0; v < points_.size(); ++v) result.points.col(v) = points_[v];
+    result.cells.resize(4, static_cast<Eigen::Index>(cells_.size()));
+    for (std::size_t s = 0; s < cells_.size(); ++s) result.cells.col(s) = cells_[s];
+    return result;
+  }
+
+  using Vertices = Eigen::Matrix<Index, 4, 1>;
+
+  TextReader reader_;
+  bool is_version_4_ = false;
+  std::unordered_map<std::int64_t, Index> index_of_;
+  std::vector<Vector<3>> points_;
+  std::vector<Vertices> cells_;
+};
+
+void write_gmsh_2(TextWriter& writer, const DomainMesh<3>& mesh) {
+  writer << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  writer << "$Nodes\n" << mesh.num_vertices() << "\n";
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    writer << v + std::int64_t{1} << " ";
+    write_point(writer, mesh, v);
+    writer << "\n";
+  }
+  writer << "$EndNodes\n$Elements\n" << mesh.num_cells() << "\n";
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    // Type 4 is a tetrahedron; the 2 tags say that it belongs to physical and elementary volume 1.
+    writer << s + std::int64_t{1} << " 4 2 1 1";
+    write_cell(writer, mesh, s, 1);
+  }
+  writer << "$EndElements\n";
+}
+
+void write_gmsh_4(TextWriter& writer, const DomainMesh<3>& mesh) {
+  writer << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  // No points, curves and surfaces, but one volume, with tag 1 and the bounding box, to which all
+  // nodes and elements belong; each in one block.
+  writer << "$Entities\n0 0 0 1\n1";
+  if (mesh.num_vertices() > 0) {
+    for (const double x : mesh.points.rowwise().minCoeff().eval()) writer << " " << x;
+    for (const double x : mesh.points.rowwise().maxCoeff().eval()) writer << " " << x;
+  } else {
+    writer << " 0 0 0 0 0 0";
+  }
+  writer << " 0 0\n$EndEntities\n";
+  const Index num_nodes = mesh.num_vertices();
+  writer << "$Nodes\n1 " << num_nodes << " 1 " << num_nodes << "\n3 1 0 " << num_nodes << "\n";
+  for (Index v = 0; v < num_nodes; ++v) writer << v + std::int64_t{1} << "\n";
+  for (Index v = 0; v < num_nodes; ++v) {
+    write_point(writer, mesh, v);
+    writer << "\n";
+  }
+  const Index num_cells = mesh.num_cells();
+  writer << "$EndNodes\n$Elements\n1 " << num_cells << " 1 " << num_cells << "\n3 1 "
+         << kTetrahedron << " " << num_cells << "\n";
+  for (Index s = 0; s < num_cells; ++s) {
+    writer << s + std::int64_t{1};
+    write_cell(writer, mesh, s, 1);
+  }
+  writer << "$EndElements\n";
+}
+
+}  // namespace
+
+DomainMesh<3> read_gmsh(const std::string& path) {
+  return GmshReader(path).read();
+}
+
+void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh, GmshVersion version) {
+  TextWriter writer(out);
+  version == GmshVersion::k41 ? write_gmsh_4(writer, mesh) : write_gmsh_2(writer, mesh);
+  writer.flush();
+}
+
+}  // namespace flbc::io

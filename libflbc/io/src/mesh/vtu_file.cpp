@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes VTK's XML format for unstructured grids, as text.
+#include <ostream>
+
+#include "mesh/mesh_formats.h"
+
+namespace flbc::io {
+namespace {
+
+constexpr int kVtkTriangle = 5;
+constexpr int kVtkTetrahedron = 10;
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+void open_array(TextWriter& writer, const char* type, const std::string& name, int components) {
+  writer << "<DataArray type=\"" << type << "\" Name=\"" << escaped(name)
+         << "\" NumberOfComponents=\"" << components << "\" format=\"ascii\">\n";
+}
+
+void close_array(TextWriter& writer) {
+  writer << "</DataArray>\n";
+}
+
+template <int Dim>
+void write_points(TextWriter& writer, const DomainMesh<Dim>& mesh) {
+  writer << "<Points>\n";
+  open_array(writer, "Float64", "Points", 3);
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    write_point(writer, mesh, v);
+    writer << "\n";
+  }
+  close_array(writer);
+  writer << "</Points>\n";
+}
+
+template <int Dim>
+void write_cells(TextWriter& writer, const DomainMesh<Dim>& mesh) {
+  writer << "<Cells>\n";
+  open_array(writer, "Int64", "connectivity", 1);
+  for (Index s = 0; s < mesh.num_cells(); ++s) write_cell(writer, mesh, s, 0);
+  close_array(writer);
+  open_array(writer, "Int64", "offsets", 1);
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    writer << (s + std::int64_t{1}) * (Dim + 1) << "\n";
+  }
+  close_array(writer);
+  open_array(writer, "UInt8", "types", 1);
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    writer << (Dim == 2 ? kVtkTriangle : kVtkTetrahedron) << "\n";
+  }
+  close_array(writer);
+  writer << "</Cells>\n";
+}
+
+void write_fields(TextWriter& writer, const std::vector<VertexField>& fields) {
+  writer << "<PointData>\n";
+  for (const VertexField& field : fields) {
+    open_array(writer, "Float64", field.name, 1);
+    for (const double value : field.values) writer << value << "\n";
+    close_array(writer);
+  }
+  writer << "</PointData>\n";
+}
+
+}  // namespace
+
+template <int Dim>
+void write_vtu(std::ostream& out, const DomainMesh<Dim>& mesh,
+               const std::vector<VertexField>& fields) {
+  TextWriter writer(out);
+  writer << "<?xml version=\"1.0\"?>\n"
+         << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+         << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.num_vertices()
+         << "\" NumberOfCells=\"" << mesh.num_cells() << "\">\n";
+  write_points(writer, mesh);
+  write_cells(writer, mesh);
+  write_fields(writer, fields);
+  writer << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  writer.flush();
+}
+
+template void write_vtu(std::ostream&, const DomainMesh<2>&, const std::vector<VertexField>&);
+template void write_vtu(std::ostream&, const DomainMesh<3>&, const std::vector<VertexField>&);
+
+}  // namespace flbc::io

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/following_normals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "flbc/io/cage_io.h"
+#include "linear/dense.h"
+
+namespace flbc::io {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Polygon = std::vector<Index>;
+
+// Twice the area of a polygon along its normal, also if it is not planar. Relative to a corner,
+// so that polygons far from the origin keep their digits.
+Vector<3> area_vector(const Polygon& corners, const PointList<3>& points) {
+  const Vector<3> origin = points.col(corners.front());
+  Vector<3> area = Vector<3>::Zero();
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Vector<3> edge = points.col(corners[k - 1]) - origin;
+    area += edge.cross(points.col(corners[k]) - origin);
+  }
+  return area;
+}
+
+PointList<3> area_vectors(const PolygonSoup& soup, const PointList<3>& points) {
+  PointList<3> areas(3, static_cast<Eigen::Index>(soup.polygons.size()));
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    areas.col(f) = area_vector(soup.polygons[f], points);
+  }
+  return areas;
+}
+
+// What moved where: edges, and a vector across them, without which nothing would tell the sides of
+// a flat polygon apart. Lengths squared, so that large polygons count for more.
+Matrix3 correlation(const Polygon& corners, const PointList<3>& before, const PointList<3>& after,
+                    const Vector<3>& area_before, const Vector<3>& area_after) {
+  Matrix3 sum = Matrix3::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Index a = corners[k], b = corners[(k + 1) % corners.size()];
+    sum += (after.col(b) - after.col(a)) * (before.col(b) - before.col(a)).transpose();
+  }
+  const double scale = std::sqrt(area_before.norm() * area_after.norm());
+  if (scale > 0) sum += area_after * area_before.transpose() / scale;
+  return sum;
+}
+
+bool is_still(const Polygon& corners, const PointList<3>& before, const PointList<3>& after) {
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](Index v) { return after.col(v) == before.col(v); });
+}
+
+// What turns a normal, summed over its polygons.
+struct Motion {
+  bool is_still = true;  // then not even rounding shall turn it
+  Vector<3> before = Vector<3>::Zero();
+  Vector<3> after = Vector<3>::Zero();
+  Matrix3 correlation = Matrix3::Zero();
+
+  void add(const Motion& other) {
+    is_still &= other.is_still;
+    before += other.before;
+    after += other.after;
+    correlation += other.correlation;
+  }
+
+  Vector<3> turn(const Vector<3>& normal) const {
+    if (is_still || before.isZero(0) || after.isZero(0)) return normal;
+    const Matrix3 rotation = dense::nearest_rotation(correlation);
+    const Vector<3> turned_before = rotation * before;
+    return dense::rotation_between(turned_before, after) * (rotation * normal);
+  }
+};
+
+Index count_zeros(const PointList<3>& vectors) {
+  return static_cast<Index>((vectors.array() == 0).colwise().all().count());
+}
+
+}  // namespace
+
+FollowingNormals::FollowingNormals(const Model& model, const PointList<3>& face_normals)
+    : model_(model), face_normals_(face_normals) {
+  if (!has_normals()) return;
+  rest_ = to_points<3>(model.soup, "");
+  rest_areas_ = area_vectors(model.soup, rest_);
+  PointList<3> areas = PointList<3>::Zero(3, model.attributes.normals.cols());
+  for (std::size_t f = 0; f < model.attributes.corners.size(); ++f) {
+    for (const auto& corner : model.attributes.corners[f]) {
+      if (corner.normal >= 0) areas.col(corner.normal) += rest_areas_.col(f);
+    }
+  }
+  num_loose_ = count_zeros(areas);
+  if (face_normals_.cols() > 0) num_loose_ += count_zeros(rest_areas_);
+}
+
+bool FollowingNormals::has_normals() const {
+  return model_.attributes.normals.cols() + face_normals_.cols() > 0;
+}
+
+FollowingNormals::Turned FollowingNormals::at(const PointList<3>& points) const {
+  Turned turned{model_.attributes.normals, face_normals_};
+  if (!has_normals()) return turned;
+  std::vector<Motion> motions(static_cast<std::size_t>(turned.normals.cols()));
+  const auto& polygons = model_.soup.polygons;
+  for (std::size_t f = 0; f < polygons.size(); ++f) {
+    Motion motion{is_still(polygons[f], rest_, points),
+                  rest_areas_.col(f),
+                  area_vector(polygons[f], points),
+                  {}};
+    motion.correlation = correlation(polygons[f], rest_, points, motion.before, motion.after);
+    if (face_normals_.cols() > 0) turned.face_normals.col(f) = motion.turn(face_normals_.col(f));
+    if (motions.empty()) continue;
+    for (const auto& corner : model_.attributes.corners[f]) {
+      if (corner.normal >= 0) motions[corner.normal].add(motion);
+    }
+  }
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    turned.normals.col(k) = motions[k].turn(model_.attributes.normals.col(k));
+  }
+  return turned;
+}
+
+}  // namespace flbc::io

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// STL has triangles with normals and three points each; points that coincide are one vertex.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <unordered_map>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "model/model_attributes.h"
+#include "model/model_scan.h"
+#include "text/text_place.h"
+#include "text/text_reader.h"
+
+namespace flbc::io {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 80;
+constexpr std::size_t kBytesBeforeTriangles = kHeaderBytes + sizeof(std::uint32_t);
+constexpr std::size_t kBytesPerTriangle = 12 * sizeof(float) + sizeof(std::uint16_t);
+
+using Single = Eigen::Vector3f;
+
+struct Hash {
+  std::size_t operator()(const Single& point) const {
+    std::size_t hash = 0;
+    for (const float coordinate : point) {
+      hash = hash * 1000003 + std::hash<float>()(coordinate);  // the same for 0 and -0
+    }
+    return hash;
+  }
+};
+
+template <class T>
+T read_at(const std::string& bytes, std::size_t position) {
+  T value;
+  std::memcpy(&value, bytes.data() + position, sizeof value);
+  return value;
+}
+
+std::string lower(std::string_view word) {
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+// Rounds once, from the decimals to single precision; what is too small is 0.
+float to_single(std::string_view word) {
+  if (word[0] == '+') word.remove_prefix(1);
+  float value = 0;
+  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+  return parsed.ec == std::errc() ? value : 0;
+}
+
+class StlScanner {
+ public:
+  StlScanner(const std::string& path, ModelScan& scan)
+      : path_(path), scan_(scan), soup_(scan.model.soup) {}
+
+  void run() {
+    scan_.model.is_text = is_text();
+    if (scan_.model.is_text) {
+      scan_text();
+    } else {
+      scan_binary();
+    }
+    scan_.face_normals = Eigen::Map<const PointList<3>>(
+        normals_.data(), 3, static_cast<Eigen::Index>(soup_.polygons.size()));
+  }
+
+ private:
+  // Binary files may begin with "solid" too.
+  bool is_text() const {
+    const auto& text = scan_.text;
+    const bool has_binary_size =
+        text.size() >= kBytesBeforeTriangles &&
+        text.size() ==
+            kBytesBeforeTriangles + kBytesPerTriangle * read_at<std::uint32_t>(text, kHeaderBytes);
+    if (has_binary_size) return false;
+    const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    return lower(std::string_view(text).substr(begin, 5)) == "solid";
+  }
+
+  void scan_binary() {
+    const auto& bytes = scan_.text;
+    if (bytes.size() < kBytesBeforeTriangles) throw InputError(path_ + ": not an STL file");
+    const std::size_t declared = read_at<std::uint32_t>(bytes, kHeaderBytes);
+    const std::size_t held = (bytes.size() - kBytesBeforeTriangles) / kBytesPerTriangle;
+    if (declared > held) {
+      throw InputError(path_ + ": the file ends after " + std::to_string(held) + " of " +
+                       std::to_string(declared) + " triangles");
+    }
+    add_other(scan_.model, "the header");
+    for (std::size_t t = 0; t < declared; ++t) {
+      std::size_t position = kBytesBeforeTriangles + t * kBytesPerTriangle;
+      begin_triangle(binary_numbers(position));
+      for (int k = 0; k < 3; ++k) add_corner(binary_numbers(position));
+      if (read_at<std::uint16_t>(bytes, position) != 0) {
+        add_other(scan_.model, "attributes of triangles");
+      }
+    }
+  }
+
+  PlacedNumbers binary_numbers(std::size_t& position) const {
+    PlacedNumbers numbers;
+    for (int d = 0; d < 3; ++d) {
+      numbers.places[d] = {position, sizeof(float), NumberForm::kFloat};
+      numbers.values[d] = read_at<float>(scan_.text, position);
+      position += sizeof(float);
+    }
+    return numbers;
+  }
+
+  void scan_text() {
+    TextReader reader(path_, scan_.text, {});
+    std::size_t corners = 3;
+    while (reader.next_line()) {
+      const std::string keyword = lower(reader.word());
+      if ((keyword == "facet" || keyword == "endfacet") && corners < 3) {
+        reader.fail("a facet has fewer than 3 vertices");
+      }
+      if (keyword == "facet") {
+        reader.word();  // normal
+        begin_triangle(next_numbers(reader, scan_.text));
+        corners = 0;
+      } else if (keyword == "vertex") {
+        if (++corners > 3) reader.fail("a facet has more than 3 vertices");
+        auto numbers = next_numbers(reader, scan_.text);
+        if (numbers.places[2].size == 0) reader.fail("a vertex needs 3 coordinates");
+        for (int d = 0; d < 3; ++d) {
+          const auto& place = numbers.places[d];
+          numbers.values[d] =
+              to_single(std::string_view(scan_.text).substr(place.begin, place.size));
+        }
+        add_corner(numbers);
+      } else if (keyword == "solid" && reader.has_word()) {
+        add_other(scan_.model, "the name of the solid");
+      }
+    }
+    if (corners < 3) reader.fail("the file ends within a facet");
+  }
+
+  void begin_triangle(const PlacedNumbers& normal) {
+    const auto face = static_cast<Index>(soup_.polygons.size());
+    soup_.polygons.emplace_back();
+    normals_.insert(normals_.end(), normal.values.begin(), normal.values.end());
+    add_sites(scan_, normal.places, TripleKind::kFaceNormal, face);
+  }
+
+  void add_corner(const PlacedNumbers& numbers) {
+    const Single point = numbers.values.cast<float>();
+    if (!point.allFinite()) {
+      throw InputError(path_ + ": a vertex of triangle " +
+                       std::to_string(soup_.polygons.size() - 1) + " is not finite");
+    }
+    const auto next = static_cast<Index>(soup_.points.size());
+    const auto [found, is_new] = vertices_.emplace(point, next);
+    if (is_new) soup_.points.push_back(point.cast<double>());
+    soup_.polygons.back().push_back(found->second);
+    add_sites(scan_, numbers.places, TripleKind::kPoint, found->second);
+  }
+
+  const std::string& path_;
+  ModelScan& scan_;
+  PolygonSoup& soup_;
+  std::vector<double> normals_;
+  std::unordered_map<Single, Index, Hash> vertices_;
+};
+
+}  // namespace
+
+ModelScan scan_stl(const std::string& path) {
+  ModelScan scan;
+  scan.text = read_file(path);
+  StlScanner(path, scan).run();
+  return scan;
+}
+
+}  // namespace flbc::io

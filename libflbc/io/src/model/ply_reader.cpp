@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/ply_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "flbc/errors.h"
+#include "text/text_reader.h"
+
+namespace flbc::io {
+namespace {
+
+constexpr PlyType kTypes[] = {{"char", "int8", 1, 'i'},     {"uchar", "uint8", 1, 'u'},
+                              {"short", "int16", 2, 'i'},   {"ushort", "uint16", 2, 'u'},
+                              {"int", "int32", 4, 'i'},     {"uint", "uint32", 4, 'u'},
+                              {"float", "float32", 4, 'f'}, {"double", "float64", 8, 'f'}};
+
+template <class T>
+double as(const unsigned char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return static_cast<double>(value);
+}
+
+double decode(const PlyType& type, const unsigned char* bytes) {
+  if (type.kind == 'f') return type.bytes == 4 ? as<float>(bytes) : as<double>(bytes);
+  const bool is_signed = type.kind == 'i';
+  if (type.bytes == 4) return is_signed ? as<std::int32_t>(bytes) : as<std::uint32_t>(bytes);
+  if (type.bytes == 2) return is_signed ? as<std::int16_t>(bytes) : as<std::uint16_t>(bytes);
+  return is_signed ? as<std::int8_t>(bytes) : as<std::uint8_t>(bytes);
+}
+
+}  // namespace
+
+int PlyElement::find(const std::string& property) const {
+  for (std::size_t k = 0; k < properties.size(); ++k) {
+    if (properties[k].name == property) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+PlyReader::PlyReader(const std::string& path, const std::string& content)
+    : path_(path), content_(content) {
+  read_header();
+  is_in_header_ = false;
+}
+
+void PlyReader::fail(const std::string& message) const {
+  std::string place = ": at byte " + std::to_string(position_);
+  if (is_in_header_ || !is_binary_) {
+    const auto end = content_.begin() + static_cast<std::ptrdiff_t>(position_);
+    place = ":" + std::to_string(1 + std::count(content_.begin(), end, '\n'));
+  }
+  throw InputError(path_ + place + ": " + message);
+}
+
+std::string PlyReader::header_line() {
+  const std::size_t end = content_.find('\n', position_);
+  if (end == std::string::npos) fail("the header of the PLY file has no end");
+  return content_.substr(position_, end - position_);
+}
+
+const PlyType* PlyReader::type_of(const std::string& name) const {
+  for (const PlyType& type : kTypes) {
+    if (name == type.name || name == type.other_name) return &type;
+  }
+  fail("the type " + quoted(name) + " is unknown");
+}
+
+void PlyReader::read_header() {
+  std::string word;
+  for (bool is_first = true; word != "end_header"; is_first = false) {
+    const std::string text = header_line();
+    std::istringstream line(text);
+    word.clear();
+    line >> word;
+    if (is_first && word != "ply") fail("not a PLY file");
+    if (word == "format") {
+      line >> word;
+      if (word != "ascii" && word.substr(0, 7) != "binary_") {
+        fail("the format " + quoted(word) + " is unknown");
+      }
+      is_binary_ = word != "ascii";
+      is_big_endian_ = word == "binary_big_endian";
+    } else if (word == "comment" || word == "obj_info") {
+      has_comments_ = true;
+    } else if (word == "element") {
+      PlyElement element;
+      if (!(line >> element.name >> element.count) || element.count < 0) {
+        fail("an element needs a name and a number that is not negative");
+      }
+      elements_.push_back(element);
+    } else if (word == "property") {
+      if (elements_.empty()) fail("a property belongs to no element");
+      PlyProperty property;
+      line >> word;
+      if (word == "list") {
+        line >> word;
+        property.count_type = type_of(word);
+        line >> word;
+      }
+      property.type = type_of(word);
+      if (!(line >> property.name)) fail("a property has no name");
+      elements_.back().properties.push_back(property);
+    }
+    position_ += text.size() + 1;
+  }
+}
+
+void PlyReader::check_count(const PlyElement& element) const {
+  const std::string declared =
+      std::to_string(element.count) + " elements " + quoted(element.name) + " are declared, ";
+  if (element.count > std::numeric_limits<Index>::max()) {
+    fail(declared + "more than this program can handle");
+  }
+  // Each takes a byte at least, so that a damaged number does not claim all memory.
+  const bool fits =
+      !element.properties.empty() && static_cast<std::size_t>(element.count) <= bytes_left();
+  if (!fits && element.count > 0) fail(declared + "but the file is too short to hold them");
+}
+
+Index PlyReader::index(const PlyType& type) {
+  const double value = number(type).value;
+  if (!(value >= 0 && value <= std::numeric_limits<Index>::max()) || value != std::floor(value)) {
+    fail("expected an index or a length");
+  }
+  return static_cast<Index>(value);
+}
+
+Index PlyReader::list_length(const PlyProperty& property) {
+  const Index length = index(*property.count_type);
+  if (static_cast<std::size_t>(length) > bytes_left()) {
+    fail("a list is longer than the rest of the file");
+  }
+  return length;
+}
+
+PlyReader::Number PlyReader::number(const PlyType& type) {
+  return is_binary_ ? binary_number(type) : text_number(type);
+}
+
+PlyReader::Number PlyReader::text_number(const PlyType& type) {
+  constexpr const char* kBlanks = " \t\r\n";
+  position_ = std::min(content_.find_first_not_of(kBlanks, position_), content_.size());
+  const std::size_t end = std::min(content_.find_first_of(kBlanks, position_), content_.size());
+  if (end == position_) fail("the file ends where a number was expected");
+  const char* const begin = content_.data() + position_;
+  double value = 0;
+  const auto parsed = std::from_chars(begin, content_.data() + end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != content_.data() + end) {
+    fail("expected a number, found " + quoted({begin, end - position_}));
+  }
+  const NumberPlace place{position_, static_cast<std::uint32_t>(end - position_),
+                          type.kind == 'f' ? NumberForm::kText : NumberForm::kInteger};
+  position_ = end;
+  return {value, place};
+}
+
+PlyReader::Number PlyReader::binary_number(const PlyType& type) {
+  if (bytes_left() < type.bytes) fail("the file ends within its numbers");
+  unsigned char bytes[8];
+  std::memcpy(bytes, content_.data() + position_, type.bytes);
+  if (is_big_endian_) std::reverse(bytes, bytes + type.bytes);
+  const auto big = [this](NumberForm little_endian, NumberForm big_endian) {
+    return is_big_endian_ ? big_endian : little_endian;
+  };
+  const NumberForm form = type.kind != 'f'  ? NumberForm::kInteger
+                          : type.bytes == 4 ? big(NumberForm::kFloat, NumberForm::kBigFloat)
+                                            : big(NumberForm::kDouble, NumberForm::kBigDouble);
+  const NumberPlace place{position_, type.bytes, form};
+  position_ += type.bytes;
+  return {decode(type, bytes), place};
+}
+
+}  // namespace flbc::io

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/keyframes.h"
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "text/text_reader.h"
+
+namespace flbc::io {
+namespace {
+
+// A displacement, and where it stands: keyframes may be declared after it.
+struct Line {
+  std::int64_t number;
+  std::int64_t keyframe;
+  Vector<3> displacement;
+};
+
+void require_equal_sizes(const TextReader& reader, const std::vector<Keyframe>& keyframes) {
+  const auto expected = keyframes.front().displacements.cols();
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    const auto found = keyframes[k].displacements.cols();
+    if (found == expected && found > 0) continue;
+    reader.fail("keyframe " + std::to_string(k) + " has " + std::to_string(found) +
+                " control points, keyframe 0 has " + std::to_string(expected));
+  }
+}
+
+}  // namespace
+
+std::vector<Keyframe> read_keyframes(const std::string& path) {
+  TextReader reader(path, read_file(path), {'#', false});
+  std::vector<Keyframe> keyframes;
+  std::vector<Line> lines;
+  while (reader.next_line()) {
+    const std::string_view keyword = reader.word();
+    if (keyword == "k") {
+      keyframes.push_back({reader.number(), {}});
+    } else if (keyword == "c") {
+      const std::int64_t keyframe = reader.integer();
+      lines.push_back({reader.line(), keyframe, reader.point()});
+    } else {
+      reader.fail_expected("a keyframe (\"k\") or a displacement (\"c\")", keyword);
+    }
+    reader.expect_end_of_line();
+  }
+  if (keyframes.empty()) reader.fail("the file ends without a keyframe (\"k\" line)");
+
+  std::vector<Index> sizes(keyframes.size(), 0);
+  for (const Line& line : lines) {
+    if (line.keyframe < 0 || line.keyframe >= static_cast<std::int64_t>(keyframes.size())) {
+      reader.fail_at(line.number,
+                     out_of_range_message(line.keyframe, "keyframes", 0, keyframes.size()));
+    }
+    ++sizes[line.keyframe];
+  }
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    keyframes[k].displacements.resize(3, sizes[k]);
+    sizes[k] = 0;
+  }
+  for (const Line& line : lines) {
+    keyframes[line.keyframe].displacements.col(sizes[line.keyframe]++) = line.displacement;
+  }
+  require_equal_sizes(reader, keyframes);
+  return keyframes;
+}
+
+}  // namespace flbc::io

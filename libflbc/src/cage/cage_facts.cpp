@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "cage/oriented_cage.h"
+#include "cage/point_in_cage.h"
+
+namespace flbc {
+
+template <int Dim>
+CageFacts<Dim> measure_cage(const Cage<Dim>& cage) {
+  const auto oriented = orient(cage);
+  CageFacts<Dim> facts;
+  facts.holes =
+      static_cast<Index>(std::count(oriented.is_hole.begin(), oriented.is_hole.end(), true));
+  facts.parts = static_cast<Index>(oriented.is_hole.size()) - facts.holes;
+  facts.size = bounding_box_diagonal(cage.points);
+  facts.measure = oriented.measure;
+  facts.shortest_edge = std::numeric_limits<double>::infinity();
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    for (int k = 0; k < (Dim == 2 ? 1 : 3); ++k) {
+      const Index from = cage.facets(k, f);
+      const Index to = cage.facets((k + 1) % Dim, f);
+      const double length = (cage.points.col(from) - cage.points.col(to)).stableNorm();
+      if (length >= facts.shortest_edge) continue;
+      facts.shortest_edge = length;
+      facts.shortest_ends[0] = std::min(from, to);
+      facts.shortest_ends[1] = std::max(from, to);
+    }
+  }
+  return facts;
+}
+
+template <int Dim>
+std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points) {
+  const CageLocator<Dim> locator(cage, 1e-6 * bounding_box_diagonal(cage.points));
+  const auto num_points = static_cast<Index>(points.cols());
+  std::vector<char> is_outside(num_points);  // not bool: neighbours are written at the same time
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_points; ++p) {
+    is_outside[p] = locator.locate(points.col(p)) == Side::kOutside;
+  }
+  std::vector<Index> outside;
+  for (Index p = 0; p < num_points; ++p) {
+    if (is_outside[p]) outside.push_back(p);
+  }
+  return outside;
+}
+
+#define FLBC_INSTANTIATE(Dim)                             \
+  template CageFacts<Dim> measure_cage(const Cage<Dim>&); \
+  template std::vector<Index> points_outside(const Cage<Dim>&, const PointList<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cage/facet_locator.h"
+
+#include "linear/dense.h"
+
+namespace flbc {
+namespace {
+
+constexpr double kRounding = 1e-12;  // a coordinate below it is taken for zero
+
+}  // namespace
+
+template <int Dim>
+FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
+    : facets_(cage.facets.cols()), tolerance_(tolerance) {
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    auto& facet = facets_[f];
+    for (int k = 0; k < Dim; ++k) facet.corners.col(k) = cage.points.col(cage.facets(k, f));
+    facet.low = facet.corners.rowwise().minCoeff().array() - tolerance;
+    facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
+    Eigen::Matrix<double, Dim, Dim - 1> edges;
+    for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
+    facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
+  }
+}
+
+template <int Dim>
+FacetPlace<Dim> FacetLocator<Dim>::locate(const Vector<Dim>& point) const {
+  FacetPlace<Dim> nearest;
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const auto& facet = facets_[f];
+    if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
+      continue;
+    }
+    // What is outside the facet or due to rounding is cut off, so that a point on an edge or at a
+    // corner has exact zeros elsewhere.
+    Vector<Dim> coordinates;
+    coordinates.template tail<Dim - 1>() = facet.to_coordinates * (point - facet.corners.col(0));
+    coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
+    coordinates = (coordinates.array() < kRounding).select(0, coordinates);
+    coordinates /= coordinates.sum();
+    const double distance = (facet.corners * coordinates - point).norm();
+    if (distance <= tolerance_ && distance < nearest.distance) {
+      nearest = {static_cast<Index>(f), coordinates, distance};
+    }
+  }
+  return nearest;
+}
+
+template class FacetLocator<2>;
+template class FacetLocator<3>;
+
+}  // namespace flbc

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cage/point_in_cage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "base/union_find.h"
+
+namespace flbc {
+
+namespace {
+
+constexpr double kFullSolidAngle = 12.566370614359172;  // 4 pi
+
+template <int Dim>
+double distance_to_segment(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b) {
+  const Vector<Dim> along = b - a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+double distance_to_triangle(const Vector<3>& p, const Vector<3>& a, const Vector<3>& b,
+                            const Vector<3>& c) {
+  const Vector<3> normal = (b - a).cross(c - a);
+  const bool is_above_triangle = (b - a).cross(p - a).dot(normal) >= 0 &&
+                                 (c - b).cross(p - b).dot(normal) >= 0 &&
+                                 (a - c).cross(p - c).dot(normal) >= 0;
+  if (is_above_triangle && normal.norm() > 0) return std::abs((p - a).dot(normal.normalized()));
+  return std::min({distance_to_segment<3>(p, a, b), distance_to_segment<3>(p, b, c),
+                   distance_to_segment<3>(p, c, a)});
+}
+
+// Does the ray from p in the direction of the first axis cross the segment? Half-open in the second
+// coordinate, so that a ray through a corner counts the corner's two edges consistently.
+bool crosses_ray(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
+  if ((a.y() > p.y()) == (b.y() > p.y())) return false;
+  const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  return (b.y() > a.y()) == (side > 0);
+}
+
+// The signed solid angle under which the triangle appears from p, in (-2 pi, 2 pi]
+// (van Oosterom & Strackee 1983).
+double solid_angle(const Vector<3>& p, const Vector<3>& a, const Vector<3>& b, const Vector<3>& c) {
+  const Vector<3> u = a - p, v = b - p, w = c - p;
+  const double lu = u.norm(), lv = v.norm(), lw = w.norm();
+  const double determinant = u.dot(v.cross(w));
+  const double cosine = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
+  return 2 * std::atan2(determinant, cosine);
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Index> facet_shells(const Cage<Dim>& cage) {
+  UnionFind components(cage.size());
+  for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
+    for (int k = 1; k < Dim; ++k) components.unite(cage.facets(0, facet), cage.facets(k, facet));
+  }
+  std::vector<Index> number_of_root(static_cast<std::size_t>(cage.size()), -1);
+  std::vector<Index> shells(static_cast<std::size_t>(cage.facets.cols()));
+  Index num_shells = 0;
+  for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
+    Index& number = number_of_root[components.find(cage.facets(0, facet))];
+    if (number < 0) number = num_shells++;
+    shells[facet] = number;
+  }
+  return shells;
+}
+
+template <int Dim>
+CageLocator<Dim>::CageLocator(const Cage<Dim>& cage, double tolerance)
+    : cage_(cage), shell_of_facet_(facet_shells(cage)), tolerance_(tolerance) {
+  for (Index shell : shell_of_facet_) num_shells_ = std::max(num_shells_, shell + 1);
+}
+
+template <int Dim>
+Side CageLocator<Dim>::locate(const Vector<Dim>& point) const {
+  if (is_on_cage(point)) return Side::kOnCage;
+  return is_enclosed(point) ? Side::kInside : Side::kOutside;
+}
+
+template <int Dim>
+bool CageLocator<Dim>::is_on_cage(const Vector<Dim>& point) const {
+  for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
+    const Vector<Dim> a = cage_.points.col(cage_.facets(0, facet));
+    const Vector<Dim> b = cage_.points.col(cage_.facets(1, facet));
+    if constexpr (Dim == 2) {
+      if (distance_to_segment<2>(point, a, b) <= tolerance_) return true;
+    } else {
+      const Vector<3> c = cage_.points.col(cage_.facets(2, facet));
+      if (distance_to_triangle(point, a, b, c) <= tolerance_) return true;
+    }
+  }
+  return false;
+}
+
+template <int Dim>
+bool CageLocator<Dim>::is_enclosed(const Vector<Dim>& point) const {
+  if constexpr (Dim == 2) {
+    // Crossings, not winding numbers: the edges of a loop need not run in one direction.
+    bool is_odd = false;
+    for (Index edge = 0; edge < cage_.facets.cols(); ++edge) {
+      is_odd ^= crosses_ray(point, cage_.points.col(cage_.facets(0, edge)),
+                            cage_.points.col(cage_.facets(1, edge)));
+    }
+    return is_odd;
+  } else {
+    // Winding numbers shell by shell: a ray could graze an edge, and shells may be oriented
+    // inwards or outwards.
+    std::vector<double> angles(static_cast<std::size_t>(num_shells_), 0.0);
+    for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
+      angles[shell_of_facet_[facet]] += solid_angle(point, cage_.points.col(cage_.facets(0, facet)),
+                                                    cage_.points.col(cage_.facets(1, facet)),
+                                                    cage_.points.col(cage_.facets(2, facet)));
+    }
+    Index enclosing = 0;
+    for (double angle : angles) enclosing += std::abs(angle) > kFullSolidAngle / 2;
+    return enclosing % 2 == 1;
+  }
+}
+
+template std::vector<Index> facet_shells<2>(const Cage<2>&);
+template std::vector<Index> facet_shells<3>(const Cage<3>&);
+template class CageLocator<2>;
+template class CageLocator<3>;
+
+}  // namespace flbc

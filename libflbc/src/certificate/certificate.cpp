@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/certificate.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "certificate/vertex_linear_program.h"
+#include "flbc/errors.h"
+#include "flbc/non_negative.h"
+#include "flbc/quality.h"
+#include "mesh/cell_geometry.h"
+#include "mesh/vertex_cells.h"
+#include "projection/weight_projection.h"
+
+namespace flbc {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// A sum with a bound of the rounding errors that are in it.
+struct Rounded {
+  double value = 0;
+  double magnitude = 0;  // sum of the absolute values of all terms
+};
+
+// The flux in double precision, shortened so that it obeys |p| <= phi A whatever it was.
+template <class Scalar, int Dim>
+class AdmissibleFlux {
+ public:
+  AdmissibleFlux(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux)
+      : problem_(problem), flux_(flux), around_(problem.mesh) {}
+
+  // Calls body(s, geometry, corner) for the cells s at a vertex.
+  template <class Body>
+  Index for_cells_at(Index vertex, const Body& body) const {
+    Index count = 0;
+    for (const Index s : around_.cells_of(vertex)) {
+      int corner = 0;
+      while (problem_.mesh.cells(corner, s) != vertex) ++corner;
+      body(s, cell_geometry(problem_.mesh, s), corner);
+      ++count;
+    }
+    return count;
+  }
+
+  // Adds p_s^i . grad(lambda).
+  void add(Index s, const CellGeometry<Dim>& geometry, int corner, Index i, Rounded& sum) const {
+    // Shorter than allowed by a hair, so that rounding does not make it longer.
+    const double radius = (1 - 4 * kEpsilon) * problem_.phi(i, s) * geometry.measure;
+    const Scalar* p = flux_.data + static_cast<std::size_t>(s) * Dim * flux_.stride + i;
+    double length2 = 0, product = 0, magnitude = 0;
+    for (int d = 0; d < Dim; ++d) {
+      const double component = static_cast<double>(p[d * flux_.stride]);
+      const double term = component * geometry.hat_gradients(d, corner);
+      length2 += component * component;
+      product += term;
+      magnitude += std::abs(term);
+    }
+    // Squares below the range of numbers must not pass for zero; those above it, and what is no
+    // number, make the flux zero.
+    constexpr double kLeastRadius = 1e-140;
+    if (!(length2 < std::numeric_limits<double>::infinity()) || !(radius > kLeastRadius)) return;
+    const double factor = length2 > radius * radius ? radius / std::sqrt(length2) : 1;
+    sum.value += factor * product;
+    sum.magnitude += factor * magnitude;
+  }
+
+  // What rounding may have added to a sum over the cells at a vertex.
+  static double slack(const Rounded& sum, Index num_cells) {
+    return (num_cells + 4 * Dim) * kEpsilon * sum.magnitude;
+  }
+
+ private:
+  const LbcProblem<Dim>& problem_;
+  const CellFieldView<Scalar, Dim>& flux_;
+  VertexCells around_;
+};
+
+// sum_i w_i D p_i with the known weights, rounded down.
+template <class Scalar, int Dim>
+double boundary_share(const LbcProblem<Dim>& problem, const AdmissibleFlux<Scalar, Dim>& flux,
+                      Index vertex) {
+  const Index b = problem.boundary.slot[vertex];
+  std::array<Rounded, Dim> sums{};
+  const Index num_cells =
+      flux.for_cells_at(vertex, [&](Index s, const CellGeometry<Dim>& geometry, int corner) {
+        for (int k = 0; k < Dim; ++k) {
+          flux.add(s, geometry, corner, problem.boundary.control_points(k, b), sums[k]);
+        }
+      });
+  double share = 0;
+  for (int k = 0; k < Dim; ++k) {
+    const double weight = problem.boundary.values(k, b);
+    share += weight * sums[k].value - 2 * std::abs(weight) * flux.slack(sums[k], num_cells);
+  }
+  return share;
+}
+
+// D p(v), rounded down: weights >= 0 make of it no more than they would of the exact value.
+template <class Scalar, int Dim>
+void vertex_costs(const AdmissibleFlux<Scalar, Dim>& flux, Index vertex, std::vector<Rounded>& sums,
+                  Eigen::VectorXd& costs) {
+  sums.assign(sums.size(), {});
+  const auto n = static_cast<Index>(sums.size());
+  const Index num_cells =
+      flux.for_cells_at(vertex, [&](Index s, const CellGeometry<Dim>& geometry, int corner) {
+        for (Index i = 0; i < n; ++i) flux.add(s, geometry, corner, i, sums[i]);
+      });
+  for (Index i = 0; i < n; ++i) costs[i] = sums[i].value - flux.slack(sums[i], num_cells);
+}
+
+template <class Scalar, int Dim>
+void check_sizes(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+                 const WeightMatrix& weights) {
+  const Index n = problem.num_control_points();
+  if (flux.n != n || flux.stride < static_cast<std::size_t>(n)) {
+    throw InputError("a flux for " + std::to_string(flux.n) +
+                     " control points does not belong to a cage with " + std::to_string(n));
+  }
+  if (weights.rows() != n || weights.cols() != problem.mesh.num_vertices()) {
+    throw InputError("weights for " + std::to_string(weights.cols()) + " vertices and " +
+                     std::to_string(weights.rows()) + " control points do not belong to " +
+                     std::to_string(problem.mesh.num_vertices()) + " vertices and " +
+                     std::to_string(n) + " control points");
+  }
+}
+
+// The weights with the known values on the boundary and feasible columns inside.
+template <int Dim>
+WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
+  std::vector<Index> interior;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    const Index b = problem.boundary.slot[v];
+    if (b < 0) {
+      interior.push_back(v);
+    } else {
+      weights.col(v).setZero();
+      problem.boundary.scatter(b, weights.col(v));
+    }
+  }
+  project_non_negative(problem.cage.points, problem.mesh.points, weights, interior);
+  return weights;
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+                   const WeightMatrix& weights) {
+  check_sizes(problem, flux, weights);
+  const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
+  // In long double, so that the sum over vertices adds no error that counts.
+  const auto sum = parallel_sum(
+      problem.mesh.num_vertices(), static_cast<long double>(0), [&](Index begin, Index end) {
+        VertexLinearProgram<Dim> program(problem.cage.points);
+        std::vector<Rounded> sums(flux.n);
+        Eigen::VectorXd costs(flux.n), start;
+        long double block = 0;
+        for (Index v = begin; v < end; ++v) {
+          if (problem.boundary.slot[v] >= 0) {
+            block += boundary_share(problem, admissible, v);
+            continue;
+          }
+          vertex_costs(admissible, v, sums, costs);
+          start = weights.col(v);
+          block += program.lower_bound(problem.mesh.points.col(v), costs, start);
+        }
+        return block;
+      });
+  const auto bound = static_cast<double>(sum);
+  // Every objective is at least 0, and numbers without meaning prove nothing more.
+  if (!(bound > 0) || !std::isfinite(bound)) return 0;
+  return std::nextafter(bound, 0);
+}
+
+template <class Scalar, int Dim>
+Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+                    const WeightMatrix& weights) {
+  check_sizes(problem, flux, weights);
+  const WeightMatrix feasible = made_feasible(problem, weights);
+  Certificate certificate;
+  certificate.objective = objective(problem.mesh, problem.phi, feasible);
+  certificate.lower_bound = lower_bound(problem, flux, feasible);
+  if (certificate.objective > 0) {
+    certificate.relative_gap =
+        (certificate.objective - certificate.lower_bound) / certificate.objective;
+  }
+  return certificate;
+}
+
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
+  template double lower_bound(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&,  \
+                              const WeightMatrix&);                                       \
+  template Certificate certify(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&, \
+                               const WeightMatrix&);
+FLBC_INSTANTIATE(float, 2)
+FLBC_INSTANTIATE(float, 3)
+FLBC_INSTANTIATE(double, 2)
+FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

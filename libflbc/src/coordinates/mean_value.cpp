@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The weight of c_i, before division by their sum, is the integral of phi_i(p) / |p - x| over all
+// directions from x, where p is what is seen of the cage in a direction and phi_i the barycentric
+// coordinate of p in its facet. The facets' shares are computed here.
+#include "flbc/mean_value.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "base/messages.h"
+#include "cage/facet_locator.h"
+#include "cage/oriented_cage.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+constexpr double kOnCage = 1e-12;   // of the cage's size: a point that near is on it
+constexpr double kInPlane = 1e-18;  // of the cage's size: the facet is seen from its side
+
+template <int Dim>
+struct Facet;
+
+template <>
+struct Facet<2> {
+  Eigen::Matrix2d corners;
+
+  Facet(const Eigen::Matrix2d& facet_corners, double) : corners(facet_corners) {}
+
+  // tan(alpha / 2) / r at both ends, alpha the angle under which the edge is seen. Which of two
+  // expressions for the tangent is used depends on which is free of cancellation.
+  Vector<2> share(const Vector<2>& x) const {
+    const Vector<2> to_a = corners.col(0) - x;
+    const Vector<2> to_b = corners.col(1) - x;
+    const double a = to_a.norm();
+    const double b = to_b.norm();
+    const double cross = to_a.x() * to_b.y() - to_a.y() * to_b.x();
+    const double dot = to_a.dot(to_b);
+    const double tangent = dot > 0 ? cross / (a * b + dot) : (a * b - dot) / cross;
+    return {tangent / a, tangent / b};
+  }
+};
+
+// In 3D the integral over directions becomes h times that of phi_i / r^4 over the triangle, h the
+// height of its plane over x. The integral of 1 / r^4 is `density`; what the slope of phi_i adds
+// comes from the triangle's edges by the divergence theorem. Unlike the formula with the
+// spherical triangle's angles this one keeps its accuracy where the triangle is seen from its side.
+template <>
+struct Facet<3> {
+  Eigen::Matrix3d corners;
+  Eigen::Matrix3d along;    // unit vectors; edge k is opposite to corner k
+  Eigen::Matrix3d inwards;  // unit normals of the edges, in the plane, towards corner k
+  Vector<3> lengths;        // of the edges
+  Vector<3> heights;        // of the corners over the edges
+  Vector<3> normal;         // unit, outwards
+  double in_plane;
+
+  Facet(const Eigen::Matrix3d& facet_corners, double size)
+      : corners(facet_corners), in_plane(kInPlane * size) {
+    for (int k = 0; k < 3; ++k) along.col(k) = corners.col((k + 2) % 3) - corners.col((k + 1) % 3);
+    normal = along.col(0).cross(along.col(1));
+    lengths = along.colwise().norm();
+    heights = normal.norm() * lengths.cwiseInverse();
+    normal.normalize();
+    along.colwise().normalize();
+    for (int k = 0; k < 3; ++k) inwards.col(k) = normal.cross(along.col(k));
+  }
+
+  // An edge as seen from x, over whose plane x has its foot.
+  struct Edge {
+    double angle;     // under which it is seen
+    double inverse;   // integral of 1 / r^2 along it
+    double inside;    // distance of the foot from the edge's line, positive inwards
+    double distance;  // of x from the edge's line
+    double from, to;  // where the edge begins and ends on its line, from the point next to x
+  };
+
+  Edge see_edge(int k, const Eigen::Matrix3d& to, double height) const {
+    const Vector<3> a = to.col((k + 1) % 3);
+    const Vector<3> b = to.col((k + 2) % 3);
+    const double cross = lengths[k] * a.cross(along.col(k)).norm();
+    const double dot = a.dot(b);
+    Edge edge;
+    edge.angle = std::atan2(cross, dot);
+    edge.inverse = lengths[k] * (cross > 1e-8 * dot ? edge.angle / cross : 1 / dot);
+    edge.inside = -inwards.col(k).dot(a);
+    edge.distance = std::sqrt(edge.inside * edge.inside + height * height);
+    edge.from = a.dot(along.col(k));
+    edge.to = b.dot(along.col(k));
+    return edge;
+  }
+
+  // Integral of 1 / r^4 over the triangle.
+  static double density(const std::array<Edge, 3>& edges, double height) {
+    const double square = height * height;
+    if (!is_seen_from_side(edges, height)) {
+      double sum = 0;
+      for (const Edge& e : edges) sum += e.inside / e.distance * e.angle;
+      return sum / (2 * square);
+    }
+    // The same with each angle less the one under which the foot of x sees the edge. Those add up
+    // to zero, and here nothing is small but through its factor height^2, which is divided out.
+    double sum = 0;
+    for (const Edge& e : edges) {
+      const double off = std::abs(e.inside);
+      const auto difference = [&](double end) {
+        const double ratio = end / ((e.distance + off) * (off * e.distance + end * end));
+        const double tangent = square * ratio;
+        return std::abs(tangent) < 1e-8 ? ratio : std::atan(tangent) / square;
+      };
+      sum += std::copysign(
+          difference(e.to) - difference(e.from) + e.angle / (e.distance * (e.distance + off)),
+          e.inside);
+    }
+    return -sum / 2;
+  }
+
+  // Is x so near to the plane, and its foot so far outside the triangle, that terms cancel?
+  static bool is_seen_from_side(const std::array<Edge, 3>& edges, double height) {
+    if (edges[0].inside >= 0 && edges[1].inside >= 0 && edges[2].inside >= 0) return false;
+    for (const Edge& e : edges) {
+      const double beyond = std::max({0.0, e.from, -e.to});
+      if (height * height >= 0.01 * (e.inside * e.inside + beyond * beyond)) return false;
+    }
+    return true;
+  }
+
+  Vector<3> share(const Vector<3>& x) const {
+    const Eigen::Matrix3d to = corners.colwise() - x;
+    const double height = normal.dot(to.col(0));
+    if (std::abs(height) <= in_plane) return Vector<3>::Zero();
+    const std::array<Edge, 3> edges{see_edge(0, to, height), see_edge(1, to, height),
+                                    see_edge(2, to, height)};
+    const Vector<3> inside(edges[0].inside, edges[1].inside, edges[2].inside);
+    const Vector<3> flow =
+        inwards * Vector<3>(edges[0].inverse, edges[1].inverse, edges[2].inverse) / 2;
+    return height *
+           (density(edges, height) * inside + inwards.transpose() * flow).cwiseQuotient(heights);
+  }
+};
+
+template <int Dim>
+std::vector<Facet<Dim>> prepare_facets(const Cage<Dim>& cage, double size) {
+  std::vector<Facet<Dim>> facets;
+  facets.reserve(cage.facets.cols());
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    facets.emplace_back(corners, size);
+  }
+  return facets;
+}
+
+template <int Dim>
+void check_finite(const PointList<Dim>& points) {
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    if (points.col(p).allFinite()) continue;
+    throw InputError("point " + std::to_string(p) + " at " + format_point(points.col(p)) +
+                     " is not finite");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+WeightMatrix mean_value_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points) {
+  check_finite<Dim>(points);
+  const double size = bounding_box_diagonal(cage.points);
+  const auto oriented = orient(cage).cage;
+  const auto facets = prepare_facets(oriented, size);
+  const FacetLocator<Dim> locator(oriented, kOnCage * size);
+
+  WeightMatrix weights = WeightMatrix::Zero(cage.size(), points.cols());
+  const auto add = [&](Index point, std::size_t facet, const Vector<Dim>& share) {
+    for (int k = 0; k < Dim; ++k) weights(oriented.facets(k, facet), point) += share[k];
+  };
+  const auto num_points = static_cast<Index>(points.cols());
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_points; ++p) {
+    const Vector<Dim> x = points.col(p);
+    const auto place = locator.locate(x);
+    if (place.facet >= 0) {
+      add(p, place.facet, place.coordinates);
+      continue;
+    }
+    for (std::size_t f = 0; f < facets.size(); ++f) add(p, f, facets[f].share(x));
+    weights.col(p) /= weights.col(p).sum();
+  }
+  return weights;
+}
+
+template WeightMatrix mean_value_coordinates(const Cage<2>&, const PointList<2>&);
+template WeightMatrix mean_value_coordinates(const Cage<3>&, const PointList<3>&);
+
+}  // namespace flbc

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/recovery.h"
+
+#include <algorithm>
+
+#include "coordinates/project_interior.h"
+#include "mesh/cell_geometry.h"
+#include "mesh/vertex_cells.h"
+#include "problem/laplacian.h"
+
+namespace flbc {
+namespace {
+
+// The vertices by their distance from the boundary, counted in edges; a level is ascending.
+template <int Dim>
+std::vector<std::vector<Index>> breadth_first_levels(const LbcProblem<Dim>& problem,
+                                                     const VertexCells& around,
+                                                     std::vector<Index>& level_of) {
+  level_of.assign(problem.mesh.num_vertices(), -1);
+  std::vector<std::vector<Index>> levels{problem.boundary.vertices};
+  for (const Index v : levels[0]) level_of[v] = 0;
+  while (!levels.back().empty()) {
+    std::vector<Index> next;
+    for (const Index v : levels.back()) {
+      for (const Index s : around.cells_of(v)) {
+        for (const Index w : problem.mesh.cells.col(s)) {
+          if (level_of[w] >= 0) continue;
+          level_of[w] = static_cast<Index>(levels.size());
+          next.push_back(w);
+        }
+      }
+    }
+    std::sort(next.begin(), next.end());
+    levels.push_back(std::move(next));
+  }
+  return levels;
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
+                                     const CellFieldView<Scalar, Dim>& gradients) {
+  const auto& mesh = problem.mesh;
+  const VertexCells around(mesh);
+  std::vector<Index> level_of;
+  const auto levels = breadth_first_levels(problem, around, level_of);
+
+  WeightMatrix weights = WeightMatrix::Zero(gradients.n, mesh.num_vertices());
+  for (std::size_t b = 0; b < problem.boundary.vertices.size(); ++b) {
+    problem.boundary.scatter(static_cast<Index>(b), weights.col(problem.boundary.vertices[b]));
+  }
+  for (std::size_t level = 1; level < levels.size(); ++level) {
+    const auto& vertices = levels[level];
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Index v = vertices[k];
+      int paths = 0;
+      for (const Index s : around.cells_of(v)) {
+        const auto gradient = gradients.cell(s);
+        for (const Index w : mesh.cells.col(s)) {
+          if (level_of[w] != static_cast<Index>(level) - 1) continue;
+          weights.col(v) +=
+              weights.col(w) + gradient.transpose() * (mesh.points.col(v) - mesh.points.col(w));
+          ++paths;
+        }
+      }
+      weights.col(v) /= paths;
+    }
+  }
+  project_interior(problem, weights);
+  return weights;
+}
+
+template <class Scalar, int Dim>
+WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
+                                     const CellFieldView<Scalar, Dim>& gradients) {
+  const auto& mesh = problem.mesh;
+  const VertexCells around(mesh);
+  Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] >= 0) continue;
+    for (const Index s : around.cells_of(v)) {
+      const auto geometry = cell_geometry(mesh, s);
+      Index corner = 0;
+      while (mesh.cells(corner, s) != v) ++corner;
+      divergence.col(v) +=
+          gradients.cell(s).transpose() * (geometry.measure * geometry.hat_gradients.col(corner));
+    }
+  }
+  auto weights = DirichletProblem<Dim>(mesh, problem.boundary)
+                     .solve(boundary_matrix(problem.boundary, gradients.n), divergence);
+  project_interior(problem, weights);
+  return weights;
+}
+
+#define FLBC_INSTANTIATE(Scalar, Dim)                                               \
+  template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,             \
+                                                const CellFieldView<Scalar, Dim>&); \
+  template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
+                                                const CellFieldView<Scalar, Dim>&);
+FLBC_INSTANTIATE(float, 2)
+FLBC_INSTANTIATE(float, 3)
+FLBC_INSTANTIATE(double, 2)
+FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

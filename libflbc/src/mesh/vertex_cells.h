@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Items by vertex, and the cells around each vertex.
+#pragma once
+
+#include <numeric>
+#include <vector>
+
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Items that belong to vertices, in one array.
+template <class Item>
+struct VertexItems {
+  std::vector<Index> start;  //!< V + 1
+  std::vector<Item> items;
+
+  struct Range {
+    const Item* first;
+    const Item* last;
+    const Item* begin() const { return first; }
+    const Item* end() const { return last; }
+  };
+  Range of(Index vertex) const {
+    return {items.data() + start[vertex], items.data() + start[vertex + 1]};
+  }
+};
+
+//! Sorts items by vertex, otherwise in their order. \param for_each  calls what it is given with
+//! every vertex and item; is called twice, to count and to store
+template <class Item, class ForEach>
+VertexItems<Item> items_by_vertex(Index num_vertices, const ForEach& for_each) {
+  VertexItems<Item> sorted{std::vector<Index>(num_vertices + 1, 0), {}};
+  auto& start = sorted.start;
+  for_each([&](Index vertex, const Item&) { ++start[vertex + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  sorted.items.resize(start.back());
+  std::vector<Index> next(start.begin(), start.end() - 1);
+  for_each([&](Index vertex, const Item& item) { sorted.items[next[vertex]++] = item; });
+  return sorted;
+}
+
+//! Cells around every vertex, ascending, in one array.
+class VertexCells {
+ public:
+  template <int Dim>
+  explicit VertexCells(const DomainMesh<Dim>& mesh)
+      : around_(items_by_vertex<Index>(mesh.num_vertices(), [&](const auto& visit) {
+          for (Index s = 0; s < mesh.num_cells(); ++s) {
+            for (const Index v : mesh.cells.col(s)) visit(v, s);
+          }
+        })) {}
+
+  VertexItems<Index>::Range cells_of(Index vertex) const { return around_.of(vertex); }
+
+  //! The same as plain arrays: where the cells of each vertex begin, V + 1, and the cells.
+  const Index* starts() const { return around_.start.data(); }
+  const Index* cells() const { return around_.items.data(); }
+
+ private:
+  VertexItems<Index> around_;
+};
+
+}  // namespace flbc

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/meshing_common.h"
+
+#include <string>
+
+#include "base/messages.h"
+#include "cage/close_points.h"
+#include "cage/point_in_cage.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "mesh/hilbert_order.h"
+
+namespace flbc {
+
+namespace {
+
+// Points closer than this part of the cage's size are one point for TetGen too.
+constexpr double kRelativeTolerance = 1e-8;
+
+// Numbers of facets in 3D, about twelve per vertex and two slots each, must fit an Index.
+constexpr Index kMostVertices = 50000000;
+
+template <int Dim>
+void check_options(const MeshingOptions<Dim>& options) {
+  if (options.vertices < 0) {
+    throw OptionError(
+        "vertices: " + std::to_string(options.vertices) +
+        " is no number of vertices; it must be positive, or 0 for as few as possible");
+  }
+  if (options.vertices > kMostVertices) {
+    throw OptionError("vertices (--vertices): " + std::to_string(options.vertices) +
+                      " are too many; at most " + std::to_string(kMostVertices) + " can be had");
+  }
+  if (!(options.time_limit > 0)) {
+    throw OptionError("time_limit: the limit must be a positive number of seconds");
+  }
+}
+
+template <int Dim>
+[[noreturn]] void refuse_point(const PointList<Dim>& embedded, Index i, const std::string& reason) {
+  throw InputError("point " + std::to_string(i) + " at " + format_point(embedded.col(i)) +
+                   " cannot be embedded: " + reason);
+}
+
+template <int Dim>
+void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, double tolerance) {
+  const CageLocator<Dim> locator(cage, tolerance);
+  for (Index i = 0; i < embedded.cols(); ++i) {
+    const Side location = locator.locate(embedded.col(i));
+    if (location == Side::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
+    if (location == Side::kOnCage) {
+      refuse_point<Dim>(embedded, i, "it lies on the cage, where it must lie strictly inside");
+    }
+  }
+}
+
+template <int Dim>
+void check_distinctness(const Cage<Dim>& cage, const PointList<Dim>& input, double tolerance) {
+  for (const auto& [first, second] : find_close_pairs<Dim>(input, tolerance, input.cols())) {
+    if (second < cage.size()) continue;  // close, but distinct enough for validate()
+    const std::string other = first < cage.size() ? "control point " + std::to_string(first)
+                                                  : "point " + std::to_string(first - cage.size());
+    const PointList<Dim> embedded = input.rightCols(input.cols() - cage.size());
+    refuse_point<Dim>(embedded, second - cage.size(),
+                      "it coincides with " + other + ", but embedding needs distinct points");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
+  check_options(options);
+  const PointList<Dim>& embedded = options.embedded_points;
+  PointList<Dim> input(Dim, cage.size() + embedded.cols());
+  input << cage.points, embedded;
+
+  for (Index i = 0; i < embedded.cols(); ++i) {
+    if (!embedded.col(i).allFinite()) refuse_point<Dim>(embedded, i, "it is not finite");
+  }
+  const double tolerance = kRelativeTolerance * bounding_box_diagonal<Dim>(cage.points);
+  check_distinctness<Dim>(cage, input, tolerance);
+  check_location<Dim>(cage, embedded, tolerance);
+  return input;
+}
+
+void check_vertex_count(Index wanted, Index minimum, double tolerance) {
+  if (wanted == 0 || wanted >= (1 - tolerance) * minimum) return;
+  throw OptionError("vertices (--vertices): " + std::to_string(wanted) +
+                    " vertices were asked for, but cells of good shape that fill this cage take at "
+                    "least about " +
+                    std::to_string(minimum) + "; ask for more, or for 0 to get as few as possible");
+}
+
+template <int Dim>
+double total_measure(const DomainMesh<Dim>& mesh) {
+  double sum = 0;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) sum += signed_measure(mesh, cell);
+  return sum;
+}
+
+template <int Dim>
+void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points) {
+  reorder_in_space(mesh, num_input_points);
+  normalize_and_validate(mesh);
+}
+
+template PointList<2> collect_input_points<2>(const Cage<2>&, const MeshingOptions<2>&);
+template PointList<3> collect_input_points<3>(const Cage<3>&, const MeshingOptions<3>&);
+template double total_measure<2>(const DomainMesh<2>&);
+template double total_measure<3>(const DomainMesh<3>&);
+template void finish_mesh<2>(DomainMesh<2>&, Index);
+template void finish_mesh<3>(DomainMesh<3>&, Index);
+
+}  // namespace flbc

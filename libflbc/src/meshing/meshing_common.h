@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What both meshers do before and after the foreign library's work.
+#pragma once
+
+#include "flbc/cage.h"
+#include "flbc/meshing_options.h"
+
+namespace flbc {
+
+//! The control points followed by the points to embed.
+//! \throws OptionError if an option is out of range, InputError if a point to embed is not finite,
+//! not strictly inside the cage, or coincides with another one or with a control point
+template <int Dim>
+PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<Dim>& options);
+
+//! \throws OptionError if `wanted` vertices (0 = any number) are fewer than `minimum`, by more than
+//! the relative `tolerance`
+void check_vertex_count(Index wanted, Index minimum, double tolerance);
+
+//! Sum of the cells' areas or volumes.
+template <int Dim>
+double total_measure(const DomainMesh<Dim>& mesh);
+
+//! Checks the mesh and orders what is not input along a space-filling curve.
+template <int Dim>
+void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points);
+
+}  // namespace flbc

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/tetgen/flat_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "base/messages.h"
+#include "cage/point_in_cage.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "meshing/tetgen/cell_complex.h"
+
+namespace flbc {
+
+namespace {
+
+// Cells are flat below this part of the cube of their longest edge: TetGen's worst other cells are
+// above 1e-6, and rounding makes those of four coplanar points below 1e-14. Also the relative
+// tolerance within which edges cross in a point and a point lies in a triangle; above TetGen's for
+// coplanar facets.
+constexpr double kFlat = 1e-9;
+constexpr double kOnTop = 1e-7;
+
+using Edge = std::pair<Index, Index>;
+using Segment = std::pair<Vector<3>, Vector<3>>;
+using Simplex = CellComplex::Simplex;
+
+bool is_flat(const DomainMesh<3>& mesh, Index cell) {
+  double longest = 0;
+  for (int a = 0; a < 4; ++a) {
+    for (int b = 0; b < a; ++b) {
+      const auto side = mesh.points.col(mesh.cells(a, cell)) - mesh.points.col(mesh.cells(b, cell));
+      longest = std::max(longest, side.norm());
+    }
+  }
+  return std::abs(signed_measure(mesh, cell)) <= kFlat * longest * longest * longest;
+}
+
+// \return the vertices of the cells removed
+std::set<Index> remove_flat_cells(DomainMesh<3>& mesh) {
+  std::set<Index> vertices;
+  Index count = 0;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    if (is_flat(mesh, cell)) {
+      for (int k = 0; k < 4; ++k) vertices.insert(mesh.cells(k, cell));
+    } else {
+      mesh.cells.col(count++) = mesh.cells.col(cell);
+    }
+  }
+  mesh.cells.conservativeResize(4, count);
+  return vertices;
+}
+
+// The boundary faces between the vertices: those laid bare, and perhaps others beside them.
+std::vector<Simplex> bare_faces(const DomainMesh<3>& mesh, const std::set<Index>& vertices) {
+  const MeshTopology<3> topology = build_topology(mesh);
+  std::vector<Simplex> faces;
+  for (Index facet = 0; facet < topology.num_facets(); ++facet) {
+    const auto corners = topology.facets.col(facet);
+    const bool is_between = std::all_of(corners.begin(), corners.end(),
+                                        [&](Index corner) { return vertices.count(corner) > 0; });
+    if (is_between && topology.is_boundary(facet)) {
+      faces.push_back({corners(0), corners(1), corners(2)});
+    }
+  }
+  return faces;
+}
+
+[[noreturn]] void refuse_flat_cell(const Vector<3>& place) {
+  throw InputError("TetGen left a cell without volume near " + format_point(place) +
+                   "; points or facets come extremely close to each other there");
+}
+
+// Flat cells inside would leave a slit.
+void refuse_slits(const Cage<3>& cage, const DomainMesh<3>& mesh,
+                  const std::vector<Simplex>& faces) {
+  const CageLocator<3> locator(cage, kOnTop * bounding_box_diagonal<3>(cage.points));
+  for (const Simplex& face : faces) {
+    Vector<3> centre = Vector<3>::Zero();
+    for (Index corner : face) centre += mesh.points.col(corner) / 3;
+    if (locator.locate(centre) != Side::kOnCage) refuse_flat_cell(centre);
+  }
+}
+
+// The corners of the face that span the simplex in whose interior the point lies; empty if it lies
+// outside the face.
+Simplex containing_simplex(const CellComplex& complex, const Simplex& face,
+                           const Vector<3>& point) {
+  const Vector<3>&a = complex.point(face[0]), &b = complex.point(face[1]),
+        &c = complex.point(face[2]);
+  const Vector<3> normal = (b - a).cross(c - a);
+  const double doubled = normal.squaredNorm();
+  if (std::abs((point - a).dot(normal)) > kOnTop * std::pow(doubled, 0.75)) return {};
+  const double shares[3] = {(b - point).cross(c - point).dot(normal) / doubled,
+                            (c - point).cross(a - point).dot(normal) / doubled,
+                            (a - point).cross(b - point).dot(normal) / doubled};
+  Simplex simplex;
+  for (int k = 0; k < 3; ++k) {
+    if (shares[k] < -kFlat) return {};
+    if (shares[k] > kFlat) simplex.push_back(face[k]);
+  }
+  return simplex;
+}
+
+// A control point in the middle of a flat part of the cage may have had flat cells only.
+// \param faces  those among which its place is, kept up to date
+void put_back(Index vertex, CellComplex& complex, std::vector<Simplex>& faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Simplex simplex = containing_simplex(complex, faces[f], complex.point(vertex));
+    if (simplex.size() < 2) continue;
+    complex.split(simplex, vertex);
+    const auto has_simplex = [&](const Simplex& face) {
+      return std::all_of(simplex.begin(), simplex.end(), [&](Index corner) {
+        return std::find(face.begin(), face.end(), corner) != face.end();
+      });
+    };
+    faces.erase(std::remove_if(faces.begin(), faces.end(), has_simplex), faces.end());
+    for (const Simplex& part : complex.boundary_faces_at(vertex)) faces.push_back(part);
+    return;
+  }
+}
+
+Vector<3> unit_normal(const Cage<3>& cage, Index facet) {
+  const Vector<3> a = cage.points.col(cage.facets(0, facet));
+  const Vector<3> b = cage.points.col(cage.facets(1, facet));
+  const Vector<3> c = cage.points.col(cage.facets(2, facet));
+  return (b - a).cross(c - a).normalized();
+}
+
+// The edges of the cage between coplanar facets, with a margin.
+std::vector<Segment> flat_edges(const Cage<3>& cage) {
+  const double margin = 10 * kCoplanarAngle * std::acos(-1.0) / 180;
+  std::map<Edge, Index> first_facet;
+  std::vector<Segment> segments;
+  for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
+    for (int k = 0; k < 3; ++k) {
+      const Index a = cage.facets(k, facet), b = cage.facets((k + 1) % 3, facet);
+      const auto [entry, is_new] = first_facet.emplace(std::minmax(a, b), facet);
+      if (is_new) continue;
+      const Vector<3> n = unit_normal(cage, facet), m = unit_normal(cage, entry->second);
+      if (n.dot(m) > 0 && n.cross(m).norm() <= margin) {
+        segments.emplace_back(cage.points.col(entry->first.first),
+                              cage.points.col(entry->first.second));
+      }
+    }
+  }
+  return segments;
+}
+
+// The point of the first segment where the second crosses it, both in their interiors.
+std::optional<Vector<3>> crossing(const Segment& first, const Segment& second) {
+  const Vector<3> along_first = first.second - first.first;
+  const Vector<3> along_second = second.second - second.first;
+  const Vector<3> offset = second.first - first.first;
+  const Vector<3> normal = along_first.cross(along_second);
+  const double lengths = along_first.norm() * along_second.norm();
+  if (normal.norm() <= kFlat * lengths) return std::nullopt;  // parallel
+  const double s = offset.cross(along_second).dot(normal) / normal.squaredNorm();
+  const double t = offset.cross(along_first).dot(normal) / normal.squaredNorm();
+  if (std::min({s, 1 - s, t, 1 - t}) <= kFlat) return std::nullopt;
+  if (std::abs(offset.dot(normal.normalized())) > kOnTop * along_first.norm()) return std::nullopt;
+  return first.first + s * along_first;
+}
+
+std::optional<Vector<3>> crossing_with_any(const std::vector<Segment>& segments,
+                                           const Segment& edge) {
+  const Eigen::AlignedBox3d edge_box(edge.first.cwiseMin(edge.second),
+                                     edge.first.cwiseMax(edge.second));
+  for (const Segment& segment : segments) {
+    const double reach = kOnTop * (segment.second - segment.first).norm();
+    const Vector<3> margin = Vector<3>::Constant(reach);
+    const Eigen::AlignedBox3d box(segment.first.cwiseMin(segment.second) - margin,
+                                  segment.first.cwiseMax(segment.second) + margin);
+    if (!box.intersects(edge_box)) continue;
+    if (const auto place = crossing(segment, edge)) return place;
+  }
+  return std::nullopt;
+}
+
+std::array<Edge, 3> edges_of(const Simplex& face) {
+  return {std::minmax(face[0], face[1]), std::minmax(face[0], face[2]),
+          std::minmax(face[1], face[2])};
+}
+
+// Two crossings in one face come to be joined by an edge between its parts, so that in the end mesh
+// edges cover the segments.
+void divide_along(const std::vector<Segment>& segments, const std::vector<Simplex>& faces,
+                  CellComplex& complex) {
+  std::set<Edge> unchecked;
+  for (const Simplex& face : faces) {
+    for (const Edge& edge : edges_of(face)) unchecked.insert(edge);
+  }
+  while (!unchecked.empty()) {
+    const Edge edge = *unchecked.begin();
+    unchecked.erase(unchecked.begin());
+    const auto place =
+        crossing_with_any(segments, {complex.point(edge.first), complex.point(edge.second)});
+    if (!place) continue;
+    const Index vertex = complex.add_vertex(*place);
+    complex.split({edge.first, edge.second}, vertex);
+    for (const Simplex& face : complex.boundary_faces_at(vertex)) {
+      for (const Edge& part : edges_of(face)) {
+        if (part.first == vertex || part.second == vertex) unchecked.insert(part);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool has_coplanar_facets(const Cage<3>& cage) {
+  return !flat_edges(cage).empty();
+}
+
+void peel_flat_cells(const Cage<3>& cage, Index num_input_points, DomainMesh<3>& mesh) {
+  const std::set<Index> vertices = remove_flat_cells(mesh);
+  if (vertices.empty()) return;
+  std::vector<Simplex> faces = bare_faces(mesh, vertices);
+  refuse_slits(cage, mesh, faces);
+
+  CellComplex complex(mesh);
+  for (Index vertex : vertices) {
+    if (vertex < num_input_points && !complex.is_used(vertex)) put_back(vertex, complex, faces);
+  }
+  divide_along(flat_edges(cage), faces, complex);
+  mesh = complex.to_mesh();
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    if (is_flat(mesh, cell)) refuse_flat_cell(mesh.points.col(mesh.cells(0, cell)));
+  }
+}
+
+}  // namespace flbc

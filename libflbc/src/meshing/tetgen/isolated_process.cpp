@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/tetgen/isolated_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include "flbc/errors.h"
+
+namespace flbc {
+
+namespace {
+
+constexpr int kExitThrew = 1;
+constexpr int kExitNoReader = 2;
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void throw_system_error(const char* action) {
+  throw Error(std::string("cannot ") + action + " for the mesher: " + std::strerror(errno));
+}
+
+// ---------------------------------------------------------------------------------- in the child
+
+// A child forked from a process with several threads may use the heap and stdio, because the C
+// library resets their locks in fork(); but it must not run the parent's exit handlers or signal
+// handlers, nor flush the output that the parent has buffered.
+void detach_from_parent() {
+  for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, SIG_DFL);
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // write() reports it
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+#ifdef __linux__
+  prctl(PR_SET_DUMPABLE, 0);         // core handlers that are programs ignore the limit
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan if the parent is killed
+#endif
+
+  const int null_device = open("/dev/null", O_RDWR);
+  if (null_device < 0) _exit(kExitNoReader);
+  dup2(null_device, STDOUT_FILENO);
+  dup2(null_device, STDERR_FILENO);
+  if (null_device > STDERR_FILENO) close(null_device);
+}
+
+void write_all(int descriptor, const void* data, std::size_t size) {
+  const char* rest = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(descriptor, rest, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) _exit(kExitNoReader);
+    rest += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+[[noreturn]] void run_child(const std::function<void(const ByteSink&)>& work, int pipe_end) {
+  detach_from_parent();
+  try {
+    work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
+  } catch (...) {
+    _exit(kExitThrew);
+  }
+  _exit(0);
+}
+
+// --------------------------------------------------------------------------------- in the parent
+
+// The child and the pipe from it, released on every way out.
+class Child {
+ public:
+  explicit Child(const std::function<void(const ByteSink&)>& work) {
+    // A child started by another thread between pipe and close would inherit the writing end and
+    // keep the pipe open for as long as it lives.
+    static std::mutex start_mutex;
+    const std::lock_guard<std::mutex> lock(start_mutex);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw_system_error("open a pipe");
+    process_ = fork();
+    if (process_ < 0) {
+      const int reason = errno;
+      close(ends[0]);
+      close(ends[1]);
+      errno = reason;
+      throw_system_error("start a process");
+    }
+    if (process_ == 0) {
+      close(ends[0]);
+      run_child(work, ends[1]);
+    }
+    close(ends[1]);
+    pipe_ = ends[0];
+  }
+
+  ~Child() {
+    close(pipe_);
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      wait();
+    }
+  }
+
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  //! Reads until the child closes the pipe. \return false if the deadline came first
+  bool read_all(std::vector<char>& output, Clock::time_point deadline) {
+    std::vector<char> buffer(std::size_t{1} << 16);
+    while (true) {
+      const auto left =
+          std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+      if (left <= 0) return false;
+      pollfd watched{pipe_, POLLIN, 0};
+      const auto patience = std::min<decltype(left)>(left, 60000);
+      const int ready = poll(&watched, 1, static_cast<int>(patience));
+      if (ready < 0 && errno != EINTR) throw_system_error("wait for data");
+      if (ready <= 0) continue;
+      const ssize_t received = read(pipe_, buffer.data(), buffer.size());
+      if (received < 0 && errno != EINTR) throw_system_error("read data");
+      if (received == 0) return true;
+      if (received > 0) output.insert(output.end(), buffer.begin(), buffer.begin() + received);
+    }
+  }
+
+  void stop() { kill(process_, SIGKILL); }
+
+  //! \return the status as waitpid() gives it
+  int wait() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t process_ = -1;
+  int pipe_ = -1;
+};
+
+}  // namespace
+
+ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit) {
+  constexpr double kLongest = 1e8;  // three years, far below the clock's range
+  const std::chrono::duration<double> limit(std::min(time_limit, kLongest));
+  const Clock::time_point deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+
+  ProcessOutcome outcome;
+  Child child(work);
+  if (!child.read_all(outcome.output, deadline)) {
+    child.stop();
+    child.wait();
+    outcome.end = ProcessEnd::kTimedOut;
+    return outcome;
+  }
+  const int status = child.wait();
+  if (WIFSIGNALED(status)) {
+    outcome.end = ProcessEnd::kCrashed;
+    outcome.signal = WTERMSIG(status);
+  } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    outcome.end = ProcessEnd::kThrew;
+  }
+  return outcome;
+}
+
+std::string describe_signal(int signal) {
+  return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
+
+}  // namespace flbc

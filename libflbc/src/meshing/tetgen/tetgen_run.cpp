@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/tetgen/tetgen_run.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+
+#define TETLIBRARY
+#include <tetgen.h>
+
+#include "flbc/errors.h"
+#include "meshing/tetgen/isolated_process.h"
+
+namespace flbc {
+
+namespace {
+
+// What precedes the arrays in the child's output.
+struct Header {
+  std::int64_t num_points;
+  std::int64_t num_cells;
+};
+
+// TetGen's input object deletes its arrays itself.
+void fill_points(const PointList<3>& points, tetgenio& io) {
+  io.firstnumber = 0;
+  io.numberofpoints = static_cast<int>(points.cols());
+  io.pointlist = new REAL[points.size()];
+  std::memcpy(io.pointlist, points.data(), sizeof(double) * std::size_t(points.size()));
+}
+
+void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
+  io.numberoffacets = static_cast<int>(triangles.cols());
+  io.facetlist = new tetgenio::facet[triangles.cols()];
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    tetgenio::facet& facet = io.facetlist[t];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    tetgenio::init(&facet.polygonlist[0]);
+    facet.polygonlist[0].numberofvertices = 3;
+    facet.polygonlist[0].vertexlist = new int[3];
+    for (int k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = triangles(k, t);
+  }
+}
+
+void fill_holes(const PointList<3>& holes, tetgenio& io) {
+  if (holes.cols() == 0) return;
+  io.numberofholes = static_cast<int>(holes.cols());
+  io.holelist = new REAL[holes.size()];
+  std::memcpy(io.holelist, holes.data(), sizeof(double) * std::size_t(holes.size()));
+}
+
+// Runs in the child: a failing TetGen frees its memory twice and takes the process with it.
+void tetrahedralize_and_send(const TetgenInput& input, std::string switches, const ByteSink& send) {
+  tetgenio in, out;
+  fill_points(input.points, in);
+  fill_facets(input.triangles, in);
+  fill_holes(input.holes, in);
+  ::tetrahedralize(switches.data(), &in, &out);
+
+  const Header header{out.numberofpoints, out.numberoftetrahedra};
+  std::vector<std::int32_t> regions(std::size_t(out.numberoftetrahedra), 0);
+  for (int cell = 0; cell < out.numberoftetrahedra && out.numberoftetrahedronattributes > 0;
+       ++cell) {
+    regions[cell] = static_cast<std::int32_t>(
+        std::lround(out.tetrahedronattributelist[cell * out.numberoftetrahedronattributes]));
+  }
+  send(&header, sizeof(header));
+  send(out.pointlist, sizeof(double) * 3 * std::size_t(out.numberofpoints));
+  send(out.tetrahedronlist, sizeof(int) * 4 * std::size_t(out.numberoftetrahedra));
+  send(regions.data(), sizeof(std::int32_t) * regions.size());
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  throw InputError(
+      "TetGen " + what +
+      " while filling the cage; the usual causes are facets that intersect or touch each "
+      "other, and facets at extremely small angles");
+}
+
+void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
+  switch (outcome.end) {
+    case ProcessEnd::kFinished:
+      return;
+    case ProcessEnd::kThrew:
+      fail("gave up");
+    case ProcessEnd::kCrashed:
+      fail("crashed with " + describe_signal(outcome.signal));
+    case ProcessEnd::kTimedOut: {
+      char seconds[32];
+      std::snprintf(seconds, sizeof(seconds), "%g", time_limit);
+      throw InputError(
+          std::string("TetGen was stopped at the time limit of ") + seconds +
+          " s; raise the limit, ask for fewer vertices, or check the cage for facets that "
+          "intersect or come extremely close");
+    }
+  }
+}
+
+// On sound cages with many coplanar points TetGen's point location sometimes fails an assertion,
+// which depends on the order in which it inserts points: b0/0 takes that of the input, l flips
+// incrementally.
+ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& switches,
+                                  double time_limit) {
+  ProcessOutcome outcome;
+  for (const char* order : {"", "b0/0", "lb0/0"}) {
+    outcome = run_isolated(
+        [&](const ByteSink& send) { tetrahedralize_and_send(input, switches + order, send); },
+        time_limit);
+    if (outcome.end != ProcessEnd::kCrashed && outcome.end != ProcessEnd::kThrew) break;
+  }
+  return outcome;
+}
+
+// Copies the next `count` elements and advances; the child's output may end early.
+template <class T>
+void take(const std::vector<char>& bytes, std::size_t& position, T* target, std::size_t count) {
+  const std::size_t size = sizeof(T) * count;
+  if (bytes.size() - position < size) fail("sent an incomplete result");
+  if (size > 0) std::memcpy(target, bytes.data() + position, size);
+  position += size;
+}
+
+}  // namespace
+
+TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches, double time_limit) {
+  const ProcessOutcome outcome = run_with_fallbacks(input, switches, time_limit);
+  refuse_failure(outcome, time_limit);
+
+  std::size_t position = 0;
+  Header header{};
+  take(outcome.output, position, &header, 1);
+  TetgenOutput result;
+  result.mesh.points.resize(3, header.num_points);
+  result.mesh.cells.resize(4, header.num_cells);
+  result.regions.resize(std::size_t(header.num_cells));
+  take(outcome.output, position, result.mesh.points.data(), 3 * std::size_t(header.num_points));
+  take(outcome.output, position, result.mesh.cells.data(), 4 * std::size_t(header.num_cells));
+  take(outcome.output, position, result.regions.data(), result.regions.size());
+  return result;
+}
+
+}  // namespace flbc

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/messages.h"
+#include "cage/point_in_cage.h"
+#include "flbc/errors.h"
+#include "meshing/meshing_common.h"
+#include "meshing/tetgen/flat_parts.h"
+#include "meshing/tetgen/tetgen_run.h"
+#include "meshing/vertex_count_search.h"
+
+namespace flbc {
+
+namespace {
+
+constexpr double kCountTolerance = 0.10;  // promised by MeshingOptions
+
+constexpr double kRadiusEdgeRatio = 1.414;  // TetGen is sure to end above the square root of 2
+
+// Makes a mesh with bounds on the radius-edge ratio and the volume of cells.
+using MeshMaker = std::function<DomainMesh<3>(double ratio, double largest_volume)>;
+
+// How TetGen's vertex count falls with the volume bound in meshes of some ten thousand vertices.
+constexpr double kCountExponent = 0.8;
+
+// Measured on cages of characters and animals; the smaller the mesh, the more of its vertices lie
+// on the surface. It only has to spare the search a run or two.
+double guess_volume_bound(double volume, Index vertices) {
+  const double volumes_per_vertex = 0.2 + 9 / std::cbrt(double(vertices));
+  return volumes_per_vertex * volume / vertices;
+}
+
+// What happens to edges of the cage between coplanar facets.
+enum class CoplanarFacets {
+  kJoin,  // the edges are lost, but TetGen hardly ever fails
+  kKeep   // the edges are kept, on which TetGen may fail or run for ever
+};
+
+// p: fill the facets, and join those at an angle at least so flat; M: join none; q: bound the ratio
+// of circumradius to shortest edge; a: bound the volume; J: keep unused points, so that input
+// points keep their numbers; Q: print nothing. Without Y, TetGen may put points on the cage's
+// facets and edges, which good cells need.
+std::string quality_switches(CoplanarFacets coplanar, double ratio, double largest_volume) {
+  char text[96];
+  const char* merging = coplanar == CoplanarFacets::kKeep ? "M" : "";
+  int length =
+      std::snprintf(text, sizeof(text), "p%.9gq%gQJ%s", 180 - kCoplanarAngle, ratio, merging);
+  if (largest_volume > 0) {
+    length += std::snprintf(text + length, sizeof(text) - length, "a%.17g", largest_volume);
+  }
+  return std::string(text, length);
+}
+
+// Within each region that the shells separate, the centroid of the largest cell: the point that is
+// safest from rounding.
+std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
+  std::map<Index, std::pair<double, Vector<3>>> largest;
+  for (Index cell = 0; cell < filled.mesh.num_cells(); ++cell) {
+    Vector<3> centroid = Vector<3>::Zero();
+    for (int k = 0; k < 4; ++k) centroid += filled.mesh.points.col(filled.mesh.cells(k, cell)) / 4;
+    const double volume = std::abs(signed_measure(filled.mesh, cell));
+    auto& entry = largest.try_emplace(filled.regions[cell], 0.0, centroid).first->second;
+    if (volume > entry.first) entry = {volume, centroid};
+  }
+  std::map<Index, Vector<3>> points;
+  for (const auto& [region, entry] : largest) points.emplace(region, entry.second);
+  return points;
+}
+
+// TetGen fills everything that the outermost shell encloses. A first coarse mesh tells which of its
+// regions are cavities, so that later runs do not waste cells on them.
+PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
+  const std::vector<Index> shells = facet_shells(cage);
+  const bool has_one_shell =
+      std::all_of(shells.begin(), shells.end(), [](Index s) { return s == 0; });
+  if (has_one_shell) return PointList<3>(3, 0);
+
+  const TetgenOutput filled =
+      run_tetgen({cage.points, cage.facets, PointList<3>(3, 0)}, "pAQJ", time_limit);
+  const CageLocator<3> locator(cage, 0);
+  PointList<3> cavities(3, 0);
+  for (const auto& [region, point] : points_in_regions(filled)) {
+    if (locator.locate(point) != Side::kOutside) continue;
+    cavities.conservativeResize(3, cavities.cols() + 1);
+    cavities.rightCols<1>() = point;
+  }
+  return cavities;
+}
+
+[[noreturn]] void refuse_unused(const Cage<3>& cage, const PointList<3>& input, Index vertex) {
+  const bool is_control_point = vertex < cage.size();
+  throw InputError("TetGen left " +
+                   (is_control_point ? "control point " + std::to_string(vertex)
+                                     : "embedded point " + std::to_string(vertex - cage.size())) +
+                   " at " + format_point(input.col(vertex)) +
+                   " out of the mesh; it is too close to another point or facet");
+}
+
+// Drops the points that belong to no cell; input points all must belong to one.
+DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh<3> mesh) {
+  std::vector<Index> new_number(std::size_t(mesh.num_vertices()), -1);
+  for (Index vertex : mesh.cells.reshaped()) new_number[vertex] = 0;
+  Index count = 0;
+  for (Index vertex = 0; vertex < mesh.num_vertices(); ++vertex) {
+    if (new_number[vertex] < 0) {
+      if (vertex < input.cols()) refuse_unused(cage, input, vertex);
+      continue;
+    }
+    mesh.points.col(count) = mesh.points.col(vertex);
+    new_number[vertex] = count++;
+  }
+  mesh.points.conservativeResize(3, count);
+  for (Index& vertex : mesh.cells.reshaped()) vertex = new_number[vertex];
+  return mesh;
+}
+
+// A regular cage's cells are all halved at the same volume bound, so that the count jumps. Another
+// bound on their shapes then leads to counts in between.
+DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMaker& make_mesh) {
+  VertexCountGoal goal;
+  goal.vertices = wanted;
+  goal.good_enough = kCountTolerance / 2;
+  const double first_bound = guess_volume_bound(std::abs(total_measure(coarsest)), wanted);
+  DomainMesh<3> mesh = std::move(coarsest);
+  for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
+    mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
+                                  [&](double bound) { return make_mesh(ratio, bound); });
+    if (goal.is_met(mesh.num_vertices(), kCountTolerance)) break;
+  }
+  return mesh;
+}
+
+// A cage to be filled.
+struct Task {
+  const Cage<3>& cage;
+  TetgenInput input;
+  Index vertices;  // wanted; 0 = any
+};
+
+// \param time_limit  for each run of TetGen
+DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit) {
+  const auto make_mesh = [&](double ratio, double largest_volume) {
+    const std::string switches = quality_switches(coplanar, ratio, largest_volume);
+    DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
+    peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
+    return compact(task.cage, task.input.points, std::move(mesh));
+  };
+  DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
+  check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
+  if (task.vertices <= mesh.num_vertices()) return mesh;
+  return refine_to_count(task.vertices, std::move(mesh), make_mesh);
+}
+
+// Replaces the mesh by one that has the cage's edges between coplanar facets too, where TetGen can
+// do it and the vertex count is met. Without these edges the boundary values are not exactly linear
+// along them, which is a lesser evil than no mesh.
+void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mesh) {
+  try {
+    DomainMesh<3> better = fill(task, CoplanarFacets::kKeep, time_limit);
+    const VertexCountGoal goal{task.vertices};
+    if (task.vertices > 0 && !goal.is_met(better.num_vertices(), kCountTolerance)) return;
+    mesh = std::move(better);
+  } catch (const InputError&) {
+  } catch (const OptionError&) {
+  }
+}
+
+}  // namespace
+
+DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
+  validate(cage);
+  const PointList<3> points = collect_input_points(cage, options);
+  const Task task{
+      cage, {points, cage.facets, find_cavities(cage, options.time_limit)}, options.vertices};
+
+  const auto start = std::chrono::steady_clock::now();
+  DomainMesh<3> mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+  if (has_coplanar_facets(cage)) {
+    // Far more than it takes unless it runs for ever.
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);
+  }
+  finish_mesh(mesh, static_cast<Index>(points.cols()));
+  return mesh;
+}
+
+}  // namespace flbc

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/vertex_count_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace flbc {
+
+namespace {
+
+// Width of a bracket in the logarithm of the bound: 1 %.
+constexpr double kNarrow = 0.01;
+
+struct Sample {
+  double log_bound;
+  double log_count;
+};
+
+double relative_error(Index count, Index wanted) {
+  return std::abs(double(count) / double(wanted) - 1);
+}
+
+}  // namespace
+
+template <int Dim>
+DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim> best,
+                                    double first_bound, double exponent,
+                                    const std::function<DomainMesh<Dim>(double)>& make_mesh) {
+  const double wanted = std::log(double(goal.vertices));
+  double too_fine = -std::numeric_limits<double>::infinity();  // bracket of the logarithmic bound
+  double too_coarse = std::numeric_limits<double>::infinity();
+  double slope = -exponent;
+  Sample last{0, 0};
+
+  double log_bound = std::log(first_bound);
+  for (int run = 0; run < goal.max_runs; ++run) {
+    if (goal.is_met(best.num_vertices(), goal.good_enough)) break;
+    DomainMesh<Dim> mesh = make_mesh(std::exp(log_bound));
+    const Sample sample{log_bound, std::log(double(mesh.num_vertices()))};
+    if (relative_error(mesh.num_vertices(), goal.vertices) <
+        relative_error(best.num_vertices(), goal.vertices)) {
+      best = std::move(mesh);
+    }
+
+    (sample.log_count > wanted ? too_fine : too_coarse) = log_bound;
+    if (run > 0 && sample.log_bound != last.log_bound) {
+      // Counts are noisy and level off towards the coarsest mesh: a secant much off the known rate
+      // would overshoot.
+      const double secant =
+          (sample.log_count - last.log_count) / (sample.log_bound - last.log_bound);
+      slope = std::clamp(secant, -2 * exponent, -exponent / 8);
+    }
+    last = sample;
+    log_bound = sample.log_bound + (wanted - sample.log_count) / slope;
+    const bool has_bracket = std::isfinite(too_fine) && std::isfinite(too_coarse);
+    if (has_bracket && too_coarse - too_fine < kNarrow) break;  // the count jumps within
+    if (has_bracket && !(too_fine < log_bound && log_bound < too_coarse)) {
+      log_bound = (too_fine + too_coarse) / 2;
+    }
+  }
+  return best;
+}
+
+template DomainMesh<2> search_vertex_count<2>(const VertexCountGoal&, DomainMesh<2>, double, double,
+                                              const std::function<DomainMesh<2>(double)>&);
+template DomainMesh<3> search_vertex_count<3>(const VertexCountGoal&, DomainMesh<3>, double, double,
+                                              const std::function<DomainMesh<3>(double)>&);
+
+}  // namespace flbc

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What the fast marches from all sources share: the mesh in the form in which they read it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "flbc/domain_mesh.h"
+#include "mesh/vertex_cells.h"
+#include "problem/geodesic/tetrahedron_ray.h"
+#include "problem/geodesic/triangle_ray.h"
+
+namespace flbc::distance {
+
+//! An edge as seen from one end.
+struct EdgeTo {
+  Index vertex;
+  float length;
+};
+
+//! A corner of a cell or facet, in one number: whole lists of them are read for every vertex.
+class Corner {
+ public:
+  Corner() = default;
+  Corner(Index simplex, int corner)
+      : code_(static_cast<std::uint32_t>(simplex) * 16 + (1u << corner)) {}
+  std::size_t simplex() const { return code_ / 16; }
+  unsigned bit() const { return code_ % 16; }  //!< 1 << corner
+  int corner() const { return __builtin_ctz(code_); }
+
+ private:
+  std::uint32_t code_;
+};
+
+//! When a corner of a cell that has been passed can profit from one that is passed after it: if
+//! the angle between their edge and another one is obtuse, and if it is not much nearer to the
+//! source.
+struct LookBack {
+  std::uint16_t obtuse;  //!< bit 4 o + c: obtuse angle at corner c beside the edge to o
+  float latest;          //!< the most by which a plane wave passes such an o after c
+  float longest2;        //!< squared length of the longest such edge
+
+  //! The corners that may profit from corner o, as bits.
+  unsigned obtuse_beside(int o) const { return obtuse >> (4 * o) & 15u; }
+
+  //! Whether a ray through the cell can bring a corner nearer to the source than `of_corner`, if
+  //! the one passed after it has the distance `of_other`. It is the law of cosines for the greatest
+  //! angle there can be between the ray and their edge.
+  bool can_help(float of_corner, float of_other) const {
+    return (of_other - of_corner) * (of_other + of_corner) < longest2 + 2 * latest * of_corner;
+  }
+};
+
+//! A cell of a 2D mesh.
+struct alignas(32) TriangleCell : Triangle {
+  Index corners[3];
+};
+
+//! A cell with its vertices.
+template <int Dim>
+using EikonalCell = std::conditional_t<Dim == 2, TriangleCell, Tetrahedron>;
+
+//! \param topology  is read as long as this lives
+template <int Dim>
+struct EikonalMesh {
+  std::vector<EikonalCell<Dim>> cells;
+  std::vector<LookBack> look_back;  //!< of each cell
+  VertexItems<Corner> corners;      //!< of cells, as which each vertex occurs; ascending
+  VertexItems<EdgeTo> edges;        //!< from each vertex
+  float mean_length = 0;            //!< of edges
+  const MeshTopology<Dim>& topology;
+
+  // Only in 3D, where rays also run within facets:
+  std::vector<Triangle> facets;
+  VertexItems<Corner> bends;  //!< corners of facets that lie opposite to a side round which ways
+                              //!< may bend, for both ends of the side
+
+  EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
+
+  Index num_vertices() const { return static_cast<Index>(edges.start.size()) - 1; }
+};
+
+}  // namespace flbc::distance

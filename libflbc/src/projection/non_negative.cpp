@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/non_negative.h"
+
+#include <atomic>
+#include <numeric>
+#include <string>
+
+#include "base/messages.h"
+#include "flbc/errors.h"
+#include "projection/nearest_point_in_hull.h"
+#include "projection/weight_projection.h"
+
+namespace flbc {
+namespace {
+
+template <int Dim>
+void check_input(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                 const WeightMatrix& weights, const std::vector<Index>& columns) {
+  if (weights.rows() != control_points.cols() || weights.cols() != points.cols()) {
+    throw InputError("weights for " + std::to_string(weights.cols()) + " points and " +
+                     std::to_string(weights.rows()) + " control points do not belong to " +
+                     std::to_string(points.cols()) + " points and " +
+                     std::to_string(control_points.cols()) + " control points");
+  }
+  if (control_points.cols() == 0) throw InputError("there are no control points");
+  for (Eigen::Index i = 0; i < control_points.cols(); ++i) {
+    if (!control_points.col(i).allFinite()) {
+      throw InputError("control point " + std::to_string(i) +
+                       " is not finite: " + format_point(control_points.col(i)));
+    }
+  }
+  for (const Index column : columns) {
+    if (column < 0 || column >= points.cols()) {
+      throw InputError("column " + std::to_string(column) + " of the weights was asked for, but " +
+                       std::to_string(points.cols()) + " are there");
+    }
+    if (!points.col(column).allFinite()) {
+      throw InputError("point " + std::to_string(column) +
+                       " is not finite: " + format_point(points.col(column)));
+    }
+    if (!weights.col(column).allFinite()) {
+      throw InputError("a weight of point " + std::to_string(column) + " at " +
+                       format_point(points.col(column)) + " is not finite");
+    }
+  }
+}
+
+// The smallest number so far that failed; exceptions cannot leave a parallel loop.
+void lower_to(std::atomic<Index>& least, Index number) {
+  Index current = least.load();
+  while (number < current && !least.compare_exchange_weak(current, number)) {
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                          WeightMatrix& weights, const std::vector<Index>& columns) {
+  check_input(control_points, points, weights, columns);
+  const RowProjection<Dim> projection(control_points);
+  const auto count = static_cast<Index>(columns.size());
+  std::atomic<Index> outside{static_cast<Index>(points.cols())};
+#pragma omp parallel if (count >= 256)
+  {
+    typename RowProjection<Dim>::Workspace work(projection);
+    Eigen::VectorXd column(control_points.cols());
+#pragma omp for schedule(dynamic, 64)
+    for (Index k = 0; k < count; ++k) {
+      const Index point = columns[k];
+      // Only the first one is reported, so that those behind it do not matter any more.
+      if (outside.load(std::memory_order_relaxed) < point) continue;
+      column = weights.col(point);
+      if (projection.project(points.col(point), column, work) > 0) {
+        lower_to(outside, point);
+      } else {
+        weights.col(point) = column;
+      }
+    }
+  }
+  const Index point = outside.load();
+  if (point == points.cols()) return;
+  throw InputError("point " + std::to_string(point) + " at " + format_point(points.col(point)) +
+                   " lies outside the convex hull of the control points by " +
+                   format_number(nearest_in_hull<Dim>(control_points, points.col(point)).distance) +
+                   ": no weights >= 0 reproduce it");
+}
+
+template <int Dim>
+void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                          WeightMatrix& weights) {
+  std::vector<Index> columns(points.cols());
+  std::iota(columns.begin(), columns.end(), 0);
+  project_non_negative(control_points, points, weights, columns);
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&); \
+  template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&,  \
+                                     const std::vector<Index>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The projection of one row of weights on {w >= 0, sum w = 1, sum w c = x}.
+#pragma once
+
+#include "flbc/types.h"
+#include "projection/dual_newton.h"
+
+namespace flbc {
+
+//! Projects rows of weights for one set of control points. Shared by threads, each with a workspace
+//! of its own.
+template <int Dim>
+class RowProjection {
+ public:
+  using Sums = typename DualNewton<Dim>::Sums;
+
+  //! \param control_points  Dim x n, n >= 1, finite
+  explicit RowProjection(const PointList<Dim>& control_points);
+
+  class Workspace {
+   public:
+    explicit Workspace(const RowProjection& projection) : newton(projection.basis_) {}
+
+   private:
+    friend class RowProjection;
+    DualNewton<Dim> newton;
+    Eigen::VectorXd row, scaled, candidate;
+  };
+
+  //! Are the weights non-negative, and sum and reproduction exact up to rounding?
+  bool is_feasible(const Vector<Dim>& point, const Eigen::VectorXd& weights) const;
+
+  //! Replaces the weights (finite) by the nearest feasible ones. A point beside the convex hull of
+  //! the control points by at most 1e-9 of their size counts as the nearest one of the hull.
+  //! \return 0, or the distance from the hull of a point farther away, whose weights stay
+  double project(const Vector<Dim>& point, Eigen::VectorXd& weights, Workspace& work) const;
+
+ private:
+  friend class Workspace;
+
+  Sums sums_of(const Vector<Dim>& point) const;
+  double violation(const Sums& residual) const;
+  bool newton_round(const Sums& sums, double delta, Workspace& work) const;
+  bool many_rounds(const Sums& sums, Workspace& work) const;
+  bool polish(const Sums& sums, Eigen::VectorXd& weights) const;
+  void correct(const Sums& residual, bool careful, Eigen::VectorXd& weights) const;
+
+  PointList<Dim> points_;
+  double size_;
+  Vector<Dim> center_;
+  Eigen::Matrix<double, Dim, Dim> axes_;   // principal axes of the control points, as columns
+  Vector<Dim> lengths_;                    // their extent along each
+  typename DualNewton<Dim>::Basis basis_;  // Q: [1; c] in these coordinates, orthonormal columns
+};
+
+}  // namespace flbc

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What stays the same during the gradient ADMM: its constraints, as the inner loops want them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/lbc_problem.h"
+
+namespace flbc::gradient {
+
+//! Arrays of gradient_kernel.h, with the shapes given there.
+template <class Scalar, int Dim>
+struct ConstraintData {
+  AlignedArray<Scalar> radius;
+  AlignedArray<Scalar> boundary_slope;
+  AlignedArray<Scalar> basis;
+  AlignedArray<Scalar> target;
+  std::vector<Scalar> tangents;
+  std::vector<Index> boundary_slot;
+};
+
+//! \param penalty  mu > 0 \param stride  numbers per row
+template <class Scalar, int Dim>
+ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
+                                                 std::size_t stride);
+
+//! Orthonormal basis of the facet's tangent space, a column per direction.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet);
+
+}  // namespace flbc::gradient

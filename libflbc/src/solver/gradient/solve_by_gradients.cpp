@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The paper's solver from start to weights.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/stopwatch.h"
+#include "flbc/certificate.h"
+#include "flbc/harmonic.h"
+#include "flbc/recovery.h"
+#include "solver/gradient/gradient_admm.h"
+#include "solver/iterative_method.h"
+
+namespace flbc {
+namespace {
+
+// Iterates until both residuals are below their thresholds (section 4.2.1 of the paper), the limit
+// is reached or the caller stops the run.
+template <class Scalar, int Dim>
+void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
+             SolveReport& report) {
+  // The paper's dual threshold is 10 times its primal one; one tolerance keeps their ratio.
+  const double components = admm.num_residual_components();
+  const double primal_threshold =
+      options.tolerance * (options.method == Method::kPaper ? components : std::sqrt(components));
+  const double dual_threshold = 10 * primal_threshold;
+  for (int iteration = 0;;) {
+    const int count = std::min(options.check_interval, options.max_iterations - iteration);
+    const auto residuals = admm.residuals(admm.iterate(count));
+    iteration += count;
+    report.iterations = iteration;
+    report.primal_residual = residuals.primal / primal_threshold;
+    report.dual_residual = residuals.dual / dual_threshold;
+    if (finished(iteration, options, report)) return;
+  }
+}
+
+template <class Scalar, int Dim>
+MeshState<Dim> keep_state(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcProblem<Dim>& problem,
+                          double penalty) {
+  MeshState<Dim> state;
+  state.penalty = penalty;
+  state.flux_density = flux_densities(problem, admm.flux());
+  state.potential =
+      flux_potential<Dim>(problem, [&](Index facet) { return admm.facet_pull(facet); });
+  state.periods = admm.period_factors();
+  return state;
+}
+
+template <class Scalar, int Dim>
+Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+              StateStorage* storage, Relay<Dim> relay) {
+  Stopwatch watch;
+  auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
+      problem, options.penalty, options.relaxation, gradient::boundary_periods(problem), storage);
+  if (storage != nullptr && storage->penalty() > 0) {
+    // goes on from what is there
+  } else if (options.method == Method::kPaper) {
+    admm->start_from_least_norm();
+  } else if (relay.start) {
+    admm->start_from_duals(
+        relay.start->weights(), [&](Index s) { return relay.start->flux_density(s); },
+        [&](Index facet) { return relay.start->facet_pull(facet); }, relay.start->periods());
+  } else {
+    admm->start_from_weights(harmonic_coordinates(problem));
+  }
+  iterate(*admm, options, report);
+  report.numbers_per_cell = admm->numbers_per_cell();
+  report.penalty = options.penalty;
+  if (storage != nullptr) storage->keep_penalty(options.penalty);
+  report.seconds.solve = watch.lap();
+  Outcome outcome;
+  outcome.weights = options.recovery == Recovery::kBreadthFirst
+                        ? integrate_breadth_first(problem, admm->gradients())
+                        : integrate_least_squares(problem, admm->gradients());
+  report.seconds.recover = watch.lap();
+  if (relay.finish) {
+    *relay.finish = keep_state(*admm, problem, options.penalty);
+    relay.finish->weights = outcome.weights;
+  }
+  outcome.certify = [admm, &problem](const WeightMatrix& weights) {
+    return certify(problem, admm->flux(), weights);
+  };
+  return outcome;
+}
+
+}  // namespace
+
+template <int Dim>
+Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+  return options.precision == Precision::kSingle
+             ? solve<float>(problem, options, report, storage, relay)
+             : solve<double>(problem, options, report, storage, relay);
+}
+
+template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, Relay<2>);
+template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, Relay<3>);
+
+}  // namespace flbc

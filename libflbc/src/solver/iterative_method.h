@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What the iterative methods have in common, for solve().
+#pragma once
+
+#include <functional>
+
+#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/options.h"
+#include "flbc/report.h"
+#include "flbc/solver.h"
+#include "flbc/solver_state.h"
+#include "solver/warm_start/transfer.h"
+
+namespace flbc {
+
+//! What a method hands back. Boundary values are exact; interior rows sum to one and reproduce
+//! their points up to the method's precision, and may be negative.
+struct Outcome {
+  WeightMatrix weights;  //!< n x V
+  //! Certificate of weights (n x V) from the method's duals.
+  std::function<Certificate(const WeightMatrix&)> certify;
+};
+
+//! Whether a method can start from weights and duals found elsewhere.
+inline bool inherits(Method method) {
+  return method == Method::kValue || method == Method::kGradient;
+}
+
+//! How an iteration takes over from one on a coarser mesh and hands over to one on a finer mesh;
+//! either may be null. For methods that inherits() holds for.
+template <int Dim>
+struct Relay {
+  const Transfer<Dim>* start = nullptr;  //!< where to start
+  MeshState<Dim>* finish = nullptr;      //!< where to leave the last state
+};
+
+//! Method::kGradient and kPaper. \param options  resolved \param report  iterations, status,
+//! residuals and seconds are filled in \param storage  memory of the state, may be null
+template <int Dim>
+Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+
+//! Method::kValue and kLbc2014. Parameters as above.
+template <int Dim>
+Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+
+//! Any method, up to weights that may be negative. Parameters as above; the report is made anew.
+template <int Dim>
+Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+
+//! What follows the iteration: non-negative rows, certificate, measures.
+template <int Dim>
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Outcome outcome,
+                SolveReport report);
+
+//! p / A from p, in the form of MeshState.
+template <class Scalar, int Dim>
+Eigen::MatrixXd flux_densities(const LbcProblem<Dim>& problem,
+                               const CellFieldView<Scalar, Dim>& flux) {
+  Eigen::MatrixXd densities(flux.n, Dim * problem.mesh.num_cells());
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    densities.template middleCols<Dim>(Dim * s) =
+        flux.cell(s).transpose() / signed_measure(problem.mesh, s);
+  }
+  return densities;
+}
+
+//! Penalties and relaxations without measure take the numbers out of their range, which must never
+//! pass for a result. \throws SolverError unless `finite`
+void require_finite(bool finite, const SolverOptions& options, const SolveReport& report);
+
+//! Ends the run or tells the caller, after an evaluation of the residuals that `report` holds.
+//! Sets the status. \return whether to stop
+bool finished(int iteration, const SolverOptions& options, SolveReport& report);
+
+}  // namespace flbc

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/coarse_to_fine.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/messages.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "flbc/errors.h"
+#include "solver/iterative_method.h"
+#include "solver/multilevel/level_sizes.h"
+#include "solver/warm_start/transfer.h"
+
+namespace flbc {
+namespace {
+
+// A mesh that was solved, and in which state.
+template <int Dim>
+struct Level {
+  LbcProblem<Dim> problem;
+  MeshState<Dim> state;
+};
+
+template <int Dim>
+void validate(const CoarseMesher<Dim>& mesher, const CoarseLevels& levels) {
+  if (!mesher) throw OptionError("mesher is empty; a coarse-to-fine start needs one");
+  if (levels.coarsest < 0) {
+    throw OptionError("coarsest must be a number of vertices, or 0 for the default, not " +
+                      std::to_string(levels.coarsest));
+  }
+  if (levels.factor != 0 && !(levels.factor >= 2)) {
+    throw OptionError("factor must be at least 2, or 0 for the default, not " +
+                      format_number(levels.factor));
+  }
+  if (!(levels.looseness > 0)) {
+    throw OptionError("looseness must be positive, not " + format_number(levels.looseness));
+  }
+}
+
+// A mesh worth a level of its own between the one below (0 vertices = none) and the finest.
+template <int Dim>
+std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const Cage<Dim>& cage,
+                                         Index wanted, Index below, Index finest) {
+  constexpr double kClearly = 1.7;
+  try {
+    auto mesh = mesher(cage, wanted);
+    if (kClearly * mesh.num_vertices() > finest || mesh.num_vertices() < kClearly * below)
+      return {};
+    normalize_and_validate(mesh);
+    return mesh;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// What the levels have in common and how far they have come.
+template <int Dim>
+class Cascade {
+ public:
+  Cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+          const SolverOptions& options, const CoarseLevels& levels)
+      : problem_(problem), mesher_(mesher), options_(options), levels_(levels) {}
+
+  //! Solves the coarse levels, coarsest first.
+  void climb() {
+    const auto sizes = level_sizes<Dim>(problem_.mesh.num_vertices(), problem_.num_control_points(),
+                                        options_.method, levels_);
+    for (std::size_t k = 0; k < sizes.size() && !stopped_; ++k) {
+      solve_level(sizes[k], static_cast<int>(sizes.size() - k));
+    }
+  }
+
+  Solution solve_finest(StateStorage* storage) {
+    Stopwatch watch;
+    auto options = options_;
+    if (stopped_) options.max_iterations = 1;  // for weights that belong to this mesh
+    const auto transfer = transfer_to(problem_);
+    SolveReport report;
+    const double placing = watch.lap();
+    auto outcome = run_method(problem_, options, report, storage, {transfer.get(), nullptr});
+    if (stopped_) report.status = SolveStatus::kStopped;
+    report.seconds.solve += placing;
+    for (const auto& level : reports_) {
+      report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
+    }
+    report.coarse_levels = reports_;
+    return finish(problem_, options, std::move(outcome), std::move(report));
+  }
+
+ private:
+  void solve_level(Index vertices, int finer_levels) {
+    Stopwatch watch;
+    auto mesh =
+        make_mesh(mesher_, problem_.cage, vertices,
+                  below_ ? below_->problem.mesh.num_vertices() : 0, problem_.mesh.num_vertices());
+    if (!mesh) return;
+    LevelReport level_report;
+    level_report.mesh_seconds = watch.lap();
+    auto level = std::make_unique<Level<Dim>>();
+    level->problem = make_problem(problem_.cage, std::move(*mesh), options_.phi);
+    level_report.setup_seconds = watch.lap();
+
+    auto options = options_;
+    options.tolerance *= levels_.looseness;
+    options.progress = [&](Progress progress) {
+      progress.finer_levels = finer_levels;
+      stopped_ = options_.progress && !options_.progress(progress);
+      return !stopped_;
+    };
+    SolveReport report;
+    run_method(level->problem, options, report, nullptr,
+               {transfer_to(level->problem).get(), &level->state});
+    level_report.vertices = report.vertices;
+    level_report.cells = report.cells;
+    level_report.iterations = report.iterations;
+    level_report.solve_seconds = watch.lap();
+    reports_.push_back(level_report);
+    below_ = std::move(level);
+  }
+
+  std::unique_ptr<Transfer<Dim>> transfer_to(const LbcProblem<Dim>& problem) const {
+    if (!below_) return nullptr;
+    return std::make_unique<Transfer<Dim>>(below_->problem, below_->state, problem);
+  }
+
+  const LbcProblem<Dim>& problem_;
+  const CoarseMesher<Dim>& mesher_;
+  const SolverOptions& options_;
+  const CoarseLevels& levels_;
+  std::unique_ptr<Level<Dim>> below_;  // the finest solved so far
+  std::vector<LevelReport> reports_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+template <int Dim>
+Solution solve_coarse_to_fine(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+                              const SolverOptions& user_options, const CoarseLevels& levels,
+                              StateStorage* storage) {
+  validate(user_options);
+  validate(mesher, levels);
+  const auto options = resolve(user_options, Dim);
+  const bool resumed = storage != nullptr && storage->penalty() > 0;
+  if (!inherits(options.method) || resumed) return solve(problem, user_options, storage);
+  const ThreadScope threads(options.threads);
+  Cascade<Dim> cascade(problem, mesher, options, levels);
+  cascade.climb();
+  return cascade.solve_finest(storage);
+}
+
+template <int Dim>
+Solution solve_coarse_to_fine(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                              const CoarseMesher<Dim>& mesher, const SolverOptions& options,
+                              const CoarseLevels& levels) {
+  validate(options);
+  validate(mesher, levels);
+  const ThreadScope threads(options.threads);
+  Stopwatch watch;
+  const auto problem = make_problem(cage, mesh, options.phi);
+  const double setup = watch.lap();
+  auto solution = solve_coarse_to_fine(problem, mesher, options, levels);
+  solution.report.seconds.setup = setup;
+  return solution;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template Solution solve_coarse_to_fine(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
+                                         const SolverOptions&, const CoarseLevels&,        \
+                                         StateStorage*);                                   \
+  template Solution solve_coarse_to_fine(const Cage<Dim>&, const DomainMesh<Dim>&,         \
+                                         const CoarseMesher<Dim>&, const SolverOptions&,   \
+                                         const CoarseLevels&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

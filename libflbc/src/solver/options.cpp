@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/options.h"
+
+#include <cmath>
+
+#include "base/messages.h"
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+void require(bool valid, const char* field, double value, const char* range) {
+  if (valid) return;
+  throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
+}
+
+}  // namespace
+
+void validate(const SolverOptions& options) {
+  require(std::isfinite(options.tolerance) && options.tolerance >= 0, "tolerance",
+          options.tolerance, "positive, or 0 for the method's own");
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
+  require(std::isfinite(options.penalty) && options.penalty >= 0, "penalty", options.penalty,
+          "positive, or 0 for the method's own");
+  require(options.relaxation >= 0 && options.relaxation < 2, "relaxation", options.relaxation,
+          "in (0, 2), or 0 for the method's own");
+  require(options.check_interval >= 1, "check_interval", options.check_interval, "at least 1");
+  const bool splitting = options.method == Method::kAuto || options.method == Method::kValue ||
+                         options.method == Method::kLbc2014;
+  if (options.non_negative == NonNegative::kConstraint && !splitting) {
+    throw OptionError(
+        "non_negative cannot be a constraint of this method's iteration; project the weights, or "
+        "choose another method");
+  }
+  const bool iterative =
+      options.method != Method::kHarmonic && options.method != Method::kMeanValue;
+  if (options.certify && !iterative) {
+    throw OptionError("certify needs a method that minimises, which this one does not");
+  }
+  require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
+          "in [1, 1024], or 0 for all");
+}
+
+SolverOptions resolve(SolverOptions options, int dim) {
+  if (options.method == Method::kAuto) options.method = Method::kValue;
+  const bool gradient = options.method == Method::kGradient;
+  const bool paper = options.method == Method::kPaper;
+  const bool value = options.method == Method::kValue;
+  const bool lbc2014 = options.method == Method::kLbc2014;
+  if (options.recovery == Recovery::kAuto) {
+    options.recovery = paper ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
+  }
+  if (options.non_negative == NonNegative::kAuto) {
+    options.non_negative = value || lbc2014 ? NonNegative::kConstraint
+                           : gradient       ? NonNegative::kProject
+                                            : NonNegative::kOff;
+  }
+  // The paper's penalties (section 5), and those that served best on all models in docs/results.md.
+  if (options.penalty == 0 && paper) options.penalty = dim == 2 ? 100 : 10000;
+  if (options.penalty == 0 && gradient) options.penalty = dim == 2 ? 1000 : 3000;
+  if (options.tolerance == 0)
+    options.tolerance = value ? 1e-7 : gradient ? 2.5e-5 : lbc2014 ? 5e-8 : 1e-7;
+  if (options.relaxation == 0) {
+    options.relaxation = value ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
+  }
+  return options;
+}
+
+}  // namespace flbc

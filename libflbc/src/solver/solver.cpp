@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/solver.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "flbc/certificate.h"
+#include "flbc/harmonic.h"
+#include "flbc/mean_value.h"
+#include "flbc/non_negative.h"
+#include "flbc/quality.h"
+#include "flbc/recovery.h"
+#include "solver/iterative_method.h"
+
+namespace flbc {
+namespace {
+
+template <int Dim>
+std::vector<Index> interior_vertices(const LbcProblem<Dim>& problem) {
+  std::vector<Index> interior;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] < 0) interior.push_back(v);
+  }
+  return interior;
+}
+
+// In the units of the mesh as it was given.
+template <int Dim>
+double unscaled(const LbcProblem<Dim>& problem, double objective) {
+  return objective / std::pow(problem.scale, Dim - 1);
+}
+
+template <int Dim>
+Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
+  auto certificate = outcome.certify(outcome.weights);
+  certificate.objective = unscaled(problem, certificate.objective);
+  certificate.lower_bound = unscaled(problem, certificate.lower_bound);
+  return certificate;
+}
+
+}  // namespace
+
+template <int Dim>
+Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+  Stopwatch watch;
+  report = {};
+  report.method = options.method;
+  report.control_points = problem.num_control_points();
+  report.vertices = problem.mesh.num_vertices();
+  report.cells = problem.mesh.num_cells();
+  Outcome outcome;
+  switch (options.method) {
+    case Method::kHarmonic:
+      outcome.weights = harmonic_coordinates(problem);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kMeanValue:
+      outcome.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kValue:
+    case Method::kLbc2014:
+      outcome = solve_by_splitting(problem, options, report, storage, relay);
+      break;
+    default:
+      outcome = solve_by_gradients(problem, options, report, storage, relay);
+  }
+  require_finite(outcome.weights.allFinite(), options, report);
+  return outcome;
+}
+
+template <int Dim>
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Outcome outcome,
+                SolveReport report) {
+  Stopwatch watch;
+  if (options.non_negative != NonNegative::kOff) {
+    project_non_negative(problem.cage.points, problem.mesh.points, outcome.weights,
+                         interior_vertices(problem));
+  }
+  report.seconds.recover += watch.lap();
+  if (options.certify) report.certificate = certify(problem, outcome);
+  report.seconds.certify = watch.lap();
+  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, outcome.weights));
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, outcome.weights);
+  return {std::move(outcome.weights), std::move(report)};
+}
+
+template <int Dim>
+Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
+               StateStorage* storage) {
+  validate(user_options);
+  const auto options = resolve(user_options, Dim);
+  const ThreadScope threads(options.threads);
+  SolveReport report;
+  auto outcome = run_method(problem, options, report, storage, Relay<Dim>{});
+  return finish(problem, options, std::move(outcome), std::move(report));
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options) {
+  validate(options);
+  const ThreadScope threads(options.threads);
+  Stopwatch watch;
+  const auto problem = make_problem(cage, mesh, options.phi);
+  const double setup = watch.lap();
+  auto solution = solve(problem, options);
+  solution.report.seconds.setup = setup;
+  return solution;
+}
+
+template Outcome run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            Relay<2>);
+template Outcome run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            Relay<3>);
+template Solution finish(const LbcProblem<2>&, const SolverOptions&, Outcome, SolveReport);
+template Solution finish(const LbcProblem<3>&, const SolverOptions&, Outcome, SolveReport);
+template Solution solve(const LbcProblem<2>&, const SolverOptions&, StateStorage*);
+template Solution solve(const LbcProblem<3>&, const SolverOptions&, StateStorage*);
+template Solution solve(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&);
+template Solution solve(const Cage<3>&, const DomainMesh<3>&, const SolverOptions&);
+
+}  // namespace flbc

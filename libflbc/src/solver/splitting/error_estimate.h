@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! How far an iteration's weights are from its limit, judged by how it moves: what Method::kValue
+//! stops by.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/types.h"
+
+namespace flbc::splitting {
+
+//! Differences of weights over kSpan iterations. Unlike those of single iterations they hardly see
+//! what oscillates and fades soon, and see what drifts slowly kSpan times as large.
+template <class Scalar>
+class WeightHistory {
+ public:
+  static constexpr int kSpan = 32;  //!< iterations
+  static constexpr int kStep = 8;   //!< iterations between two looks
+
+  //! \param vertices  the interior ones; of large meshes some thousands serve as a sample
+  //! \param stride  numbers from one vertex' weights to the next
+  WeightHistory(const std::vector<Index>& vertices, std::size_t stride);
+
+  //! To be called after every iteration. \param weights  a row of `stride` numbers for every vertex
+  //! \return mean squared difference per vertex to the weights kSpan iterations ago, every kStep
+  //! iterations; below 0 at other times
+  double operator()(int iteration, const Scalar* weights);
+
+ private:
+  std::vector<Index> sample_;
+  std::size_t stride_;
+  std::array<AlignedArray<Scalar>, kSpan / kStep> kept_;  // the rows of the sample, in turn
+};
+
+//! Estimates the mean squared error of weights, by two looks at it.
+//!
+//! What weights show: the last difference over kSpan iterations, times what is to follow if
+//! differences go on to shrink as they did. If they shrink by rho (a length) from span to span,
+//! rho / (1 - rho) times the last one is left. The rate is a regression's over the last iterations,
+//! because differences oscillate; where it falls, as the slow parts of the error remain, it is
+//! taken to fall further. Where it is low for the number of iterations, shrinking as a power of
+//! that number is assumed as well.
+//!
+//! What they do not show: duals that still grow while weights stand still, as on round cages whose
+//! weights are nearly undetermined. It is in the residual of the splitting, which costs more than
+//! an iteration to measure. So it is asked for only where the run would end without it.
+//!
+//! Constants as measured on all test models, round cages and warm starts, see docs/results.md.
+class ErrorEstimate {
+ public:
+  //! \param warm  started from duals: what is wrong with these first shows after a while
+  //! \param tolerance  mean squared error that the run is to end at
+  ErrorEstimate(bool warm, double tolerance) : warm_(warm), tolerance_(tolerance) {}
+
+  //! Whether the next iteration should measure its residual.
+  bool wants_residual() const { return wants_residual_; }
+
+  //! Estimates of one run, iteration by iteration.
+  //! \param change  mean squared change of a weight in this iteration
+  //! \param difference  mean squared difference to the weights WeightHistory::kSpan iterations ago;
+  //! below 0 where it is not known
+  //! \param residual  mean squared difference of z and grad w per control point, times the squared
+  //! size of the cage; below 0 where it was not measured
+  //! \return the estimate of this iteration or, where there is none, of the last one that had one;
+  //! above the tolerance until a residual has confirmed it; not finite if an argument is not
+  double operator()(int iteration, double change, double difference, double residual = -1);
+
+ private:
+  struct Entry {
+    int iteration;
+    double log_difference;
+  };
+  double rate(double first, double last) const;
+  double rest() const;
+  double confirmed(int iteration, double residual);
+
+  bool warm_;
+  double tolerance_;
+  double shown_ = 0;    // by the weights
+  double hidden_ = -1;  // from them, when last measured
+  int next_measured_ = 0;
+  bool wants_residual_ = false;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace flbc::splitting

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Splitting on the weights: the problem (2) of the paper, which keeps weights and gradients as
+//! unknowns and solves a global linear system in each iteration.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/solver_state.h"
+#include "linear/spd_solver.h"
+#include "solver/splitting/error_estimate.h"
+#include "solver/splitting/splitting_kernel.h"
+
+namespace flbc::splitting {
+
+//! Weights of the quadratic terms of the augmented Lagrangian, relative to the penalty. They do not
+//! change the solution but decide how soon it is reached.
+struct Metric {
+  Eigen::VectorXd cell;    //!< m_s > 0 of |z_s - grad w|^2, F
+  Eigen::VectorXd vertex;  //!< k_v > 0 of |u_v - w_v|^2, V; empty: w may be negative
+};
+
+//! What an iteration did.
+struct Step {
+  double change;          //!< squared change of all weights
+  double violation = -1;  //!< of the constraints z = grad w and u = w, squared, in the metric; if
+                          //!< measured
+};
+
+//! Norms of the residual matrices of ADMM, constraints scaled by the square root of the metric.
+struct Residuals {
+  double primal;
+  double dual;
+};
+
+//! Relaxed Douglas-Rachford splitting, which is over-relaxed ADMM with one state y = z + u (scaled
+//! dual u) per constraint instead of two. Minimises sum phi A |z| over w with z = grad w, and
+//! w >= 0 if the metric says so:
+//!
+//!     x = grad w,  p = clip(2 x - y) to radius phi A / (rho m),  y += alpha (x - y - p)
+//!     u = max(0, 2 w - q),  q += alpha (u - w)
+//!     solve (sum m grad^T grad + k) delta = Div m (y - x) + k (q - w)
+//!     w += delta, rows projected on { sum w = 1, sum w c = x }
+//!
+//! The projection replaces the null-space parametrisation W = Y M + H of (2): the system matrix
+//! acts on columns, M on rows, so Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, and M^T M = I
+//! - Q Q^T. In residual form single precision suffices.
+template <class Scalar, int Dim>
+class WeightSplitting {
+ public:
+  //! \param penalty  rho > 0 \param relaxation  alpha in (0, 2) \param linear_solver  kDirect or
+  //! kMultigrid \param storage  where the state lives, null for memory of its own
+  WeightSplitting(const LbcProblem<Dim>& problem, Metric metric, double penalty, double relaxation,
+                  LinearSolver linear_solver = LinearSolver::kDirect,
+                  StateStorage* storage = nullptr);
+
+  //! Goes on from the state that the storage holds.
+  void resume();
+
+  //! Starts from weights n x V, duals zero where the weights are harmonic.
+  void start_from_weights(const WeightMatrix& weights);
+
+  //! Starts from (nearly) harmonic coordinates, by at most `steps` Richardson steps with the
+  //! factor there is.
+  void start_from_harmonic(int steps);
+
+  //! Starts from weights and duals that were found elsewhere. \param weights  n x V, feasible
+  //! \param flux_density  p / A of a cell, n x Dim, at most phi long \param vertex_dual  q - w, n x
+  //! V; empty for none
+  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
+                        const WeightMatrix& vertex_dual);
+
+  Step iterate();
+
+  //! The same, for half as much again, and what the constraints lacked.
+  Step iterate_measured();
+
+  //! The same, for several times as much, with the norms of the residuals.
+  Residuals iterate_with_residuals();
+
+  //! Balances the penalty against how far the weights have moved since the start, and keeps the
+  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|, `largest` at most. Not after
+  //! start_from_duals().
+  void adapt_penalty(double ratio, double largest = std::numeric_limits<double>::infinity());
+
+  double penalty() const { return penalty_; }
+
+  //! w as the iteration has it, a row of n numbers and padding for every vertex.
+  const Scalar* data() const { return weights_.data(); }
+
+  //! To compare weights of different iterations.
+  WeightHistory<Scalar> history() const { return {vertices_, stride_}; }
+
+  //! q - w, n x V, zero on the boundary; empty if w may be negative.
+  WeightMatrix vertex_dual() const;
+
+  double num_residual_components() const;
+
+  //! n x V.
+  WeightMatrix weights() const;
+
+  //! p = rho m clip(2 x - y): the dual of the total variation, |p_s^i| <= phi A up to rounding.
+  CellFieldView<Scalar, Dim> flux();
+
+  //! Numbers of state held per cell and control point; phi is one more.
+  double numbers_per_cell() const;
+
+ private:
+  void set_up_rows(StateStorage* storage);
+  void set_up_cells();
+  void set_up_constraints();
+  void set_radius_scale();
+  void set_weights(const WeightMatrix& weights);
+  void set_boundary_weights();
+  void remember_start();
+  template <class CellVectors>
+  void set_states(Scalar add, const WeightMatrix& weights, const CellVectors& cell_vectors);
+  Arrays<Scalar, Dim> arrays();
+  template <class Body>
+  void for_slices(const Body& body);
+  template <class Body>
+  double run(const Body& residual);
+  double weight_change_norm2(const AlignedArray<Scalar>& before) const;
+
+  const LbcProblem<Dim>& problem_;
+  const Kernel<Scalar, Dim>& kernel_;
+  const Index n_;
+  const std::size_t stride_;
+  const Metric metric_;
+  double penalty_;
+  const double relaxation_;
+  std::vector<Index> vertices_;   // interior vertices in the factor's order
+  std::vector<Index> cell_rows_;  // per corner of a cell its row, boundary vertices share the last
+  SpdSolver<Scalar> solver_;
+  // state
+  AlignedArray<Scalar> weights_;
+  AlignedArray<Scalar> cell_state_;
+  AlignedArray<Scalar> vertex_state_;
+  AlignedArray<Scalar> residual_;
+  AlignedArray<Scalar> start_;
+  AlignedArray<Scalar> flux_;
+  AlignedArray<double> violation_;
+  AlignedArray<Scalar> violation_sum_;
+  // data
+  AlignedArray<Scalar> phi_;
+  AlignedArray<Scalar> basis_;
+  std::vector<Scalar> hat_gradients_;
+  std::vector<Scalar> cell_metric_;
+  std::vector<Scalar> vertex_metric_;
+  std::vector<Scalar> measures_;
+  std::vector<Scalar> radius_scale_;
+  std::vector<Scalar> row_target_;
+};
+
+}  // namespace flbc::splitting

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/bounding_box.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
+#include "solver/warm_start/transfer.h"
+
+#include <limits>
+
+namespace flbc {
+namespace {
+
+template <int Dim, class Simplices>
+PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplices) {
+  PointList<Dim> centers = PointList<Dim>::Zero(Dim, simplices.cols());
+  for (Eigen::Index s = 0; s < simplices.cols(); ++s) {
+    for (Eigen::Index k = 0; k < simplices.rows(); ++k)
+      centers.col(s) += points.col(simplices(k, s));
+  }
+  return centers / static_cast<double>(simplices.rows());
+}
+
+}  // namespace
+
+template <int Dim>
+Transfer<Dim>::Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+                        const LbcProblem<Dim>& fine)
+    : coarse_(coarse),
+      state_(state),
+      fine_(fine),
+      enlargement_(bounding_box_diagonal(fine.cage.points) / bounding_box_diagonal(coarse.cage.points)) {
+}
+
+template <int Dim>
+Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+                        const LbcProblem<Dim>& fine)
+    : Transfer(Unlocated{}, coarse, state, fine) {
+  vertices_ = locate(fine.mesh.points);
+  cells_ = locate(centroids(fine.mesh.points, fine.mesh.cells));
+  if (state.potential.size() > 0) {
+    facets_ = locate(centroids(fine.mesh.points, fine.topology.facets));
+  }
+}
+
+template <int Dim>
+Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
+                                            const MeshState<Dim>& state,
+                                            const LbcProblem<Dim>& after) {
+  using Coordinates = Eigen::Matrix<double, Dim + 1, 1>;
+  Transfer transfer(Unlocated{}, before, state, after);
+  const auto& mesh = before.mesh;
+  const auto& topology = before.topology;
+  transfer.vertices_.resize(mesh.num_vertices());
+  transfer.cells_.resize(mesh.num_cells());
+  if (state.potential.size() > 0) transfer.facets_.resize(topology.num_facets());
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    transfer.cells_[s] = {s, Coordinates::Constant(1.0 / (Dim + 1))};
+    for (int k = 0; k <= Dim; ++k) {
+      transfer.vertices_[mesh.cells(k, s)] = {s, Coordinates::Unit(k)};
+      if (transfer.facets_.empty()) continue;
+      Coordinates middle = Coordinates::Constant(1.0 / Dim);
+      middle[k] = 0;
+      transfer.facets_[topology.cell_facets(k, s)] = {s, middle};
+    }
+  }
+  return transfer;
+}
+
+// Both meshes fill the same cage, whose control points tell how one lies in the other's space.
+// Points that rounding puts outside belong to the cell next to them.
+template <int Dim>
+std::vector<Location<Dim>> Transfer<Dim>::locate(const PointList<Dim>& fine_points) const {
+  const Vector<Dim> origin = fine_.cage.points.col(0);
+  const PointList<Dim> points =
+      ((fine_points.colwise() - origin) / enlargement_).colwise() + coarse_.cage.points.col(0);
+  auto places = locate_points(coarse_.mesh, points);
+  for (auto& place : places) {
+    place.coordinates = place.coordinates.cwiseMax(0);
+    place.coordinates /= place.coordinates.sum();
+  }
+  return places;
+}
+
+template <int Dim>
+WeightMatrix Transfer<Dim>::weights() const {
+  auto weights = interpolate(coarse_.mesh, state_.weights, vertices_);
+  for (std::size_t b = 0; b < fine_.boundary.vertices.size(); ++b) {
+    auto column = weights.col(fine_.boundary.vertices[b]);
+    column.setZero();
+    fine_.boundary.scatter(static_cast<Index>(b), column);
+  }
+  return weights;
+}
+
+template <int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cell) const {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
+      state_.flux_density.template middleCols<Dim>(Dim * cells_[cell].cell);
+  const Eigen::ArrayXd length =
+      density.rowwise().norm().array().max(std::numeric_limits<double>::min());
+  density.array().colwise() *= (fine_.phi.col(cell).array() / length).min(1);
+  return density;
+}
+
+template <int Dim>
+WeightMatrix Transfer<Dim>::vertex_dual(double penalty) const {
+  if (state_.vertex_dual.size() == 0) return {};
+  return this->penalty() / penalty * interpolate(coarse_.mesh, state_.vertex_dual, vertices_);
+}
+
+template <int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::facet_pull(Index facet) const {
+  return flbc::facet_pull<Dim>(
+      fine_, facet, enlargement_ * evaluate_potential(coarse_, state_.potential, facets_[facet]));
+}
+
+template class Transfer<2>;
+template class Transfer<3>;
+
+}  // namespace flbc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From the state on one mesh to the start on another one of the same cage, or on the same mesh
+//! after it has moved.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cell_locator.h"
+#include "flbc/lbc_problem.h"
+#include "solver/warm_start/flux_potential.h"
+#include "solver/warm_start/mesh_state.h"
+
+namespace flbc {
+
+//! Evaluates a coarse mesh's state where the fine mesh needs it, in the lengths of the fine
+//! problem. The meshes need not be nested, nor their problems scaled alike. Keeps references to all
+//! three arguments.
+template <int Dim>
+class Transfer {
+ public:
+  Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state, const LbcProblem<Dim>& fine);
+
+  //! Between two shapes of one mesh, where a cell stays the same cell and nothing is looked for.
+  //! Flux densities stay as they are: turning and stretching them with their cells saves no
+  //! iterations.
+  static Transfer between_shapes(const LbcProblem<Dim>& before, const MeshState<Dim>& state,
+                                 const LbcProblem<Dim>& after);
+
+  //! The penalty that acts on the fine mesh as the coarse one's did there.
+  double penalty() const { return enlargement_ * state_.penalty; }
+
+  //! Interpolated, but exact on the boundary, n x V.
+  WeightMatrix weights() const;
+
+  //! In a fine cell: that of the coarse cell which contains its middle, no longer than phi. n x Dim
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+
+  //! Interpolated, n x V; empty if the coarse one is. \param penalty  of the fine iteration
+  WeightMatrix vertex_dual(double penalty) const;
+
+  //! mu u on a fine facet's first side, n x Dim.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(Index facet) const;
+
+  //! n x P.
+  Eigen::MatrixXd periods() const { return enlargement_ * state_.periods; }
+
+ private:
+  struct Unlocated {};
+  Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
+           const LbcProblem<Dim>& fine);
+  std::vector<Location<Dim>> locate(const PointList<Dim>& fine_points) const;
+
+  const LbcProblem<Dim>& coarse_;
+  const MeshState<Dim>& state_;
+  const LbcProblem<Dim>& fine_;
+  double enlargement_;  // fine length / coarse length
+  std::vector<Location<Dim>> vertices_;
+  std::vector<Location<Dim>> cells_;
+  std::vector<Location<Dim>> facets_;  // empty without potential
+};
+
+}  // namespace flbc

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sparsify/poisson/edge_graph.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace flbc {
+namespace {
+
+// The first of all points with the same place and the same weights, for every point.
+template <int Dim>
+std::vector<Index> find_representatives(const PointList<Dim>& points, const WeightMatrix& weights) {
+  std::vector<Index> order(points.cols()), representatives(points.cols());
+  std::iota(order.begin(), order.end(), 0);
+  const auto is_before = [&](Index a, Index b) {
+    const auto* p = points.col(a).data();
+    const auto* q = points.col(b).data();
+    return std::lexicographical_compare(p, p + Dim, q, q + Dim);
+  };
+  std::stable_sort(order.begin(), order.end(), is_before);
+  std::vector<Index> distinct;  // at one place
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Index point = order[k];
+    if (k == 0 || is_before(order[k - 1], point)) distinct.clear();
+    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](Index other) {
+      return weights.col(other) == weights.col(point);
+    });
+    representatives[point] = same == distinct.end() ? point : *same;
+    if (same == distinct.end()) distinct.push_back(point);
+  }
+  return representatives;
+}
+
+}  // namespace
+
+template <int Dim>
+EdgeGraph::EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights,
+                     const EdgeList& edges)
+    : representatives_(find_representatives<Dim>(points, weights)) {
+  connect(edges);
+  masses_.assign(points.cols(), 0);
+  for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
+    for (const auto& [b, weight] : neighbours_of(a)) {
+      masses_[a] += weight * (points.col(a) - points.col(b)).squaredNorm() / 2;
+    }
+  }
+  color();
+}
+
+void EdgeGraph::connect(const EdgeList& edges) {
+  const auto for_each_end = [&](const auto& action) {
+    for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+      const Index a = representatives_[edges.ends[e][0]];
+      const Index b = representatives_[edges.ends[e][1]];
+      if (a == b) continue;
+      const double weight = edges.weights.empty() ? 1 : edges.weights[e];
+      action(a, Neighbour{b, weight});
+      action(b, Neighbour{a, weight});
+    }
+  };
+  start_.assign(representatives_.size() + 1, 0);
+  for_each_end([&](Index a, const Neighbour&) { ++start_[a + 1]; });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  neighbours_.resize(start_.back());
+  auto next = start_;
+  for_each_end([&](Index a, const Neighbour& neighbour) { neighbours_[next[a]++] = neighbour; });
+}
+
+// Every point gets the first color that none of its neighbours has.
+void EdgeGraph::color() {
+  const auto count = static_cast<Index>(representatives_.size());
+  std::vector<Index> color_of(count, -1), taken_by;
+  for (Index a = 0; a < count; ++a) {
+    const auto neighbours = neighbours_of(a);
+    if (neighbours.first == neighbours.last) continue;
+    for (const auto& neighbour : neighbours) {
+      if (color_of[neighbour.point] >= 0) taken_by[color_of[neighbour.point]] = a;
+    }
+    const auto free =
+        std::find_if(taken_by.begin(), taken_by.end(), [&](Index point) { return point != a; });
+    color_of[a] = static_cast<Index>(free - taken_by.begin());
+    if (color_of[a] == static_cast<Index>(colors_.size())) {
+      taken_by.push_back(-1);
+      colors_.emplace_back();
+    }
+    colors_[color_of[a]].push_back(a);
+  }
+}
+
+template EdgeGraph::EdgeGraph(const PointList<2>&, const WeightMatrix&, const EdgeList&);
+template EdgeGraph::EdgeGraph(const PointList<3>&, const WeightMatrix&, const EdgeList&);
+
+}  // namespace flbc

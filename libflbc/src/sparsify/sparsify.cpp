@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/sparsify.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/messages.h"
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/errors.h"
+#include "flbc/non_negative.h"
+#include "projection/nearest_point_in_hull.h"
+#include "projection/weight_projection.h"
+#include "sparsify/support_selection.h"
+
+namespace flbc {
+namespace {
+
+// Makes columns sparse, one at a time. Shared by threads.
+template <int Dim>
+class RowSparsifier {
+ public:
+  using Search = SupportSearch<Dim>;
+  using Choice = typename Search::Choice;
+
+  RowSparsifier(const PointList<Dim>& control_points, const SparsifyOptions& options)
+      : points_(control_points),
+        size_(bounding_box_diagonal<Dim>(control_points)),
+        options_(options),
+        all_(control_points) {}
+
+  // \param given  the weights as they came \param projected  the nearest feasible ones
+  Eigen::VectorXd sparsify(const Vector<Dim>& point, const Eigen::VectorXd& given,
+                           const Eigen::VectorXd& projected) const {
+    auto support = by_size(projected);
+    const auto keep = above_threshold(projected, support);
+    if (keep == support.size() && count(support) <= options_.max_influences) return projected;
+
+    const Vector<Dim> target = target_of(point, projected);
+    Choice choice;
+    if (choose(Search(points_, size_, target, given), support, keep, choice)) {
+      Eigen::VectorXd weights;
+      if (weights_on(choice.support, target, given, weights)) return weights;
+    }
+    return on_few_points(target, given, support);
+  }
+
+ private:
+  static Index count(const std::vector<Index>& support) {
+    return static_cast<Index>(support.size());
+  }
+
+  // The influences, the largest first.
+  static std::vector<Index> by_size(const Eigen::VectorXd& weights) {
+    std::vector<Index> support;
+    for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
+      if (weights[i] > 0) support.push_back(i);
+    }
+    std::stable_sort(support.begin(), support.end(),
+                     [&](Index a, Index b) { return weights[a] > weights[b]; });
+    return support;
+  }
+
+  std::size_t above_threshold(const Eigen::VectorXd& weights,
+                              const std::vector<Index>& support) const {
+    std::size_t keep = 0;
+    while (keep < support.size() && weights[support[keep]] >= options_.threshold) ++keep;
+    return keep;
+  }
+
+  // A point beside the hull within the tolerance counts as the nearest one of the hull.
+  Vector<Dim> target_of(const Vector<Dim>& point, const Eigen::VectorXd& projected) const {
+    if (all_.is_feasible(point, projected)) return point;
+    return nearest_in_hull(points_, point).point;
+  }
+
+  // \param support  by size \param keep  how many of them the threshold leaves
+  bool choose(const Search& search, const std::vector<Index>& support, std::size_t keep,
+              Choice& choice) const {
+    const auto largest = [&](std::size_t number) {
+      std::vector<Index> some(support.begin(), support.begin() + number);
+      std::sort(some.begin(), some.end());
+      return some;
+    };
+    const bool limited = count(support) > options_.max_influences;
+    // Many small weights seldom matter, and removing them one by one would take long.
+    constexpr std::size_t kPool = 16;
+    std::size_t number = std::max<std::size_t>(keep, 1);
+    if (limited) {
+      const auto most = static_cast<std::size_t>(options_.max_influences);
+      number = std::min(number, std::max(kPool, 2 * most));
+    }
+    // Until the point is in the hull of what is kept.
+    while (!search.solve(largest(number), choice)) {
+      if (number == support.size()) return false;
+      number = std::min(support.size(), number + 1 + number / 8);
+    }
+    if (!search.reduce(options_.max_influences, choice)) return false;
+    // With a threshold newcomers would be among those just dropped.
+    if (limited && options_.threshold == 0) search.exchange(options_.max_influences, choice);
+    return true;
+  }
+
+  // The nearest weights on few control points, exactly. \return false if there are none
+  bool weights_on(const std::vector<Index>& support, const Vector<Dim>& target,
+                  const Eigen::VectorXd& given, Eigen::VectorXd& weights) const {
+    const RowProjection<Dim> projection(points_(Eigen::all, support));
+    typename RowProjection<Dim>::Workspace work(projection);
+    Eigen::VectorXd few = given(support);
+    if (projection.project(target, few, work) > 0) return false;
+    weights.setZero(given.size());
+    weights(support) = few;
+    return all_.is_feasible(target, weights);
+  }
+
+  // Where rounding hides the best choice: Caratheodory's few control points, which always do, with
+  // the largest others.
+  Eigen::VectorXd on_few_points(const Vector<Dim>& target, const Eigen::VectorXd& given,
+                                const std::vector<Index>& support) const {
+    const PointList<Dim> carriers = points_(Eigen::all, support);
+    auto nearest = nearest_in_hull<Dim>(carriers, target);
+    std::vector<Index> chosen;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(given.size());
+    for (int k = 0; k < nearest.size; ++k) {
+      chosen.push_back(support[nearest.support[k]]);
+      weights[chosen.back()] = nearest.weights[k];
+    }
+    for (const Index i : support) {
+      if (count(chosen) >= options_.max_influences) break;
+      if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
+    }
+    Eigen::VectorXd nearer;
+    return weights_on(chosen, target, given, nearer) ? nearer : weights;
+  }
+
+  PointList<Dim> points_;
+  double size_;
+  SparsifyOptions options_;
+  RowProjection<Dim> all_;
+};
+
+}  // namespace
+
+template <int Dim>
+void validate(const SparsifyOptions& options) {
+  if (options.max_influences < Dim + 1) {
+    throw OptionError("at most " + std::to_string(options.max_influences) +
+                      " influences per point are too few: a point inside a cage in " +
+                      std::to_string(Dim) + "D needs " + std::to_string(Dim + 1) +
+                      " control points around it to be reproduced");
+  }
+  if (!(options.threshold >= 0 && options.threshold < 1)) {
+    throw OptionError("the threshold must be at least 0 and below 1, not " +
+                      format_number(options.threshold));
+  }
+}
+
+template <int Dim>
+WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                      const WeightMatrix& weights, const SparsifyOptions& options) {
+  validate<Dim>(options);
+  WeightMatrix sparse = weights;
+  project_non_negative(control_points, points, sparse);  // checks the input, too
+  const RowSparsifier<Dim> sparsifier(control_points, options);
+#pragma omp parallel for schedule(dynamic, 64) if (points.cols() >= 256)
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    sparse.col(v) = sparsifier.sparsify(points.col(v), weights.col(v), sparse.col(v));
+  }
+  return sparse;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                  \
+  template void validate<Dim>(const SparsifyOptions&);                         \
+  template WeightMatrix sparsify(const PointList<Dim>&, const PointList<Dim>&, \
+                                 const WeightMatrix&, const SparsifyOptions&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc check as its users and their scripts see it.
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "flbc/coordinates.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/quality.h"
+#include "support/command_line.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class CheckCommand : public CommandLineTest {
+ protected:
+  // Status and a piece of the text for people, one of that on errors.
+  Ended expect_check(const std::string& arguments, int status, const std::string& output,
+                     const std::string& errors = "") const {
+    SCOPED_TRACE(arguments);
+    auto result = run("check " + arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.output.find(output), std::string::npos) << result.output;
+    EXPECT_NE(result.errors.find(errors), std::string::npos) << result.errors;
+    if (status == 0) {
+      EXPECT_EQ(result.errors, "");
+    } else {
+      EXPECT_NE(result.errors, "");
+    }
+    return result;
+  }
+
+  // Harmonic coordinates of a sample at its model (w.npy) and on a mesh (v.npy, domain_file).
+  void solve(const std::string& name, const std::string& domain_file) const {
+    const auto command = "solve " + sample(name + "_cage.obj") + " --method harmonic -q -o ";
+    ASSERT_EQ(run(command + path("w.npy") + " --vertices 1500 --save-domain " + path(domain_file) +
+                  " --model " + sample(name + "_model.obj"))
+                  .status,
+              0);
+    ASSERT_EQ(run(command + path("v.npy") + " --domain " + path(domain_file)).status, 0);
+  }
+};
+
+TEST_F(CheckCommand, SoundCagesWithTheirFacts) {
+  auto result = expect_check(sample("2d/ring_cage.obj"), 0, "a sound 2D cage");
+  for (const char* line : {"control points  22\n", "edges           22\n", "outer loops     1\n",
+                           "holes           1\n", "area            23.26"}) {
+    EXPECT_NE(result.output.find(line), std::string::npos) << result.output;
+  }
+  result = expect_check(sample("3d/torus_cage.obj"), 0, "a sound 3D cage");
+  for (const char* line : {"triangles       96\n", "cavities        0\n", "volume          40."}) {
+    EXPECT_NE(result.output.find(line), std::string::npos) << result.output;
+  }
+}
+
+TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
+  const auto cage = file("bad.obj",
+                         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 0\nv 6 6 0\n"
+                         "l 1 2 3 4\n");
+  const auto result = expect_check(cage + " --json " + path("r.json"), 2, "no cage, 4 defects",
+                                   "bad.obj: control point 4 at (5, 5) belongs to no edge");
+  EXPECT_NE(result.output.find("control point 5 at (6, 6) belongs to no edge"), std::string::npos);
+  EXPECT_NE(result.output.find("open at control point 0 at (0, 0)"), std::string::npos);
+  const auto json = Json::parse(slurp(path("r.json")));
+  EXPECT_EQ(json["fine"], false);
+  EXPECT_EQ(json["cage"]["sound"], false);
+  EXPECT_EQ(json["cage"]["defects"].size(), 4);
+  EXPECT_EQ(json["cage"]["defects"][1]["control_points"], Json::array({5}));
+
+  const auto crossed = file("crossed.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n");
+  expect_check(crossed, 2, "(0.5, 0.5)", "crossed.obj: ");
+  expect_check(crossed + " --model " + path("absent.obj"), 2, "Nothing else was looked at");
+}
+
+TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
+  const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
+  const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
+  const auto result = expect_check(cage + " --model " + model + " --json " + path("r.json"), 0,
+                                   "2 of 4 points lie outside the cage, the first is vertex 1 at "
+                                   "(5, 1)");
+  const auto json = Json::parse(slurp(path("r.json")))["model"];
+  EXPECT_EQ(json["outside"], 2);
+  EXPECT_EQ(json["first_outside"]["point"], 1);
+  expect_check(sample("3d/limb_cage.obj") + " --model " + sample("3d/limb_model.obj"), 0,
+               "none outside the cage");
+  if (!has_model("defective/half_outside_cage.obj")) GTEST_SKIP() << "the real models are absent";
+  expect_check(model_path("defective/half_outside_cage.obj") + " --model " +
+                   model_path("defective/half_outside_model.obj"),
+               0, "209 of 386 points lie outside the cage");
+}
+
+template <int Dim>
+void expect_measures(const Json& json, const std::string& cage_file, const PointList<Dim>& points,
+                     const std::string& weights_file) {
+  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_obj(cage_file), cage_file));
+  const auto quality = measure_quality(cage.points, points, io::read_weights(weights_file));
+  EXPECT_EQ(json["weights"]["min_weight"].get<double>(), quality.min_weight);
+  EXPECT_EQ(json["weights"]["mean_influences"].get<double>(), quality.mean_influences);
+  EXPECT_NEAR(json["weights"]["max_reproduction_error"].get<double>(),
+              quality.max_reproduction_error, 1e-14);
+  EXPECT_EQ(json["weights"]["points"], points.cols());
+  EXPECT_EQ(json["fine"], true);
+}
+
+TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
+  const auto check = [&](const std::string& name, const std::string& domain_file) {
+    SCOPED_TRACE(name);
+    solve(name, domain_file);
+    const auto cage = sample(name + "_cage.obj");
+    const auto model = sample(name + "_model.obj");
+    auto result = expect_check(
+        cage + " --model " + model + " --weights " + path("w.npy") + " --json " + path("m.json"), 0,
+        "sum to 1");
+    EXPECT_EQ(result.output.find("total variation"), std::string::npos) << result.output;
+    result = expect_check(cage + " --domain " + path(domain_file) + " --weights " + path("v.npy") +
+                              " --json " + path("d.json"),
+                          0, "linear on facets");
+    EXPECT_NE(result.output.find("influences / harmonic           1 "), std::string::npos)
+        << result.output;
+    return std::pair(Json::parse(slurp(path("m.json"))), Json::parse(slurp(path("d.json"))));
+  };
+  {
+    const auto [at_model, on_mesh] = check("2d/letter", "d.obj");
+    const auto model = sample("2d/letter_model.obj");
+    expect_measures<2>(at_model, sample("2d/letter_cage.obj"),
+                       io::to_points<2>(io::read_obj(model), model), path("w.npy"));
+    expect_measures<2>(on_mesh, sample("2d/letter_cage.obj"),
+                       io::read_domain<2>(path("d.obj")).points, path("v.npy"));
+    EXPECT_EQ(on_mesh["weights"]["control_points_found"], 24);
+    EXPECT_NEAR(on_mesh["weights"]["mesh"]["influence_ratio"].get<double>(), 1, 1e-3);
+  }
+  const auto [at_model, on_mesh] = check("3d/limb", "d.mesh");
+  const auto model = sample("3d/limb_model.obj");
+  expect_measures<3>(at_model, sample("3d/limb_cage.obj"),
+                     io::to_points<3>(io::read_obj(model), model), path("w.npy"));
+  expect_measures<3>(on_mesh, sample("3d/limb_cage.obj"), io::read_domain<3>(path("d.mesh")).points,
+                     path("v.npy"));
+  EXPECT_FALSE(at_model["weights"].contains("mesh"));
+}
+
+TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
+  ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
+  const auto cage = sample("2d/ring_cage.obj");
+  const auto on_mesh = cage + " --domain " + path("d.obj") + " --weights " + path("x.npy");
+  const auto sound = io::read_weights(path("v.npy"));
+
+  auto weights = sound;
+  const auto last = static_cast<Index>(weights.cols() - 1);  // inside
+  weights(3, last) += 1e-3;
+  io::write_weights(path("x.npy"), weights);
+  auto result = expect_check(
+      on_mesh, 2,
+      "sum to 1                        0.001         no   point " + std::to_string(last) + " at (",
+      "x.npy: the weights of point " + std::to_string(last) + " at (");
+  EXPECT_NE(result.errors.find("do not reproduce it"), std::string::npos) << result.errors;
+
+  weights = sound;
+  weights(7, 7) = 0.75;  // the first vertices are the control points
+  io::write_weights(path("x.npy"), weights);
+  result =
+      expect_check(on_mesh, 2, "Lagrange, 22 control points     0.25          no   point 7 at (",
+                   "at point 7 at (");
+
+  // At another model point than its own, a row reproduces another point.
+  weights = io::read_weights(path("w.npy"));
+  weights.col(0).swap(weights.col(1));
+  io::write_weights(path("x.npy"), weights);
+  expect_check(cage + " --model " + sample("2d/ring_model.obj") + " --weights " + path("x.npy"), 2,
+               "reproduce points", "do not reproduce it");
+}
+
+TEST_F(CheckCommand, NegativeWeightsAreReportedOnly) {
+  const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
+  const auto model = file("model.obj", "v 2 2 0\nv 2 2 0\n");
+  WeightMatrix weights(4, 2);
+  weights << 0.25, 0.75,  //
+      0.25, -0.25,        //
+      0.25, 0.75,         //
+      0.25, -0.25;
+  io::write_weights(path("w.npy"), weights);
+  const auto result =
+      expect_check(cage + " --model " + model + " --weights " + path("w.npy"), 0,
+                   "smallest weight                 -0.25         no   point 1 at (2, 2)");
+  EXPECT_NE(result.output.find("negative weights                2             no"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(CheckCommand, JsonInPlaceOfTheTable) {
+  const auto result = run("check " + sample("2d/ring_cage.obj") + " --json -");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  const auto json = Json::parse(result.output);
+  EXPECT_EQ(json["fine"], true);
+  EXPECT_EQ(json["cage"]["holes"], 1);
+  EXPECT_EQ(json["cage"]["dim"], 2);
+}
+
+TEST_F(CheckCommand, FilesThatDoNotBelongAndWrongUsage) {
+  ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
+  const auto cage = sample("2d/ring_cage.obj");
+  const auto refused = [&](const std::string& arguments, int status, const std::string& words) {
+    const auto result = expect_check(arguments, status, "", words);
+    EXPECT_EQ(result.output, "");
+  };
+  refused(cage + " --weights " + path("w.npy"), 1, "--model or --domain");
+  refused(cage + " --domain " + path("d.obj"), 1, "--weights");
+  refused("", 1, "CAGE");
+  refused(cage + " --json " + path("r.txt"), 1, ".json");
+  refused(cage + " --model ''", 1, "the value is empty");
+  refused(path("missing.obj"), 4, "missing.obj");
+  refused(cage + " --weights " + path("w.npy") + " --domain " + path("d.obj"), 2, "d.obj has ");
+  refused(cage + " --weights " + path("w.npy") + " --model " + sample("2d/letter_model.obj"), 2,
+          "letter_model.obj has 1148");
+  refused(
+      sample("2d/letter_cage.obj") + " --weights " + path("v.npy") + " --domain " + path("d.obj"),
+      2, "for 22 control points, but");
+  // A mesh of the cage at another place.
+  auto domain = io::read_domain<2>(path("d.obj"));
+  domain.points.array() += 0.5;
+  io::write_domain(path("moved.obj"), domain);
+  refused(cage + " --weights " + path("v.npy") + " --domain " + path("moved.obj"), 2,
+          "moved.obj: boundary vertex");
+  EXPECT_NE(run("check --help").output.find("--weights"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flbc::testing

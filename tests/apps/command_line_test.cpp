@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program as its users and their scripts see it: files, messages, exit status.
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "flbc/cage.h"
+#include "flbc/coordinates.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/quality.h"
+#include "support/command_line.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CommandLine : public CommandLineTest {
+ protected:
+  // Expects exit status and words in the one message, and that no file is left behind.
+  void expect_failure(const std::string& arguments, int status, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    const auto before = std::distance(fs::directory_iterator(path("")), fs::directory_iterator());
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("")), fs::directory_iterator()), before);
+  }
+};
+
+// Solves a shipped sample at its model and on its mesh, and checks the files against each other.
+template <int Dim>
+void solve_sample(const std::string& cage_file, const std::string& model_file,
+                  const std::string& domain_file, const std::string& rows_file,
+                  const std::string& report_file) {
+  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_obj(cage_file), cage_file));
+  const auto model = io::to_points<Dim>(io::read_obj(model_file), model_file);
+  const auto rows = io::read_weights(rows_file);
+  const auto quality = measure_quality(cage.points, model, rows);
+  EXPECT_LT(quality.max_partition_error, 1e-12);
+  EXPECT_LT(quality.max_reproduction_error, 1e-12);
+  EXPECT_GT(quality.min_weight, -0.05);
+
+  const auto report = nlohmann::json::parse(slurp(report_file));
+  for (const char* key : {"method", "dim", "control_points", "vertices", "cells", "iterations",
+                          "converged", "objective", "seconds", "min_weight", "max_partition_error",
+                          "max_reproduction_error", "version", "options"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["dim"], Dim);
+  EXPECT_EQ(report["converged"], true);
+  EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
+  const auto domain = io::read_domain<Dim>(domain_file);
+  EXPECT_EQ(report["vertices"], domain.num_vertices());
+  EXPECT_EQ(report["cells"], domain.num_cells());
+}
+
+TEST_F(CommandLine, SolvesSamplesOfBothDimensionsAtTheirModels) {
+  for (const std::string name : {"2d/figure", "2d/letter", "2d/ring"}) {
+    SCOPED_TRACE(name);
+    const auto result = run("solve " + sample(name + "_cage.obj") + " -o " + path("w.npy") +
+                            " --vertices 2000 --model " + sample(name + "_model.obj") +
+                            " --save-domain " + path("d.obj") + " --report " + path("r.json"));
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.output, "");
+    solve_sample<2>(sample(name + "_cage.obj"), sample(name + "_model.obj"), path("d.obj"),
+                    path("w.npy"), path("r.json"));
+  }
+  for (const std::string name : {"3d/limb", "3d/star", "3d/torus"}) {
+    SCOPED_TRACE(name);
+    const auto result = run("solve " + sample(name + "_cage.obj") + " -o " + path("w.mtx") +
+                            " --vertices 3000 --model " + sample(name + "_model.obj") +
+                            " --save-domain " + path("d.mesh") + " --report " + path("r.json"));
+    ASSERT_EQ(result.status, 0) << result.errors;
+    solve_sample<3>(sample(name + "_cage.obj"), sample(name + "_model.obj"), path("d.mesh"),
+                    path("w.mtx"), path("r.json"));
+  }
+}
+
+TEST_F(CommandLine, EmbeddedModelsGetTheirOwnVertices) {
+  for (const std::string name : {"2d/letter", "3d/torus"}) {
+    SCOPED_TRACE(name);
+    const std::string domain = path(name[0] == '2' ? "d.off" : "d.msh");
+    const auto result = run("solve " + sample(name + "_cage.obj") + " -o " + path("w.dmat") +
+                            " --model " + sample(name + "_model.obj") + " --embed --save-domain " +
+                            domain + " --tolerance 1e-6 -q");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    const auto model = io::read_obj(sample(name + "_model.obj")).points;
+    EXPECT_EQ(io::read_weights(path("w.dmat")).cols(), static_cast<Index>(model.size()));
+  }
+}
+
+TEST_F(CommandLine, AMeshMadeBeforeGivesTheSameWeights) {
+  const auto cage = sample("2d/ring_cage.obj");
+  ASSERT_EQ(run("mesh " + cage + " -o " + path("d.obj") + " --vertices 1500").status, 0);
+  ASSERT_EQ(run("solve " + cage + " -o " + path("a.npy") + " --domain " + path("d.obj")).status, 0);
+  ASSERT_EQ(run("solve " + cage + " -o " + path("b.npy") + " --vertices 1500").status, 0);
+  EXPECT_EQ(slurp(path("a.npy")), slurp(path("b.npy")));
+}
+
+TEST_F(CommandLine, DrawsBothDimensions) {
+  const std::string png_signature = "\x89PNG\r\n\x1a\n";
+  const auto draw = [&](const std::string& cage, const std::string& domain) {
+    ASSERT_EQ(run("solve " + sample(cage) + " -o " + path("w.npy") + " --vertices 1500 --method " +
+                  "harmonic --save-domain " + path(domain))
+                  .status,
+              0);
+    const auto result = run("draw " + path(domain) + " --weights " + path("w.npy") + " --cage " +
+                            sample(cage) + " -o " + path("p.png") + " --control-point 3");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(slurp(path("p.png")).substr(0, 8), png_signature);
+    expect_failure("draw " + path(domain) + " --weights " + path("w.npy") + " --cage " +
+                       sample(cage) + " -o " + path("q.png") + " --control-point 1000",
+                   1, "--control-point must be in [0, ");
+  };
+  draw("2d/letter_cage.obj", "d.obj");
+  draw("3d/limb_cage.obj", "d.node");
+  expect_failure("draw " + path("d.node") + " --weights " + path("w.npy") + " --cage " +
+                     sample("3d/star_cage.obj") + " -o " + path("q.png"),
+                 2, "has weights for 54 control points, but");
+}
+
+TEST_F(CommandLine, TellsWhatIsInAFile) {
+  auto result = run("info " + sample("3d/torus_cage.obj"));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.output.find("a sound 3D cage of 48 control points and 96 triangles"),
+            std::string::npos)
+      << result.output;
+  result = run("info " + sample("2d/ring_cage.obj"));
+  EXPECT_NE(result.output.find("a sound 2D cage of 22 control points"), std::string::npos);
+  ASSERT_EQ(run("solve " + sample("2d/ring_cage.obj") + " --method harmonic --vertices 500 -o " +
+                path("w.npy"))
+                .status,
+            0);
+  result = run("info " + path("w.npy"));
+  EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
+  EXPECT_EQ(run("info " + path("missing.obj")).status, 4);
+}
+
+TEST_F(CommandLine, HelpAndVersion) {
+  EXPECT_EQ(run("--version").output.substr(0, 5), "flbc ");
+  for (const char* command : {"", "mesh ", "run ", "solve ", "check ", "convert ", "deform ",
+                              "export ", "sparsify ", "draw ", "info "}) {
+    const auto result = run(std::string(command) + "--help");
+    EXPECT_EQ(result.status, 0);
+    EXPECT_NE(result.output.find("Usage"), std::string::npos);
+  }
+}
+
+TEST_F(CommandLine, WrongUsageIsStatus1) {
+  const auto cage = sample("2d/letter_cage.obj");
+  const auto o = " -o " + path("w.npy");
+  expect_failure("", 1, "subcommand");
+  expect_failure("solve", 1, "CAGE");
+  expect_failure("solve " + cage, 1, "--output");
+  expect_failure("fly " + cage, 1, "fly");
+  expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
+  expect_failure("solve " + cage + o + " --vertices 3", 1, "vertices");
+  expect_failure("solve " + cage + o + " --method magic", 1, "'magic' is none of auto|");
+  expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
+  expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");
+  expect_failure("solve " + cage + o + " --threads -1", 1, "threads must be in");
+  expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
+  expect_failure("solve " + cage + o + " --embed", 1, "--model");
+  expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
+  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat, .npy");
+  expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off, .vtu");
+  expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
+  for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
+    expect_failure("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
+  }
+  expect_failure("mesh " + cage + " -o " + path("d.obj") + " --vertices 2000000000", 1,
+                 "too many; at most");
+  expect_failure("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
+  expect_failure("mesh '' -o " + path("d.obj"), 1, "CAGE: the value is empty");
+}
+
+TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {
+  const std::string content = slurp(sample("2d/letter_cage.obj"));
+  const auto cage = file("cage.obj", content);
+  file("w.npy", "old");
+  fs::create_hard_link(path("w.npy"), path("w.json"));
+  expect_failure("mesh " + cage + " -o " + path("./cage.obj"), 1, "which is read");
+  expect_failure("solve " + cage + " -o " + path("x.npy") + " --save-domain " + cage, 1,
+                 "which is read");
+  expect_failure("solve " + cage + " -o " + path("w.npy") + " --report " + path("w.json"), 1,
+                 "two results");
+  EXPECT_EQ(slurp(cage), content);
+  EXPECT_EQ(slurp(path("w.npy")), "old");
+}
+
+TEST_F(CommandLine, ReportsAreValidWhateverTheFilesAreCalled) {
+  const auto cage = file("bad\xff name.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  const auto result = run("solve '" + cage + "' -o " + path("w.npy") + " --vertices 100 -q " +
+                          "--method harmonic --report " + path("r.json"));
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(nlohmann::json::accept(slurp(path("r.json"))));
+}
+
+TEST_F(CommandLine, IoFailureIsStatus4) {
+  const auto cage = sample("2d/letter_cage.obj");
+  expect_failure("solve " + path("missing.obj") + " -o " + path("w.npy"), 4, "missing.obj");
+  expect_failure("solve " + cage + " -o " + path("no/folder/w.npy"), 4, "w.npy");
+  expect_failure("solve " + cage + " -o " + path("w.npy") + " --report " + path("no/r.json"), 4,
+                 "r.json");
+  expect_failure("solve " + cage + " -o " + path("w.npy") + " --domain " + path("no.obj"), 4,
+                 "no.obj");
+  expect_failure("solve " + std::string(FLBC_MESHES_DIR) + "/2d -o " + path("w.npy"), 1, "2d");
+}
+
+TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
+  const auto refused = [&](const std::string& content, const std::string& words) {
+    const auto cage = file("bad.obj", content);
+    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, words);
+    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, "bad.obj");
+  };
+  refused("", "without a vertex");
+  refused("v 0 0 0\nv 1", "bad.obj:2");
+  refused("v 0 0 0\nv 1 nan 0\nv 0 1 0\n", "bad.obj:2");
+  refused("v 0 0 0\nv 1 inf 0\nv 0 1 0\n", "bad.obj:2");
+  refused("v 0 0 0\nv 1 0 0\nl 1 2 1\n", "control points");
+  refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4\n", "open");
+  refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4 5 1\n", "(1, 1)");
+  refused("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n", "(0.5, 0.5)");
+  refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 7 1\n", "bad.obj:4");
+  // Two squares side by side are no one domain.
+  refused(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\n"
+      "l 1 2 3 4 1\nl 5 6 7 8 5\n",
+      "not connected");
+  // A tetrahedron without one side.
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
+  // A cube of quadrangles without lid.
+  refused(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+      "open");
+}
+
+TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
+  if (!has_model("defective/unwelded_cage.obj")) GTEST_SKIP() << "the real models are absent";
+  for (const std::string name :
+       {"unwelded_cage", "non_manifold_cage", "self_intersecting_cage",
+        "genus1_self_intersecting_cage", "inconsistent_orientation_cage"}) {
+    const auto cage = model_path("defective/" + name + ".obj");
+    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, name + ".obj: ");
+    expect_failure("mesh " + cage + " -o " + path("d.mesh"), 2, name + ".obj: ");
+  }
+  const auto solve = "solve " + model_path("defective/half_outside_cage.obj") + " -o " +
+                     path("w.npy") + " --vertices 500 --model " +
+                     model_path("defective/half_outside_model.obj");
+  expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 points lie outside the cage");
+  expect_failure(solve + " --embed", 2, "half_outside_model.obj");
+}
+
+TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {
+  const auto result = run("solve " + sample("2d/ring_cage.obj") + " -o " + path("w.npy") +
+                          " --vertices 1000 --max-iterations 5 --report " + path("r.json"));
+  EXPECT_EQ(result.status, 3) << result.errors;
+  EXPECT_NE(result.errors.find("not converged within 5 iterations"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("r.json")))["converged"], false);
+  EXPECT_EQ(io::read_weights(path("w.npy")).rows(), 22);
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc export as its users and their scripts see it.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+#include "support/glb_file.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+// 3 x P.
+PointList<3> points_of(const std::string& path) {
+  return io::to_points<3>(io::read_obj(path), path);
+}
+
+double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).colwise().norm().maxCoeff();
+}
+
+class ExportCommand : public CommandLineTest {
+ protected:
+  Ended expect_export(const std::string& arguments, int status, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    auto result = run("export " + arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+    return result;
+  }
+  GlbFile skin(const std::string& name) const { return GlbFile(slurp(path(name))); }
+
+  // A tetrahedron as cage, whose weights are known: x, y, z and what is left to 1.
+  std::string tetrahedron(const std::string& vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+                          const std::string& name = "cage.obj") const {
+    return file(name, vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  }
+  std::string linear_weights(const PointList<3>& points) const {
+    WeightMatrix weights(4, points.cols());
+    weights << 1 - points.colwise().sum().array(), points;
+    io::write_weights(path("w.npy"), weights);
+    return path("w.npy");
+  }
+
+  // A square with a texture, and all that belongs to it but the output.
+  std::string square() const {
+    const auto model =
+        file("square.obj",
+             "v 0.125 0.125 0.25\nv 0.25 0.125 0.25\nv 0.25 0.25 0.25\nv 0.125 0.25 0.25\n"
+             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    return model + " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron();
+  }
+
+  // A sample, moved by its pose: the skin does what flbc deform does with as few influences.
+  void expect_sample(const std::string& name, const std::string& domain_file) const {
+    SCOPED_TRACE(name);
+    const auto cage = sample(name + "_cage.obj"), pose = sample(name + "_cage_pose.obj");
+    const auto model = sample(name + "_model.obj");
+    const auto with_weights = " --weights " + path("w.npy") + " --cage ";
+    ASSERT_EQ(run("solve " + cage + " --method harmonic -q --vertices 1500 --save-domain " +
+                  path(domain_file) + " --model " + model + " -o " + path("w.npy"))
+                  .status,
+              0);
+    ASSERT_EQ(run("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
+                  " -k 4 -q -o " + path("w4.mtx"))
+                  .status,
+              0);
+    ASSERT_EQ(run("deform " + model + " --weights " + path("w4.mtx") + " --cage " + pose +
+                  " -q -o " + path("posed.obj"))
+                  .status,
+              0);
+    const auto result = expect_export(model + with_weights + cage + " -k 4 -o " + path("s.glb") +
+                                          " --cages " + cage + " " + pose + " --fps 4",
+                                      0, "at most 4 influences per vertex (before ");
+    EXPECT_NE(result.errors.find("2 poses in 0.25 s"), std::string::npos) << result.errors;
+    const auto file = skin("s.glb");
+    const double size = bounding_box_diagonal<3>(points_of(model));
+    EXPECT_LT(distance(file.skinned(file.joints()), points_of(model)), 1e-6 * size);
+    EXPECT_LT(distance(file.skinned(file.joints(0)), points_of(model)), 1e-6 * size);
+    EXPECT_LT(distance(file.skinned(file.joints(0.25)), points_of(path("posed.obj"))), 1e-6 * size);
+    EXPECT_GT(distance(points_of(model), points_of(path("posed.obj"))), 0.1 * size);
+  }
+};
+
+TEST_F(ExportCommand, Sample2D) {
+  expect_sample("2d/figure", "d.obj");
+}
+TEST_F(ExportCommand, Sample3D) {
+  expect_sample("3d/limb", "d.mesh");
+}
+
+TEST_F(ExportCommand, BoundaryOfADomain) {
+  const auto cage = sample("3d/torus_cage.obj");
+  for (const std::string name : {"d.mesh", "d.node", "d.vtu", "d.msh"}) {
+    SCOPED_TRACE(name);
+    const auto domain = path(name);
+    ASSERT_EQ(run("mesh " + cage + " --vertices 600 -o " + domain).status, 0);
+    ASSERT_EQ(
+        run("solve " + cage + " --method harmonic -q --domain " + domain + " -o " + path("w.npy"))
+            .status,
+        0);
+    expect_export(
+        domain + " --weights " + path("w.npy") + " --cage " + cage + " -o " + path("s.glb"), 0,
+        "at most 3 influences per vertex;");
+    const auto file = skin("s.glb");
+    const auto mesh = io::read_domain<3>(domain);
+    const auto sources = file.sources();
+    EXPECT_LT(sources.size(), mesh.num_vertices());
+    EXPECT_LT(distance(file.skinned(file.joints()), mesh.points(Eigen::all, sources)), 1e-5);
+  }
+}
+
+TEST_F(ExportCommand, QuadranglesWithATexture) {
+  const auto arguments = square();
+  expect_export(arguments + " -o " + path("s.glb"), 0,
+                "s.glb: 4 vertices, 2 triangles, 4 joints, at most 4 influences per vertex; ");
+  const auto file = skin("s.glb");
+  EXPECT_EQ(file.json["meshes"][0]["name"], "square");
+  EXPECT_EQ(file.attribute("TEXCOORD_0"),
+            (Eigen::MatrixXd(2, 4) << 0, 1, 1, 0, 1, 1, 0, 0).finished());
+  EXPECT_EQ(file.attribute("NORMAL"), Eigen::Vector3d(0, 0, 1).replicate(1, 4));
+  EXPECT_FALSE(file.has("JOINTS_1"));
+  EXPECT_EQ(expect_export(arguments + " -q -o " + path("s.glb"), 0, "").errors, "");
+}
+
+TEST_F(ExportCommand, OtherFormatsOfModels) {
+  const PointList<3> corners = (PointList<3>(3, 3) << 0.25, 0.5, 0.25,  //
+                                0.25, 0.25, 0.5,                        //
+                                0.125, 0.125, 0.125)
+                                   .finished();
+  const auto rest = " --weights " + linear_weights(corners) + " --cage " + tetrahedron();
+  const auto check = [&](const std::string& model) {
+    expect_export(model + rest + " -o " + path("s.glb"), 0, "3 vertices, 1 triangles");
+    EXPECT_EQ(skin("s.glb").attribute("POSITION"), corners) << model;
+  };
+  check(file("m.off", "OFF\n3 1 0\n0.25 0.25 0.125\n0.5 0.25 0.125\n0.25 0.5 0.125\n3 0 1 2\n"));
+  check(file("m.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+             "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+             "end_header\n0.25 0.25 0.125\n0.5 0.25 0.125\n0.25 0.5 0.125\n3 0 1 2\n"));
+  check(file("m.stl",
+             "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.25 0.25 0.125\n"
+             "vertex 0.5 0.25 0.125\nvertex 0.25 0.5 0.125\nendloop\nendfacet\nendsolid\n"));
+}
+
+TEST_F(ExportCommand, RoundedWeights) {
+  const auto arguments = square() + " -o " + path("s.glb") + " --quantize ";
+  expect_export(arguments + "16", 0, "deformation error over random smooth poses ");
+  const auto sum = [&] {
+    return skin("s.glb").influences("WEIGHTS_", true).colwise().sum().eval();
+  };
+  EXPECT_EQ(sum(), Eigen::RowVectorXd::Constant(4, 65535));
+  expect_export(arguments + "8", 0, "");
+  EXPECT_EQ(sum(), Eigen::RowVectorXd::Constant(4, 255));
+  expect_export(arguments + "12", 1, "--quantize must be 8 or 16");
+}
+
+TEST_F(ExportCommand, KeyframesHaveTimes) {
+  const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
+  const std::string moved = "c 1 2 0 0\nc 1 0 0 0\nc 1 0 0 0\nc 1 0 0 0\n";
+  const auto keys = file("keys.txt", "k 0.25\nk 1.5\n" + zeros + moved);
+  const auto command = square() + " -o " + path("s.glb") + " --keyframes ";
+  expect_export(command + keys, 0, "2 poses in 1.5 s that move 1 joints");
+  const auto file_with_keys = skin("s.glb");
+  const auto expect_first_joint = [&](double time, double x) {
+    EXPECT_EQ(file_with_keys.joints(time)(0, 0), x);
+  };
+  expect_first_joint(0, 0);
+  expect_first_joint(0.25, 0);
+  expect_first_joint(0.875, 1);
+  expect_first_joint(1.5, 2);
+
+  std::filesystem::remove(path("s.glb"));
+  expect_export(command + file("k1.txt", "k 1\nk 1\n" + zeros + moved), 2,
+                "k1.txt: pose 1 is at 1 s, not later");
+  expect_export(command + file("k2.txt", "k -1\n" + zeros), 2, "k2.txt: pose 0 is at -1 s");
+  expect_export(command + file("k3.txt", "k 0\nc 0 0 0 0\n"), 2, "for 1 control points");
+  expect_export(command + keys + " --fps 3", 1, "--cages");
+  expect_export(command + keys + " --cages " + path("cage.obj"), 1, "excludes");
+  EXPECT_FALSE(std::filesystem::exists(path("s.glb")));
+}
+
+TEST_F(ExportCommand, SequencesOfCages) {
+  const auto command = square() + " -o " + path("s.glb");
+  for (int k = 1; k <= 3; ++k) {
+    const auto x = std::to_string(k - 1);
+    tetrahedron("v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+                "pose_" + std::to_string(k) + ".obj");
+  }
+  const auto pattern = " --cages " + path("pose_%d.obj");
+  expect_export(command + pattern, 0, "3 poses in 0.0833333 s that move 1 joints");
+  expect_export(command + pattern + " --fps 0.5", 0, "3 poses in 4 s");
+  EXPECT_EQ(skin("s.glb").joints(3)(0, 0), 1.5);
+  expect_export(command + " --cages " + path("cage.obj"), 0, "1 poses in 0 s that move 0 joints");
+  EXPECT_FALSE(skin("s.glb").json.contains("animations"));
+
+  std::filesystem::remove(path("s.glb"));
+  expect_export(command + pattern + " --fps 0", 1, "--fps");
+  expect_export(command + " --cages " + path("absent_%d.obj"), 4, "absent_0.obj");
+  expect_export(command + " --cages " + sample("3d/limb_cage.obj"), 2,
+                "limb_cage.obj: has 54 vertices, but the cage has 4");
+  EXPECT_FALSE(std::filesystem::exists(path("s.glb")));
+}
+
+TEST_F(ExportCommand, FarFromTheOriginSinglePrecisionIsTold) {
+  const auto model = file("m.obj", "v 1e6 1 1\nv 1000000.3 1 1\nv 1e6 1.3 1\nf 1 2 3\n");
+  const auto cage = tetrahedron("v 999999 0 0\nv 1000009 0 0\nv 999999 10 0\nv 999999 0 10\n");
+  PointList<3> offsets = points_of(model);
+  offsets.row(0).array() -= 999999;
+  const auto weights = linear_weights(offsets / 10);
+  const auto result =
+      expect_export(model + " --weights " + weights + " --cage " + cage + " -q -o " + path("s.glb"),
+                    0, "single precision, which glTF has, moves vertices by up to 0.02");
+  EXPECT_NE(result.errors.find("closer to the origin"), std::string::npos);
+}
+
+TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
+  const auto arguments = square();
+  const auto model = path("square.obj");
+  const auto weights = " --weights " + path("w.npy");
+  const auto cage = " --cage " + path("cage.obj");
+  const auto output = " -o " + path("s.glb");
+  const auto refused = [&](const std::string& words, int status, const std::string& message) {
+    expect_export(words, status, message);
+    EXPECT_FALSE(std::filesystem::exists(path("s.glb")));
+  };
+  refused(model + weights + output, 1, "--cage is required");
+  refused(arguments + output + " -k 5", 1, "4 or 8 influences");
+  refused(arguments + " -o " + path("s.gltf"), 1, "must end in .glb");
+  refused(arguments + " -o " + path("absent/s.glb"), 4, "absent");
+  refused(path("m.fbx") + weights + cage + output, 1, "must end in .obj");
+  refused(path("absent.obj") + weights + cage + output, 4, "absent.obj");
+  refused(model + " --weights " + path("absent.npy") + cage + output, 4, "absent.npy");
+  refused(model + weights + " --cage " + path("absent.obj") + output, 4, "absent.obj");
+  refused(model + weights + " --cage " + sample("3d/limb_cage.obj") + output, 2,
+          "w.npy: has weights for 4 control points, but " + sample("3d/limb_cage.obj") + " has 54");
+  refused(path("cage.obj") + weights + cage + output, 2,
+          "w.npy: the weights do not belong to this model: with " + path("cage.obj") +
+              " they put vertex ");
+  refused(sample("3d/limb_model.obj") + weights + cage + output, 2,
+          "w.npy: has weights of 4 points, but " + sample("3d/limb_model.obj") + " has 3352");
+  const auto bare = file("bare.obj", "v 0.25 0.25 0.25\nl 1 1\n");
+  refused(bare + weights + cage + output, 2, "bare.obj: there is no triangle");
+  const auto torn = file("torn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/7 2/7 3/7\n");
+  refused(torn + weights + cage + output, 2, "torn.obj:4: the index 7 is out of range");
+  const auto outside = file("outside.obj", "v 0.5 0.5 0.25\nv 0 0 0\nv 0 1 0\nf 1 2 3\n");
+  refused(outside + " --weights " + linear_weights(points_of(outside)) + cage + output, 2,
+          "outside.obj: point 0 at (0.5, 0.5, 0.25) lies outside");
+  const auto plane = file("plane.obj", "v 0 0\nv 4 0\nv 0 4\nl 1 2 3 1\n");
+  refused(model + weights + " --cage " + plane + output, 2, "has weights of 3 points");
+  refused(file("m.mesh", "") + weights + " --cage " + plane + output, 1, "the cage is in 2D");
+
+  // No result may replace what is read.
+  std::filesystem::copy(path("w.npy"), path("w.glb"));
+  expect_export(arguments + " -o " + path("w.glb") + " --keyframes " + path("w.glb"), 1,
+                "would replace this file");
+  EXPECT_EQ(slurp(path("w.glb")), slurp(path("w.npy")));
+}
+
+TEST_F(ExportCommand, ARealModelWithTextureAndNormals) {
+  if (!has_model("3d/clothing.obj")) GTEST_SKIP() << "the real models are absent";
+  const auto model = model_path("3d/clothing.obj");
+  const auto cage = model_path("3d/clothing_cage.obj");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
+                " --model " + model)
+                .status,
+            0);
+  const auto arguments = model + " --weights " + path("w.npy") + " --cage " + cage;
+  expect_export(arguments + " -o " + path("s.glb"), 0, " 9132 triangles, 18 joints");
+  const auto file = skin("s.glb");
+  ASSERT_TRUE(file.has("TEXCOORD_0"));
+  const Eigen::MatrixXd lengths = file.attribute("NORMAL").colwise().norm();
+  EXPECT_LT((lengths.array() - 1).abs().maxCoeff(), 1e-6);
+  const auto points = points_of(model);
+  // Seams part vertices, and all of them are there.
+  const auto sources = file.sources();
+  EXPECT_GT(sources.size(), points.cols());
+  EXPECT_EQ(std::set<Eigen::Index>(sources.begin(), sources.end()).size(), points.cols());
+  EXPECT_LT(distance(file.skinned(file.joints()), points(Eigen::all, sources)),
+            1e-6 * bounding_box_diagonal<3>(points));
+}
+
+}  // namespace
+}  // namespace flbc::testing

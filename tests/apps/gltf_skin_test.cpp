@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gltf/skin.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/cage.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/poses.h"
+#include "flbc/sparsify.h"
+#include "support/glb_file.h"
+#include "support/harmonic_weights.h"
+#include "support/io_files.h"
+
+namespace flbc::testing {
+namespace {
+
+using gltf::WeightFormat;
+
+template <class Dimension>
+class GltfSkinTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(GltfSkinTest, Dimensions);
+
+// A mesh of a cage's interior, and triangles between all its vertices: on the boundary few control
+// points would matter.
+template <int Dim>
+struct Example {
+  Example() : sample(make_sample<Dim>(Shape::kRing, 3)), weights(harmonic_weights(sample)) {
+    const auto& mesh = sample.mesh;
+    for (Index v = 0; v < mesh.num_vertices(); ++v) surface.sources.push_back(v);
+    surface.triangles = mesh.cells.template topRows<3>();
+    surface.normals = Vector<3>(0.6, 0, 0.8).replicate(1, mesh.num_vertices());
+  }
+  gltf::ExportedSkin skin(const gltf::SkinOptions& options = {},
+                          const gltf::Animation<Dim>& animation = {}) const {
+    return gltf::export_skin<Dim>(sample.cage.points, sample.mesh.points, weights, surface, options,
+                                  animation);
+  }
+  WeightMatrix few(Index count) const {
+    return sparsify<Dim>(sample.cage.points, sample.mesh.points, weights, {count});
+  }
+
+  Sample<Dim> sample;
+  WeightMatrix weights;
+  gltf::Surface surface;
+};
+
+// As skins have them, in space.
+template <int Dim>
+Eigen::MatrixXd in_space(const PointList<Dim>& points) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, points.cols());
+  result.topRows(Dim) = points;
+  return result;
+}
+
+// The largest distance between the skin's vertices and the points they are copies of.
+template <int Dim>
+double distance(const GlbFile& file, const Eigen::MatrixXd& joints, const PointList<Dim>& points) {
+  const Eigen::MatrixXd expected = in_space<Dim>(points)(Eigen::all, file.sources());
+  return (file.skinned(joints) - expected).colwise().norm().maxCoeff();
+}
+
+// What the specification demands of influences.
+void expect_sound_influences(const GlbFile& file, double unit) {
+  const Eigen::MatrixXd joints = file.influences("JOINTS_");
+  const Eigen::MatrixXd numbers = file.influences("WEIGHTS_", true);
+  ASSERT_EQ(joints.rows(), numbers.rows());
+  for (Eigen::Index v = 0; v < joints.cols(); ++v) {
+    std::set<double> used;
+    for (Eigen::Index slot = 0; slot < joints.rows(); ++slot) {
+      if (numbers(slot, v) == 0) {
+        EXPECT_EQ(joints(slot, v), 0);
+        continue;
+      }
+      EXPECT_GT(numbers(slot, v), 0);
+      EXPECT_TRUE(used.insert(joints(slot, v)).second) << "joint twice at vertex " << v;
+      // The largest first, up to rounding.
+      if (slot == 0) continue;
+      EXPECT_LE(numbers(slot, v), numbers(slot - 1, v) + 1e-6);
+    }
+    const double tolerance = unit == 1 ? std::ldexp(1, -25) : 0;
+    EXPECT_NEAR(numbers.col(v).sum(), unit, tolerance);
+  }
+}
+
+TYPED_TEST(GltfSkinTest, MovesAsDeformDoes) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  const auto& cage = example.sample.cage.points;
+  const auto poses = independent_poses<Dim>(cage, 3);
+  for (const Index count : {4, 8}) {
+    gltf::SkinOptions options;
+    options.max_influences = count;
+    const auto skin = example.skin(options);
+    const GlbFile file(skin.glb);
+    EXPECT_EQ(skin.influences, count);
+    EXPECT_EQ(skin.given_influences, example.sample.cage.size());
+    EXPECT_EQ(file.has("JOINTS_1"), count == 8);
+    EXPECT_FALSE(file.has("JOINTS_2"));
+    expect_sound_influences(file, 1);
+    EXPECT_LT(distance<Dim>(file, in_space<Dim>(cage), example.sample.mesh.points), 1e-6);
+    for (const auto& pose : poses) {
+      const auto expected = deform<Dim>(example.few(count), pose);
+      EXPECT_GT((expected - example.sample.mesh.points).norm(), 0.1);
+      EXPECT_LT(distance<Dim>(file, in_space<Dim>(pose), expected), 1e-6);
+    }
+  }
+}
+
+TYPED_TEST(GltfSkinTest, QuantisedWeightsAddUpExactly) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  const auto& cage = example.sample.cage.points;
+  const auto pose = independent_poses<Dim>(cage, 1)[0];
+  const double largest_move = displacements<Dim>(cage, pose).maxCoeff();
+  const auto expected = deform<Dim>(example.few(8), pose);
+  const auto check = [&](WeightFormat format, double unit, int component_type) {
+    gltf::SkinOptions options;
+    options.weight_format = format;
+    const auto skin = example.skin(options);
+    const GlbFile file(skin.glb);
+    const auto& accessor = file.json["accessors"][file.number_of("WEIGHTS_1")];
+    EXPECT_EQ(accessor["componentType"], component_type);
+    EXPECT_TRUE(accessor.value("normalized", false));
+    expect_sound_influences(file, unit);
+    // Largest remainders change no weight by a whole unit.
+    const double bound = 8 / unit * largest_move;
+    const double error = distance<Dim>(file, in_space<Dim>(pose), expected);
+    EXPECT_LT(error, bound);
+    EXPECT_GT(error, 0.01 * bound);
+    EXPECT_LT(distance<Dim>(file, in_space<Dim>(cage), example.sample.mesh.points), 1e-6);
+  };
+  check(WeightFormat::kUnsignedShort, 65535, 5123);
+  check(WeightFormat::kUnsignedByte, 255, 5121);
+}
+
+TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  const auto& cage = example.sample.cage.points;
+  gltf::Animation<Dim> animation{{0, 0.5, 2}, {cage, cage, cage}};
+  animation.poses[1].col(2) += Vector<Dim>::Constant(0.25);
+  animation.poses[2].col(3) -= Vector<Dim>::Constant(0.5);
+  const auto skin = example.skin({}, animation);
+  EXPECT_EQ(skin.moving_joints, 2);
+  const GlbFile file(skin.glb);
+  ASSERT_EQ(file.json["animations"].size(), 1);
+  EXPECT_EQ(file.json["animations"][0]["channels"].size(), 2);
+  const auto expect_pose = [&](double time, const PointList<Dim>& pose) {
+    EXPECT_LT(distance<Dim>(file, file.joints(time), deform<Dim>(example.few(8), pose)), 1e-6);
+  };
+  for (int k = 0; k < 3; ++k) expect_pose(animation.times[k], animation.poses[k]);
+  expect_pose(0.25, (animation.poses[0] + animation.poses[1]) / 2);
+  expect_pose(1.625, (animation.poses[1] + 3 * animation.poses[2]) / 4);
+
+  // Nothing moves: that is no animation.
+  const GlbFile still(example.skin({}, {{0}, {cage}}).glb);
+  EXPECT_FALSE(still.json.contains("animations"));
+}
+
+TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  gltf::SkinOptions options;
+  options.name = "caf\xc3\xa9";
+  const GlbFile file(example.skin(options).glb);
+  const auto& nodes = file.json["nodes"];
+  const auto& skin = file.json["skins"][0];
+  const auto n = example.sample.cage.size();
+  ASSERT_EQ(skin["joints"].size(), n);
+  // The joints have one parent, which is a root of the scene, as is the mesh.
+  const auto& parent = nodes[skin["skeleton"].get<std::size_t>()];
+  EXPECT_EQ(parent["children"], skin["joints"]);
+  EXPECT_FALSE(parent.contains("translation"));
+  EXPECT_EQ(file.json["scenes"][0]["nodes"].size(), 2);
+  EXPECT_EQ(file.json["scenes"][0]["nodes"][1], skin["skeleton"]);
+  const auto& mesh = nodes[file.json["scenes"][0]["nodes"][0].get<std::size_t>()];
+  EXPECT_EQ(mesh["mesh"], 0);
+  EXPECT_EQ(mesh["skin"], 0);
+  EXPECT_EQ(mesh["name"], "caf\xc3\xa9");
+  const Eigen::MatrixXd binds = file.accessor(skin["inverseBindMatrices"]);
+  const Eigen::MatrixXd joints = file.joints();
+  for (Index i = 0; i < n; ++i) {
+    const auto& joint = nodes[skin["joints"][i].template get<std::size_t>()];
+    EXPECT_EQ(joint["name"], "control_point_" + std::to_string(i));
+    EXPECT_LT((joints.col(i) - in_space<Dim>(example.sample.cage.points).col(i)).norm(), 1e-6);
+    // Exactly the inverse, so that nothing moves at rest.
+    Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
+    expected.col(3).head<3>() = -joints.col(i);
+    EXPECT_EQ(binds.col(i).reshaped(4, 4), expected);
+  }
+  EXPECT_TRUE(file.json["accessors"][file.number_of("POSITION")].contains("min"));
+
+  options.name = "caf\xe9";  // Latin-1: a name, but no UTF-8
+  EXPECT_EQ(GlbFile(example.skin(options).glb).json["meshes"][0]["name"], "caf\xef\xbf\xbd");
+}
+
+TYPED_TEST(GltfSkinTest, SurfaceAndItsAttributes) {
+  constexpr int Dim = TypeParam::value;
+  Example<Dim> example;
+  auto& surface = example.surface;
+  const GlbFile plain(example.skin().glb);
+  for (const char* name : {"TEXCOORD_0", "COLOR_0", "_VERTEX"}) EXPECT_FALSE(plain.has(name));
+  const auto count = static_cast<Eigen::Index>(surface.sources.size());
+  surface.texture_coordinates = Eigen::MatrixXd::Random(2, count);
+  surface.colors = Eigen::MatrixXd::Random(3, count).cwiseAbs();
+  // One more copy of the last vertex.
+  surface.sources.push_back(surface.sources.back());
+  const auto append = [&](auto& columns) {
+    columns.conservativeResize(Eigen::NoChange, count + 1);
+    columns.col(count) = columns.col(count - 1);
+  };
+  append(surface.normals);
+  append(surface.texture_coordinates);
+  append(surface.colors);
+  surface.triangles(0, 0) = static_cast<Index>(count);
+  const GlbFile file(example.skin().glb);
+  EXPECT_EQ(file.triangles(), surface.triangles.template cast<double>());
+  EXPECT_TRUE(file.has("_VERTEX"));
+  EXPECT_EQ(file.sources(),
+            std::vector<Eigen::Index>(surface.sources.begin(), surface.sources.end()));
+  EXPECT_EQ(file.attribute("NORMAL"),
+            surface.normals.template cast<float>().template cast<double>());
+  EXPECT_EQ(file.attribute("TEXCOORD_0"),
+            surface.texture_coordinates.template cast<float>().template cast<double>());
+  EXPECT_EQ(file.attribute("COLOR_0"),
+            surface.colors.template cast<float>().template cast<double>());
+  EXPECT_LT(
+      distance<Dim>(file, in_space<Dim>(example.sample.cage.points), example.sample.mesh.points),
+      1e-6);
+}
+
+// Points on segments between control points, so that two of these matter to each.
+template <int Dim>
+struct Segments {
+  explicit Segments(Index n) : control_points(PointList<Dim>::Random(Dim, n)) {
+    weights.setZero(n, 3);
+    weights(0, 0) = weights(n - 1, 1) = 1;
+    weights(n - 1, 2) = 0.25;
+    weights(n - 2, 2) = 0.75;
+    points = control_points * weights;
+    surface.sources = {0, 1, 2};
+    surface.triangles.resize(3, 1);
+    surface.triangles << 0, 1, 2;
+    surface.normals = Vector<3>::UnitZ().replicate(1, 3);
+  }
+  GlbFile skin() const {
+    return GlbFile(gltf::export_skin<Dim>(control_points, points, weights, surface).glb);
+  }
+
+  PointList<Dim> control_points;
+  PointList<Dim> points;
+  WeightMatrix weights;
+  gltf::Surface surface;
+};
+
+TYPED_TEST(GltfSkinTest, JointsTakeTwoBytesWhereOneIsTooFew) {
+  constexpr int Dim = TypeParam::value;
+  const auto check = [](Index n, int component_type) {
+    const Segments<Dim> segments(n);
+    const auto file = segments.skin();
+    EXPECT_EQ(file.json["accessors"][file.number_of("JOINTS_0")]["componentType"], component_type);
+    EXPECT_FALSE(file.has("JOINTS_1"));
+    const Eigen::MatrixXd joints = file.attribute("JOINTS_0");
+    EXPECT_EQ(joints(0, 1), n - 1);
+    EXPECT_EQ(joints.col(2).head(2), Eigen::Vector2d(n - 2, n - 1));
+    EXPECT_EQ(file.attribute("WEIGHTS_0").col(2), Eigen::Vector4d(0.75, 0.25, 0, 0));
+  };
+  check(256, 5121);
+  check(257, 5123);
+  check(65535, 5123);
+  expect_error<InputError>([] { Segments<Dim>(65536).skin(); }, {"65536 control points", "65535"});
+}
+
+TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
+  const auto check = [](Index columns, int component_type) {
+    // Two rows of points in a triangle, with their barycentric coordinates.
+    PointList<2> control_points(2, 3);
+    control_points << 0, 4, 0,  //
+        0, 0, 4;
+    PointList<2> points(2, 2 * columns);
+    WeightMatrix weights(3, 2 * columns);
+    for (Index v = 0; v < 2 * columns; ++v) {
+      points.col(v) << 1 + static_cast<double>(v / 2) / columns, 1 + v % 2;
+      weights.col(v) << 1 - points.col(v).sum() / 4, points(0, v) / 4, points(1, v) / 4;
+    }
+    // An odd number of triangles, so that what follows their numbers has to be aligned.
+    DomainMesh<2> strip{points, CellList<2>(3, 2 * columns - 3)};
+    for (Index t = 0; t < 2 * columns - 3; ++t) strip.cells.col(t) << t, t + 1, t + 2;
+    const auto surface = gltf::surface_of_domain(strip);
+    const GlbFile file(gltf::export_skin<2>(control_points, points, weights, surface).glb);
+    EXPECT_EQ(
+        file.json["accessors"][file.primitive()["indices"].get<std::size_t>()]["componentType"],
+        component_type);
+    EXPECT_EQ(file.triangles(), surface.triangles.cast<double>());
+  };
+  check(3, 5123);
+  check(32768, 5123);
+  check(32769, 5125);
+}
+
+TYPED_TEST(GltfSkinTest, SinglePrecisionIsMeasured) {
+  constexpr int Dim = TypeParam::value;
+  Example<Dim> example;
+  EXPECT_LT(example.skin().position_change, 1e-6);
+  // Floats near 2^20 are 1/16 to 1/8 apart.
+  example.sample.cage.points.array() += 1048576;
+  example.sample.mesh.points.array() += 1048576;
+  const double change = example.skin().position_change;
+  EXPECT_GT(change, 0.01);
+  EXPECT_LT(change, 0.0625 * std::sqrt(Dim));
+
+  Segments<Dim> segments(5);
+  segments.control_points *= 1e39;
+  segments.points *= 1e39;
+  expect_error<InputError>([&] { segments.skin(); }, {"too large for single precision"});
+}
+
+TYPED_TEST(GltfSkinTest, ErrorsOfStoringAreMeasured) {
+  constexpr int Dim = TypeParam::value;
+  Example<Dim> example;
+  const auto pose = independent_poses<Dim>(example.sample.cage.points, 1)[0];
+  gltf::SkinOptions options;
+  options.max_influences = 4;
+  // Copies of a point count once.
+  auto& surface = example.surface;
+  surface.sources.insert(surface.sources.end(), 1000, surface.sources.back());
+  surface.normals = Vector<3>(0, 0, 1).replicate(1, static_cast<int>(surface.sources.size()));
+  const auto skin = example.skin(options, {{0}, {pose}});
+  const auto errors =
+      displacements<Dim>(deform<Dim>(example.weights, pose), deform<Dim>(example.few(4), pose));
+  EXPECT_GT(errors.maxCoeff(), 0.01);
+  EXPECT_NEAR(skin.deformation_error.max, errors.maxCoeff(), 1e-6);
+  EXPECT_NEAR(skin.deformation_error.rms,
+              std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())), 1e-6);
+}
+
+TEST(GltfSkin, PointsInsideAMeshDoNotCount) {
+  Example<3> example;
+  example.surface = gltf::surface_of_domain(example.sample.mesh);
+  gltf::SkinOptions options;
+  options.max_influences = 4;
+  const auto skin = example.skin(options);
+  EXPECT_EQ(skin.vertices, static_cast<Index>(example.surface.sources.size()));
+  EXPECT_LT(skin.vertices, example.sample.mesh.num_vertices());
+  EXPECT_EQ(skin.given_influences, 3);
+  EXPECT_EQ(skin.influences, 3);
+  EXPECT_LT(skin.deformation_error.max, 1e-6);
+  const GlbFile file(skin.glb);
+  const auto pose = independent_poses<3>(example.sample.cage.points, 1)[0];
+  EXPECT_LT(distance<3>(file, pose, deform<3>(example.weights, pose)), 1e-6);
+}
+
+TYPED_TEST(GltfSkinTest, WhatDoesNotFitIsRefused) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  const auto expect_refusal = [&](auto change, const std::string& message) {
+    Example<Dim> changed = example;
+    change(changed);
+    expect_error<InputError>([&] { changed.skin(); }, {message});
+  };
+  for (const Index count : {-1, 0, 3, 5, 12}) {
+    gltf::SkinOptions options;
+    options.max_influences = count;
+    expect_error<OptionError>([&] { example.skin(options); }, {"4 or 8"});
+  }
+  const auto drop = [](auto& matrix) {
+    matrix.conservativeResize(Eigen::NoChange, matrix.cols() - 1);
+  };
+  expect_refusal([&](auto& e) { drop(e.sample.cage.points); }, "weights of control points");
+  expect_refusal([&](auto& e) { drop(e.sample.mesh.points); }, "weights of points");
+  expect_refusal([&](auto& e) { drop(e.surface.normals); }, "normals of vertices");
+  expect_refusal([&](auto& e) { e.surface.triangles(0, 0) = 100000; }, "surface of the skin");
+  expect_refusal([&](auto& e) { e.surface.triangles(0, 0) = -1; }, "surface of the skin");
+  expect_refusal([&](auto& e) { e.surface.sources[0] = 100000; }, "surface of the skin");
+  expect_refusal([&](auto& e) { e.surface.triangles.resize(3, 0); }, "surface of the skin");
+  expect_refusal([&](auto& e) { e.sample.mesh.points.col(0).setConstant(50); }, "point 0");
+
+  const auto& cage = example.sample.cage.points;
+  const auto expect_refused_times = [&](const std::vector<double>& times,
+                                        const std::string& message) {
+    const gltf::Animation<Dim> animation{times, {cage, cage}};
+    expect_error<InputError>([&] { example.skin({}, animation); }, {message});
+  };
+  expect_refused_times({0}, "times of poses");
+  expect_refused_times({-1, 0}, "pose 0 is at -1 s");
+  expect_refused_times({0, 0}, "pose 1 is at 0 s, not later");
+  expect_refused_times({1, 1 + 1e-12}, "pose 1 is at 1 s, not later");
+  expect_refused_times({0, std::numeric_limits<double>::quiet_NaN()}, "pose 1 is at nan s");
+  expect_refused_times({0, 1e39}, "pose 1 is at 1e+39 s");
+  const gltf::Animation<Dim> other{{0}, {cage.leftCols(3)}};
+  expect_error<InputError>([&] { example.skin({}, other); }, {"poses of control points"});
+  const gltf::Animation<Dim> far{{0}, {cage * 1e39}};
+  expect_error<InputError>([&] { example.skin({}, far); },
+                           {"of the cage in pose 0 has a coordinate that is too large"});
+}
+
+}  // namespace
+}  // namespace flbc::testing

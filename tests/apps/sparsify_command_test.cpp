@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc sparsify as its users and their scripts see it.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "flbc/coordinates.h"
+#include "flbc/edge_error.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/poisson_reduction.h"
+#include "flbc/quality.h"
+#include "support/command_line.h"
+#include "support/model_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class SparsifyCommand : public CommandLineTest {
+ protected:
+  // Harmonic coordinates of a sample at its model (w.npy) and on a mesh (v.npy, domain_file).
+  void solve(const std::string& name, const std::string& domain_file) const {
+    const auto command = "solve " + sample(name + "_cage.obj") + " --method harmonic -q -o ";
+    ASSERT_EQ(run(command + path("w.npy") + " --vertices 1500 --save-domain " + path(domain_file) +
+                  " --model " + sample(name + "_model.obj"))
+                  .status,
+              0);
+    ASSERT_EQ(run(command + path("v.npy") + " --domain " + path(domain_file)).status, 0);
+  }
+
+  void expect_refusal(const std::string& arguments, int status, const std::string& errors) const {
+    SCOPED_TRACE(arguments);
+    const auto result = run("sparsify " + arguments + " -o " + path("out.mtx"));
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(errors), std::string::npos) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(path("out.mtx")));
+  }
+
+  // A square with a model in it and weights that reproduce it.
+  std::string square() const {
+    file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
+    file("model.obj", "v 2 2 0\nv 1 2 0\n");
+    file("w.txt",
+         "0 0 0.25\n1 0 0.25\n2 0 0.25\n3 0 0.25\n"
+         "0 1 0.375\n1 1 0.125\n2 1 0.125\n3 1 0.375\n");
+    return path("w.txt") + " --cage " + path("cage.obj") + " --points " + path("model.obj");
+  }
+};
+
+template <int Dim>
+PointList<Dim> read_points(const std::string& path) {
+  return io::to_points<Dim>(io::read_obj(path), path);
+}
+
+template <int Dim>
+void expect_sparse(const std::string& cage_file, const PointList<Dim>& points,
+                   const std::string& before_file, const std::string& after_file, int most,
+                   const Json& report) {
+  const auto before = io::read_weights(before_file);
+  const auto after = io::read_weights(after_file);
+  const auto quality = measure_quality<Dim>(read_points<Dim>(cage_file), points, after);
+  EXPECT_GE(quality.min_weight, 0);
+  EXPECT_LE(quality.max_partition_error, 1e-13);
+  EXPECT_LE(quality.max_reproduction_error, 1e-13);
+  EXPECT_EQ((after.array() != 0).colwise().count().maxCoeff(), most);
+  EXPECT_EQ(report["dim"], Dim);
+  EXPECT_EQ(report["points"], points.cols());
+  EXPECT_EQ(report["options"]["max_influences"], most);
+  EXPECT_EQ(report["after"]["max_influences"], most);
+  EXPECT_EQ(report["before"]["bytes"], std::filesystem::file_size(before_file));
+  EXPECT_EQ(report["after"]["bytes"], std::filesystem::file_size(after_file));
+  EXPECT_LT(report["after"]["bytes"], report["before"]["bytes"]);
+  EXPECT_NEAR(report["error"]["weight"]["max"].get<double>(),
+              (after - before).cwiseAbs().maxCoeff(), 1e-15);
+  const auto& deformation = report["error"]["deformation"];
+  EXPECT_GT(deformation["independent"]["rms"], 0);
+  EXPECT_LT(deformation["smooth"]["rms"], 0.01);
+  // In its rest pose nothing moves, since both reproduce.
+  EXPECT_LT(deformation["poses"][0]["max"], 1e-12);
+  EXPECT_EQ(deformation["poses"][0]["file"], cage_file);
+}
+
+TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
+  const auto sparsify = [&](const std::string& name, const std::string& domain_file, int most) {
+    SCOPED_TRACE(name);
+    solve(name, domain_file);
+    const auto cage = sample(name + "_cage.obj");
+    const auto model = sample(name + "_model.obj");
+    const auto result = run("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
+                            " -k " + std::to_string(most) + " -o " + path("s.mtx") + " --report " +
+                            path("s.json") + " --pose " + cage);
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_NE(result.errors.find("at most " + std::to_string(most)), std::string::npos);
+    EXPECT_EQ(result.output, "");
+    // And on the mesh of the interior.
+    EXPECT_EQ(run("sparsify " + path("v.npy") + " --cage " + cage + " --points " +
+                  path(domain_file) + " -k " + std::to_string(most) + " -q -o " + path("d.npy"))
+                  .errors,
+              "");
+    EXPECT_EQ(
+        run("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain_file))
+            .status,
+        0);
+  };
+  sparsify("2d/ring", "ring.vtu", 5);
+  expect_sparse<2>(sample("2d/ring_cage.obj"), read_points<2>(sample("2d/ring_model.obj")),
+                   path("w.npy"), path("s.mtx"), 5, Json::parse(slurp(path("s.json"))));
+  sparsify("3d/limb", "limb.mesh", 6);
+  expect_sparse<3>(sample("3d/limb_cage.obj"), read_points<3>(sample("3d/limb_model.obj")),
+                   path("w.npy"), path("s.mtx"), 6, Json::parse(slurp(path("s.json"))));
+}
+
+TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
+  const auto sparsify = [&](const std::string& arguments, const std::string& method) {
+    const auto result = run("sparsify " + arguments + " -k 4 -q --method " + method + " -o " +
+                            path(method + ".npy") + " --report " + path("r.json"));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const auto report = Json::parse(slurp(path("r.json")));
+    EXPECT_EQ(report["method"], method);
+    EXPECT_LE(report["after"]["max_influences"], 4);
+    EXPECT_GE(report["after"]["min_weight"], 0);
+    EXPECT_LE(report["after"]["max_partition_error"], 1e-13);
+    EXPECT_LE(report["after"]["max_reproduction_error"], 1e-13);
+    return report["error"]["edge"];
+  };
+  const auto compare = [&](const std::string& arguments) {
+    SCOPED_TRACE(arguments);
+    const auto plain = sparsify(arguments, "quadratic");
+    const auto poisson = sparsify(arguments, "poisson");
+    EXPECT_LT(poisson["independent"]["rms"], plain["independent"]["rms"]);
+    EXPECT_LT(poisson["smooth"]["rms"], plain["smooth"]["rms"]);
+  };
+  solve("2d/ring", "ring.vtu");
+  const auto ring = " --cage " + sample("2d/ring_cage.obj") + " --points ";
+  compare(path("w.npy") + ring + sample("2d/ring_model.obj"));
+  compare(path("v.npy") + ring + path("ring.vtu"));
+  solve("3d/limb", "limb.mesh");
+  const auto limb = " --cage " + sample("3d/limb_cage.obj") + " --points ";
+  compare(path("w.npy") + limb + sample("3d/limb_model.obj"));
+  compare(path("v.npy") + limb + path("limb.mesh"));
+}
+
+// With a pose the weights are chosen for it.
+TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
+  solve("2d/ring", "ring.vtu");
+  auto pose = io::read_obj(sample("2d/ring_cage.obj"));
+  for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
+  io::write_obj(path("pose.obj"), pose);
+  const auto arguments = "sparsify " + path("v.npy") + " --cage " + sample("2d/ring_cage.obj") +
+                         " --points " + path("ring.vtu") + " -k 3 -q --method poisson -o ";
+  ASSERT_EQ(run(arguments + path("without.npy")).status, 0);
+  ASSERT_EQ(run(arguments + path("with.npy") + " --pose " + path("pose.obj") + " --report " +
+                path("r.json"))
+                .status,
+            0);
+  const auto before = io::read_weights(path("v.npy"));
+  const auto points = io::to_points<2>(pose, "pose.obj");
+  const auto domain = io::read_domain<2>(path("ring.vtu"));
+  const auto error = [&](const std::string& name) {
+    return edge_error<2>(domain.points, edges_of_cells(domain), {points}, before,
+                         io::read_weights(path(name)));
+  };
+  EXPECT_LT(error("with.npy").rms, 0.9 * error("without.npy").rms);
+  const auto poses = Json::parse(slurp(path("r.json")))["error"]["edge"]["poses"];
+  ASSERT_EQ(poses.size(), 1);
+  EXPECT_EQ(poses[0]["file"], path("pose.obj"));
+  EXPECT_NEAR(poses[0]["rms"].get<double>(), error("with.npy").rms, 1e-12);
+  EXPECT_NEAR(poses[0]["max"].get<double>(), error("with.npy").max, 1e-12);
+}
+
+TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
+  const auto arguments = square();
+  expect_refusal(arguments + " -k 3 --method poisson", 2, "model.obj: has neither faces nor lines");
+  expect_refusal(arguments + " -k 3 --method cubic", 1, "none of quadratic|poisson");
+  // Without neighbours there are no edges to measure.
+  ASSERT_EQ(
+      run("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"))
+          .status,
+      0);
+  const auto report = Json::parse(slurp(path("r.json")));
+  EXPECT_EQ(report["method"], "quadratic");
+  EXPECT_FALSE(report["error"].contains("edge"));
+  // A line is enough.
+  file("model.obj", "v 2 2 0\nv 1 2 0\nl 1 2\n");
+  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --method poisson -o " + path("s.npy")).errors,
+            "");
+}
+
+TEST_F(SparsifyCommand, TripletsAndThresholds) {
+  const auto arguments = square();
+  ASSERT_EQ(run("sparsify " + arguments + " -k 3 -q -o " + path("s.dmat")).status, 0);
+  const auto sparse = io::read_weights(path("s.dmat"));
+  EXPECT_LE((sparse.array() != 0).colwise().count().maxCoeff(), 3);
+  const PointList<2> points = read_points<2>(path("cage.obj")) * sparse;
+  EXPECT_LE((points - read_points<2>(path("model.obj"))).norm(), 1e-13);
+  // Nothing is below the threshold: the weights stay.
+  ASSERT_EQ(run("sparsify " + arguments + " --threshold 0.1 -q -o " + path("t.npy")).status, 0);
+  const auto same = io::read_weights(path("t.npy"));
+  EXPECT_EQ(same(3, 1), 0.375);
+  EXPECT_EQ((same.array() != 0).count(), 8);
+}
+
+TEST_F(SparsifyCommand, RefusesWhatCannotBe) {
+  const auto arguments = square();
+  expect_refusal(arguments, 1, "give -k");
+  expect_refusal(arguments + " -k 2", 1, "needs 3 control points");
+  expect_refusal(arguments + " -k 0", 1, "needs 3 control points");
+  expect_refusal(arguments + " -k 3 --threshold 2", 1, "threshold");
+  expect_refusal(arguments + " -k 3 --report " + path("r.txt"), 1, ".json");
+  expect_refusal(arguments + " -k 3 --pose " + file("p.obj", "v 0 0 0\n"), 2,
+                 "p.obj: has 1 vertices, but");
+  expect_refusal(arguments + " -k 3 --pose " + path("absent.obj"), 4, "absent.obj");
+  expect_refusal(path("absent.npy") + " --cage " + path("cage.obj") + " --points " +
+                     path("model.obj") + " -k 3",
+                 4, "absent.npy");
+  // Rows or columns that are not there.
+  ASSERT_EQ(run("sparsify " + arguments + " -k 3 -q -o " + path("s.npy")).status, 0);
+  expect_refusal(
+      path("s.npy") + " --cage " + path("cage.obj") + " --points " + path("cage.obj") + " -k 3", 2,
+      "s.npy: has weights of 2 points, but");
+  expect_refusal(path("s.npy") + " --cage " + sample("2d/ring_cage.obj") + " --points " +
+                     path("model.obj") + " -k 3",
+                 2, "s.npy: has weights for 4 control points, but");
+  file("model.obj", "v 2 2 0\nv 5 2 0\n");
+  expect_refusal(arguments + " -k 3", 2, "model.obj: point 1 at (5, 2) lies outside");
+  // No result may replace what is read.
+  EXPECT_EQ(run("sparsify " + path("s.npy") + " --cage " + path("cage.obj") + " --points " +
+                path("model.obj") + " -k 3 -o " + path("s.npy"))
+                .status,
+            1);
+}
+
+TEST_F(SparsifyCommand, ForeignWeightsOfTheArm) {
+  if (!has_model("3d/arm_other_weights.txt")) GTEST_SKIP() << "the real models are absent";
+  const auto result = run("sparsify " + model_path("3d/arm_other_weights.txt") + " --cage " +
+                          model_path("3d/arm_cage.obj") + " --points " + model_path("3d/arm.obj") +
+                          " -k 8 -q -o " + path("arm.mtx"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(run("check " + model_path("3d/arm_cage.obj") + " --model " + model_path("3d/arm.obj") +
+                " --weights " + path("arm.mtx"))
+                .status,
+            0);
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/mean_value.h"
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "base/parallel.h"
+#include "flbc/coordinates.h"
+#include "flbc/errors.h"
+#include "flbc/quality.h"
+#include "support/code_cages.h"
+#include "support/hollow_sample.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+template <class Dimension>
+class MeanValueTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(MeanValueTest, Dimensions);
+
+// Cages of all kinds with points inside, among them the centres of their cells.
+template <int Dim>
+std::vector<Sample<Dim>> cages() {
+  std::vector<Sample<Dim>> all{make_hollow_sample<Dim>()};
+  for (const auto shape :
+       {Shape::kSimplex, Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
+    all.push_back(make_sample<Dim>(shape, 3));
+  }
+  return all;
+}
+
+template <int Dim>
+PointList<Dim> centres(const DomainMesh<Dim>& mesh) {
+  PointList<Dim> points = PointList<Dim>::Zero(Dim, mesh.num_cells());
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    for (int k = 0; k <= Dim; ++k) points.col(s) += mesh.points.col(mesh.cells(k, s)) / (Dim + 1);
+  }
+  return points;
+}
+
+// Points all around and inside.
+template <int Dim>
+PointList<Dim> scattered_points(const Cage<Dim>& cage, Index count) {
+  const Vector<Dim> low = cage.points.rowwise().minCoeff();
+  const Vector<Dim> extent = cage.points.rowwise().maxCoeff() - low;
+  PointList<Dim> points(Dim, count);
+  for (Index p = 0; p < count; ++p) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double part = std::fmod((p + 1) * std::sqrt(2.0 + 3 * axis), 1);
+      points(axis, p) = low[axis] + extent[axis] * (2 * part - 0.5);
+    }
+  }
+  return points;
+}
+
+template <int Dim>
+WeightMatrix weights_at(const Cage<Dim>& cage, const Vector<Dim>& point) {
+  return mean_value_coordinates<Dim>(cage, PointList<Dim>(point));
+}
+
+// Unit vectors with the parts of the unit circle or sphere for which they stand.
+template <int Dim>
+std::vector<std::pair<Vector<Dim>, double>> directions() {
+  std::vector<std::pair<Vector<Dim>, double>> all;
+  if constexpr (Dim == 2) {
+    const int count = 200000;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * kPi * (k + 0.5) / count;
+      all.push_back({{std::cos(angle), std::sin(angle)}, 2 * kPi / count});
+    }
+  } else {
+    const int bands = 300;  // of equal height, so of equal area
+    for (int k = 0; k < bands; ++k) {
+      const double z = 2 * (k + 0.5) / bands - 1;
+      for (int l = 0; l < 2 * bands; ++l) {
+        const double angle = kPi * (l + 0.5) / bands;
+        const double radius = std::sqrt(1 - z * z);
+        all.push_back(
+            {{radius * std::cos(angle), radius * std::sin(angle), z}, 2 * kPi / (bands * bands)});
+      }
+    }
+  }
+  return all;
+}
+
+// The definition: a direction sees barycentric coordinates in every facet behind one another,
+// divided by the distance, positive where it leaves the interior. The cage must be oriented.
+template <int Dim>
+WeightMatrix integrate_over_directions(const Cage<Dim>& cage, const Vector<Dim>& x) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(cage.size());
+  const auto all = directions<Dim>();
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f)) - x;
+    const double side = corners.determinant() > 0 ? 1 : -1;
+    const Eigen::Matrix<double, Dim, Dim> to_coordinates = corners.inverse();
+    for (const auto& [direction, part] : all) {
+      const Vector<Dim> seen = to_coordinates * direction;  // coordinates / distance
+      if (seen.minCoeff() < 0) continue;
+      for (int k = 0; k < Dim; ++k) sum[cage.facets(k, f)] += side * part * seen[k];
+    }
+  }
+  return sum / sum.sum();
+}
+
+TYPED_TEST(MeanValueTest, IsWhatItsDefinitionSaysInsideAndOutside) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : cages<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto points = scattered_points(sample.cage, 6);
+    const auto weights = mean_value_coordinates(sample.cage, points);
+    for (Index p = 0; p < points.cols(); ++p) {
+      const auto expected = integrate_over_directions<kDim>(sample.cage, points.col(p));
+      EXPECT_LT((weights.col(p) - expected).cwiseAbs().maxCoeff(),
+                (kDim == 2 ? 1e-3 : 1e-2) * (1 + expected.cwiseAbs().maxCoeff()))
+          << points.col(p).transpose() << "\n"
+          << weights.col(p).transpose() << "\n"
+          << expected.transpose();
+    }
+  }
+}
+
+TYPED_TEST(MeanValueTest, SumToOneAndReproduceEverywhere) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : cages<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    for (const auto& points :
+         {sample.mesh.points, centres(sample.mesh), scattered_points(sample.cage, 500)}) {
+      const auto weights = mean_value_coordinates(sample.cage, points);
+      const auto quality = measure_quality(sample.cage.points, points, weights);
+      EXPECT_LT(quality.max_partition_error, 1e-13);
+      EXPECT_LT(quality.max_reproduction_error, 1e-11);
+      EXPECT_TRUE(weights.allFinite());
+    }
+  }
+}
+
+TYPED_TEST(MeanValueTest, InASimplexAreItsBarycentricCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kSimplex, 1);
+  const auto points = scattered_points(sample.cage, 200);
+  Eigen::Matrix<double, kDim + 1, kDim + 1> system;
+  system << sample.cage.points, Eigen::RowVectorXd::Ones(kDim + 1);
+  Eigen::MatrixXd right(kDim + 1, points.cols());
+  right << points, Eigen::RowVectorXd::Ones(points.cols());
+  const Eigen::MatrixXd expected = system.inverse() * right;
+  const auto weights = mean_value_coordinates(sample.cage, points);
+  EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TYPED_TEST(MeanValueTest, LagrangeAndLinearOnFacets) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : cages<kDim>()) {
+    const auto& cage = sample.cage;
+    const auto at_corners = mean_value_coordinates(cage, cage.points);
+    EXPECT_EQ(at_corners, WeightMatrix::Identity(cage.size(), cage.size())) << sample.name;
+    for (Index f = 0; f < cage.facets.cols(); ++f) {
+      for (int opposite = -1; opposite < kDim; ++opposite) {  // inside, then on the edges
+        Eigen::VectorXd expected = Eigen::VectorXd::Zero(cage.size());
+        for (int k = 0; k < kDim; ++k)
+          expected[cage.facets(k, f)] = k == opposite ? 0 : 1 + 0.37 * k;
+        expected /= expected.sum();
+        const auto weights = weights_at<kDim>(cage, cage.points * expected);
+        EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-12) << sample.name;
+      }
+    }
+  }
+}
+
+// How far the weights at a place are from those at distance 10^-k of it in several directions,
+// divided by that distance: bounded for functions with bounded slope, and without noise.
+template <int Dim>
+void expect_bounded_slope(const Cage<Dim>& cage, const Vector<Dim>& place, double bound) {
+  const auto here = weights_at<Dim>(cage, place);
+  for (int k = 3; k <= 15; ++k) {
+    const double distance = std::pow(10.0, -k);
+    for (int turn = 0; turn < 8; ++turn) {
+      Vector<Dim> direction;
+      for (int axis = 0; axis < Dim; ++axis) direction[axis] = std::sin(0.3 + 2 * turn + 5 * axis);
+      direction *= distance / direction.norm();
+      const auto there = weights_at<Dim>(cage, place + direction);
+      EXPECT_LT((there - here).cwiseAbs().maxCoeff(), bound * distance + 1e-11)
+          << place.transpose() << " distance " << distance;
+    }
+  }
+}
+
+TYPED_TEST(MeanValueTest, ContinuousTowardsFacetsEdgesAndCorners) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : cages<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto& cage = sample.cage;
+    for (Index f = 0; f < cage.facets.cols(); ++f) {
+      Vector<kDim> middle = Vector<kDim>::Zero();
+      for (int k = 0; k < kDim; ++k) middle += cage.points.col(cage.facets(k, f)) / kDim;
+      expect_bounded_slope<kDim>(cage, middle, 200);
+      const Vector<kDim> on_edge =
+          0.3 * cage.points.col(cage.facets(0, f)) + 0.7 * cage.points.col(cage.facets(1, f));
+      expect_bounded_slope<kDim>(cage, on_edge, 200);
+      expect_bounded_slope<kDim>(cage, cage.points.col(cage.facets(0, f)), 200);
+    }
+  }
+}
+
+TYPED_TEST(MeanValueTest, ContinuousAcrossThePlanesOfFacets) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 1);  // coordinates are whole numbers
+  Vector<kDim> x = Vector<kDim>::Constant(0.4);
+  x[1] = 1;  // in the plane of a facet, within the interior
+  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  x[0] = 1 - 1e-7;  // and near that facet
+  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  x[0] = 1;
+  x[1] = 0.4;
+  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  x = Vector<kDim>::Constant(2);  // outside, where planes of several facets meet
+  x[0] = -3;
+  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  x[0] = 1;
+  expect_bounded_slope<kDim>(sample.cage, x, 200);
+}
+
+TYPED_TEST(MeanValueTest, NotNegativeInsideConvexCages) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
+    const auto sample = make_sample<kDim>(shape, 5, 0.2);
+    EXPECT_GT(mean_value_coordinates(sample.cage, centres(sample.mesh)).minCoeff(), 0);
+  }
+}
+
+TEST(MeanValueTest2D, NegativeSomewhereInAConcavePolygon) {
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto sample = make_sample<2>(shape, 8);
+    const auto weights = mean_value_coordinates(sample.cage, centres(sample.mesh));
+    EXPECT_LT(weights.minCoeff(), -1e-3) << sample.name;
+    EXPECT_GT(weights.minCoeff(), -1) << sample.name;
+  }
+}
+
+TYPED_TEST(MeanValueTest, InvariantToRotationScaleAndTranslation) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : cages<kDim>()) {
+    const auto points = scattered_points(sample.cage, 200);
+    const auto weights = mean_value_coordinates(sample.cage, points);
+    const double largest = weights.cwiseAbs().maxCoeff();
+    Eigen::Matrix<double, kDim, kDim> rotation = Eigen::Matrix<double, kDim, kDim>::Identity();
+    rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+    for (const double scale : {1e-30, 0.01, 3.0, 1e30}) {
+      Cage<kDim> moved = sample.cage;
+      const Vector<kDim> shift = Vector<kDim>::Constant(2);
+      moved.points = scale * ((rotation * moved.points).colwise() + shift);
+      const PointList<kDim> moved_points = scale * ((rotation * points).colwise() + shift);
+      EXPECT_LT((mean_value_coordinates(moved, moved_points) - weights).cwiseAbs().maxCoeff(),
+                1e-10 * largest)
+          << sample.name << " at scale " << scale;
+    }
+  }
+}
+
+TYPED_TEST(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
+  constexpr int kDim = TypeParam::value;
+  const Cage<kDim> outer = box_cage<kDim>(1), hole = box_cage<kDim>(0.6),
+                   core = box_cage<kDim>(0.3);
+  const Cage<kDim> sound = join(join(outer, reversed(hole)), core);
+  const auto points = scattered_points(sound, 200);
+  const auto expected = mean_value_coordinates(sound, points);
+  std::vector<Cage<kDim>> others{join(join(outer, hole), core),
+                                 join(join(reversed(outer), hole), reversed(core))};
+  if (kDim == 2) {  // where even the edges of one loop may run against each other
+    others.push_back(sound);
+    others.back().facets.col(2).reverseInPlace();
+    others.back().facets.col(4).reverseInPlace();
+  }
+  for (const auto& cage : others) {
+    EXPECT_LT((mean_value_coordinates(cage, points) - expected).cwiseAbs().maxCoeff(),
+              1e-10 * expected.cwiseAbs().maxCoeff());
+  }
+  const Vector<kDim> in_hole = Vector<kDim>::Constant(0.45);
+  EXPECT_LT((weights_at<kDim>(sound, in_hole) - integrate_over_directions<kDim>(sound, in_hole))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-2);
+}
+
+TYPED_TEST(MeanValueTest, SameBitsForAnyNumberOfThreads) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 3);
+  const ThreadScope one(1);
+  const auto alone = mean_value_coordinates(sample.cage, sample.mesh.points);
+  const ThreadScope three(3);
+  EXPECT_EQ(mean_value_coordinates(sample.cage, sample.mesh.points), alone);
+}
+
+TYPED_TEST(MeanValueTest, NoPointsAndPointsThatAreNone) {
+  constexpr int kDim = TypeParam::value;
+  const auto cage = box_cage<kDim>(1);
+  EXPECT_EQ(mean_value_coordinates(cage, PointList<kDim>(kDim, 0)).rows(), cage.size());
+  PointList<kDim> points = PointList<kDim>::Zero(kDim, 3);
+  points(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  try {
+    mean_value_coordinates(cage, points);
+    FAIL() << "took nan for a point";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("point 2 at (0, nan"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

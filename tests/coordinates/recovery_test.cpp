@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/harmonic.h"
+#include "flbc/recovery.h"
+
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "base/aligned_array.h"
+#include "base/parallel.h"
+#include "mesh/cell_geometry.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class RecoveryTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(RecoveryTest, Dimensions);
+
+// Gradients of weights in the layout of the solver, padded by two numbers of rubbish.
+template <class Scalar, int Dim>
+struct Gradients {
+  std::vector<Scalar> numbers;
+  CellFieldView<Scalar, Dim> view;
+
+  Gradients(const DomainMesh<Dim>& mesh, const WeightMatrix& weights) {
+    const auto stride = static_cast<std::size_t>(weights.rows()) + 2;
+    numbers.assign(mesh.num_cells() * Dim * stride, Scalar(1e30f));
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      const auto geometry = cell_geometry(mesh, s);
+      for (Index i = 0; i < weights.rows(); ++i) {
+        Vector<Dim> gradient = Vector<Dim>::Zero();
+        for (int k = 0; k <= Dim; ++k) {
+          gradient += weights(i, mesh.cells(k, s)) * geometry.hat_gradients.col(k);
+        }
+        for (int d = 0; d < Dim; ++d) {
+          numbers[(static_cast<std::size_t>(s) * Dim + d) * stride + i] =
+              static_cast<Scalar>(gradient[d]);
+        }
+      }
+    }
+    view = {numbers.data(), stride, static_cast<Index>(weights.rows())};
+  }
+};
+
+// Weights that obey every constraint, with something added inside that keeps sums and reproduction.
+template <int Dim>
+WeightMatrix feasible_weights(const LbcProblem<Dim>& problem) {
+  auto weights = harmonic_coordinates(problem);
+  const Eigen::MatrixXd constraints =
+      (Eigen::MatrixXd(Dim + 1, problem.num_control_points())
+           << Eigen::RowVectorXd::Ones(problem.num_control_points()),
+       problem.cage.points)
+          .finished();
+  const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(constraints).kernel();
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] >= 0) continue;
+    for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
+      weights.col(v) +=
+          0.1 * std::sin(1.0 + static_cast<double>(v * (k + 1))) * kernel.col(k).normalized();
+    }
+  }
+  return weights;
+}
+
+TYPED_TEST(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto weights = feasible_weights(problem);
+    const Gradients<double, kDim> exact(problem.mesh, weights);
+    const Gradients<float, kDim> rounded(problem.mesh, weights);
+    const auto difference = [&](const WeightMatrix& other) {
+      return (other - weights).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(difference(integrate_breadth_first(problem, exact.view)), 1e-11);
+    EXPECT_LT(difference(integrate_least_squares(problem, exact.view)), 1e-11);
+    EXPECT_LT(difference(integrate_breadth_first(problem, rounded.view)), 1e-4);
+    EXPECT_LT(difference(integrate_least_squares(problem, rounded.view)), 1e-4);
+  }
+}
+
+TYPED_TEST(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrable) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto weights = feasible_weights(problem);
+  Gradients<float, kDim> gradients(problem.mesh, weights);
+  for (std::size_t k = 0; k < gradients.numbers.size(); ++k) {
+    gradients.numbers[k] *= 1 + 0.1f * std::sin(static_cast<float>(k));
+  }
+  const auto breadth_first = integrate_breadth_first(problem, gradients.view);
+  for (const auto& recovered : {breadth_first, integrate_least_squares(problem, gradients.view)}) {
+    const auto judgement = judge(problem.cage, problem.mesh, recovered);
+    EXPECT_LT(judgement.partition_error, 1e-13);
+    EXPECT_LT(judgement.reproduction_error, 1e-13);
+    EXPECT_EQ(judgement.lagrange_error, 0);
+    EXPECT_LT(judgement.linearity_error, 1e-11);
+  }
+  const ThreadScope one_thread(1);
+  EXPECT_TRUE(
+      (integrate_breadth_first(problem, gradients.view).array() == breadth_first.array()).all());
+}
+
+TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrincipleAndTheConstraints) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto judgement = judge(problem.cage, problem.mesh, harmonic_coordinates(problem), 1e-12);
+    EXPECT_LT(judgement.partition_error, 1e-13);
+    EXPECT_LT(judgement.reproduction_error, 1e-13);
+    EXPECT_EQ(judgement.lagrange_error, 0);
+    EXPECT_LT(judgement.linearity_error, 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/check.h"
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "flbc/cage_facts.h"
+#include "flbc/coordinates.h"
+#include "flbc/errors.h"
+#include "flbc/quality.h"
+#include "flbc/violations.h"
+#include "support/code_cages.h"
+#include "support/harmonic_weights.h"
+#include "support/hollow_sample.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+#include "support/simplex.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class CheckTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(CheckTest, Dimensions);
+
+// A sample with sound weights at its vertices.
+template <int Dim>
+struct Weighted {
+  Sample<Dim> sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
+  WeightMatrix weights = harmonic_weights(sample);
+
+  WeightCheck<Dim> check() const { return check_weights(sample.cage, sample.mesh, weights); }
+  Index first_vertex(bool inside) const {
+    const auto interior = interior_vertices(sample.mesh);
+    Index v = 0;
+    while (interior[v] != inside) ++v;
+    return v;
+  }
+};
+
+template <int Dim>
+void expect_one_violation(const WeightCheck<Dim>& check, const std::string& words) {
+  const auto violations = find_violations(check);
+  ASSERT_EQ(violations.size(), 1);
+  EXPECT_NE(violations.front().find(words), std::string::npos) << violations.front();
+}
+
+TYPED_TEST(CheckTest, SoundWeightsAreSound) {
+  constexpr int kDim = TypeParam::value;
+  auto all = samples<kDim>();
+  all.push_back(make_hollow_sample<kDim>());
+  for (const auto& sample : all) {
+    SCOPED_TRACE(sample.name);
+    const auto weights = harmonic_weights(sample);
+    const auto check = check_weights(sample.cage, sample.mesh, weights);
+    EXPECT_EQ(find_violations(check), std::vector<std::string>());
+    EXPECT_EQ(check.points, sample.mesh.num_vertices());
+    EXPECT_EQ(check.control_points, sample.cage.size());
+    EXPECT_EQ(check.control_points_found, sample.cage.size());
+    EXPECT_EQ(check.non_finite, 0);
+    ASSERT_TRUE(check.mesh.has_value());
+    EXPECT_EQ(check.points_on_cage + check.mesh->interior_vertices, sample.mesh.num_vertices());
+    // They are harmonic coordinates themselves.
+    EXPECT_NEAR(check.mesh->total_variation, check.mesh->harmonic_total_variation,
+                1e-9 * check.mesh->total_variation);
+    EXPECT_NEAR(check.mesh->influence_ratio, 1, 1e-3);
+  }
+}
+
+// Everything that the judge measures, too, in code of its own, on weights without any property.
+TYPED_TEST(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const WeightMatrix weights =
+        harmonic_weights(sample) +
+        0.05 * WeightMatrix::Random(sample.cage.size(), sample.mesh.num_vertices());
+    const auto check = check_weights(sample.cage, sample.mesh, weights);
+    const auto judgement = judge(sample.cage, sample.mesh, weights, 1e-6);
+    EXPECT_EQ(check.min_weight.value, judgement.min_weight);
+    EXPECT_NEAR(check.partition.value, judgement.partition_error, 1e-13);
+    EXPECT_NEAR(check.reproduction.value, judgement.reproduction_error, 1e-13);
+    EXPECT_EQ(check.reproduction.place, judgement.worst_reproduced);
+    EXPECT_NEAR(check.lagrange.value, judgement.lagrange_error, 1e-12);
+    EXPECT_NEAR(check.linearity.value, judgement.linearity_error, 1e-9);
+    EXPECT_EQ(check.control_points_found, judgement.control_points_found);
+    EXPECT_EQ(check.mesh->local_minima, judgement.local_minima);
+    EXPECT_EQ(check.mesh->local_maxima, judgement.local_maxima);
+    const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(sample.cage.size(), sample.mesh.num_cells());
+    const double variation = testing::objective(sample.mesh, weights, ones);
+    EXPECT_NEAR(check.mesh->total_variation, variation, 1e-12 * variation);
+
+    const auto quality = measure_quality(sample.cage.points, sample.mesh.points, weights);
+    EXPECT_EQ(check.quality.min_weight, quality.min_weight);
+    EXPECT_EQ(check.quality.mean_influences, quality.mean_influences);
+    EXPECT_NEAR(check.quality.max_partition_error, quality.max_partition_error, 1e-14);
+    EXPECT_NEAR(check.quality.max_reproduction_error, quality.max_reproduction_error, 1e-14);
+  }
+}
+
+TYPED_TEST(CheckTest, EveryViolationIsFoundWhereItIs) {
+  constexpr int kDim = TypeParam::value;
+  const Weighted<kDim> sound;
+  const auto& mesh = sound.sample.mesh;
+  const auto judgement = judge(sound.sample.cage, mesh, sound.weights);
+  const Index inside = sound.first_vertex(true);
+  auto broken = sound;
+
+  broken.weights(3, inside) += 1e-5;
+  auto check = broken.check();
+  EXPECT_NEAR(check.partition.value, 1e-5, 1e-12);
+  EXPECT_EQ(check.partition.point, inside);
+  EXPECT_EQ(check.partition.place, mesh.points.col(inside));
+  EXPECT_EQ(check.reproduction.point, inside);
+  EXPECT_GT(check.reproduction.value, 1e-7);
+  EXPECT_EQ(find_violations(check).front().find("the weights of point " + std::to_string(inside) +
+                                                " at ("),
+            0);
+
+  broken = sound;  // the sum stays
+  broken.weights(0, inside) += 0.25;
+  broken.weights(1, inside) -= 0.25;
+  check = broken.check();
+  EXPECT_EQ(check.reproduction.point, inside);
+  EXPECT_LT(check.partition.value, 1e-12);
+  expect_one_violation(check, "do not reproduce it");
+
+  Index at_control_point = 0;
+  (mesh.points.colwise() - sound.sample.cage.points.col(2))
+      .colwise()
+      .norm()
+      .minCoeff(&at_control_point);
+  broken = sound;
+  broken.weights(2, at_control_point) = 0.5;
+  check = broken.check();
+  EXPECT_EQ(check.lagrange.point, at_control_point);
+  EXPECT_EQ(check.lagrange.control_point, 2);
+  EXPECT_NEAR(check.lagrange.value, 0.5, 1e-9);
+  EXPECT_EQ(find_violations(check).size(), 4);
+
+  const Index on_facet = [&] {
+    Index v = 0;
+    const auto interior = interior_vertices(mesh);
+    while (interior[v] || sound.weights.col(v).maxCoeff() > 0.9) ++v;
+    return v;
+  }();
+  broken = sound;
+  Index strongest = 0;
+  broken.weights.col(on_facet).maxCoeff(&strongest);
+  broken.weights(strongest, on_facet) += 1e-3;
+  check = broken.check();
+  EXPECT_EQ(check.linearity.point, on_facet);
+  EXPECT_EQ(check.linearity.control_point, strongest);
+  EXPECT_NEAR(check.linearity.value, 1e-3, 1e-9);
+  EXPECT_LT(check.lagrange.value, 1e-9);
+  EXPECT_LT(judgement.linearity_error, 1e-9);
+}
+
+TYPED_TEST(CheckTest, NegativeWeightsAreCountedAndNoViolation) {
+  constexpr int kDim = TypeParam::value;
+  Cage<kDim> cage = box_cage<kDim>(1);
+  const PointList<kDim> centre = PointList<kDim>::Zero(kDim, 2);
+  WeightMatrix weights = WeightMatrix::Constant(cage.size(), 2, 1.0 / cage.size());
+  // The difference of two diagonals' ends reproduces zero.
+  const double shift = 0.5;
+  weights(0, 1) -= shift;
+  weights(cage.size() - 1, 1) -= shift;
+  weights(1, 1) += shift;
+  weights(cage.size() - 2, 1) += shift;
+  auto check = check_weights(cage, centre, weights);
+  EXPECT_EQ(find_violations(check), std::vector<std::string>());
+  EXPECT_EQ(check.negative, 2);
+  EXPECT_EQ(check.min_weight.point, 1);
+  EXPECT_EQ(check.min_weight.control_point, 0);
+  EXPECT_EQ(check.min_weight.value, weights.minCoeff());
+  EXPECT_EQ(check.max_weight.control_point, 1);
+  EXPECT_EQ(check.influences.value, cage.size());
+  EXPECT_EQ(check.influences.point, 0);
+  EXPECT_FALSE(check.mesh.has_value());
+  EXPECT_EQ(check.points_on_cage, 0);
+  EXPECT_EQ(check.linearity.point, -1);
+
+  weights.col(1) = weights.col(0);
+  weights(0, 1) = -1e-14;  // rounding
+  EXPECT_EQ(check_weights(cage, centre, weights).negative, 0);
+}
+
+TYPED_TEST(CheckTest, WeightsThatAreNoNumbersAreSetApart) {
+  constexpr int kDim = TypeParam::value;
+  auto broken = Weighted<kDim>();
+  const Index v = broken.first_vertex(true);
+  broken.weights(4, v) = std::numeric_limits<double>::quiet_NaN();
+  broken.weights(5, v) = std::numeric_limits<double>::infinity();
+  const auto check = broken.check();
+  EXPECT_EQ(check.non_finite, 2);
+  EXPECT_EQ(check.first_non_finite.point, v);
+  EXPECT_EQ(check.first_non_finite.control_point, 4);
+  EXPECT_LT(check.partition.value, 1e-12);
+  EXPECT_LT(check.reproduction.value, 1e-12);
+  expect_one_violation(check,
+                       "2 weights are not finite, the first is the weight for control point "
+                       "4 at point " +
+                           std::to_string(v));
+}
+
+TYPED_TEST(CheckTest, PointsOnTheCageAreFoundByGeometry) {
+  constexpr int kDim = TypeParam::value;
+  const auto cage = make_sample<kDim>(Shape::kCorner, 1).cage;
+  // The middle of every facet, two control points, and a point inside.
+  const auto num_facets = static_cast<Index>(cage.facets.cols());
+  WeightMatrix weights = WeightMatrix::Zero(cage.size(), num_facets + 3);
+  for (Index f = 0; f < num_facets; ++f) {
+    for (int k = 0; k < kDim; ++k) weights(cage.facets(k, f), f) += 1.0 / kDim;
+  }
+  weights(1, num_facets) = weights(4, num_facets + 1) = 1;
+  weights.col(num_facets + 2).setConstant(1.0 / cage.size());
+  PointList<kDim> points = cage.points * weights;
+  points.rightCols(1).setConstant(0.4);
+  points.col(0).array() += 1e-12;   // still on the cage
+  points.col(1).array() += 1.1e-7;  // no longer, at least not in the plane of the facet
+  weights.col(1).setConstant(1.0 / cage.size());
+
+  auto check = check_weights(cage, points, weights);
+  EXPECT_EQ(check.points_on_cage, num_facets + 1);
+  EXPECT_EQ(check.control_points_found, 2);
+  EXPECT_LT(check.linearity.value, 1e-11);
+  EXPECT_LT(check.lagrange.value, 1e-12);
+
+  weights(0, num_facets + 1) = 0.125;
+  check = check_weights(cage, points, weights);
+  EXPECT_EQ(check.lagrange.value, 0.125);
+  EXPECT_EQ(check.lagrange.point, num_facets + 1);
+  EXPECT_EQ(check.lagrange.control_point, 0);
+  weights(0, num_facets - 1) += 0.25;
+  check = check_weights(cage, points, weights);
+  EXPECT_NEAR(check.linearity.value, 0.25, 1e-12);
+  EXPECT_EQ(check.linearity.point, num_facets - 1);
+}
+
+TYPED_TEST(CheckTest, ExtremaCountFromAMarginOn) {
+  constexpr int kDim = TypeParam::value;
+  Weighted<kDim> sound;
+  sound.sample = make_sample<kDim>(Shape::kBox, 5);  // of right angles, so none to begin with
+  sound.weights = harmonic_weights(sound.sample);
+  const auto before = sound.check();
+  const Index v = sound.first_vertex(true);
+  double highest = -1, lowest = 2;  // of w_0 at the neighbours
+  for (Index s = 0; s < sound.sample.mesh.num_cells(); ++s) {
+    if ((sound.sample.mesh.cells.col(s).array() != v).all()) continue;
+    for (const Index w : sound.sample.mesh.cells.col(s)) {
+      if (w == v) continue;
+      highest = std::max(highest, sound.weights(0, w));
+      lowest = std::min(lowest, sound.weights(0, w));
+    }
+  }
+  const auto count = [&](double value, bool maxima) {
+    auto changed = sound;
+    changed.weights(0, v) = value;
+    const auto check = changed.check();
+    const auto& found = maxima ? check.mesh->local_maxima : check.mesh->local_minima;
+    const auto& place = maxima ? check.mesh->highest_maximum : check.mesh->deepest_minimum;
+    if (found[0] > 0) {
+      EXPECT_EQ(place.point, v);
+      EXPECT_EQ(place.control_point, 0);
+    }
+    return found[0];
+  };
+  EXPECT_EQ(before.mesh->highest_maximum.point, -1);
+  EXPECT_EQ(before.mesh->deepest_minimum.point, -1);
+  EXPECT_EQ(count(highest + 2e-6, true), 1);
+  EXPECT_EQ(count(highest + 5e-7, true), 0);
+  EXPECT_EQ(count(lowest - 2e-6, false), 1);
+  EXPECT_EQ(count(lowest - 5e-7, false), 0);
+}
+
+TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
+  constexpr int kDim = TypeParam::value;
+  const Weighted<kDim> sound;
+  const auto& [cage, mesh, name] = sound.sample;
+  const auto message = [](const auto& action) -> std::string {
+    try {
+      action();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const PointList<kDim> fewer = mesh.points.leftCols(7);
+  EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("there are 7 points"),
+            std::string::npos);
+  const WeightMatrix other = sound.weights.topRows(5);
+  EXPECT_NE(message([&] { check_weights(cage, mesh, other); }).find("for 5 control points"),
+            std::string::npos);
+  auto moved = mesh;
+  moved.points.array() += 0.5;
+  EXPECT_NE(message([&] { check_weights(cage, moved, sound.weights); }).find("on the cage"),
+            std::string::npos);
+}
+
+TYPED_TEST(CheckTest, SameResultForAnyNumberOfThreads) {
+  constexpr int kDim = TypeParam::value;
+  Weighted<kDim> weighted;
+  weighted.weights += 0.01 * WeightMatrix::Random(weighted.weights.rows(), weighted.weights.cols());
+  const auto with = [&](int threads) {
+    const ThreadScope scope(threads);
+    return weighted.check();
+  };
+  const auto one = with(1), three = with(3);
+  EXPECT_EQ(one.mesh->total_variation, three.mesh->total_variation);
+  EXPECT_EQ(one.reproduction.value, three.reproduction.value);
+  EXPECT_EQ(one.reproduction.point, three.reproduction.point);
+  EXPECT_EQ(one.mesh->local_minima, three.mesh->local_minima);
+}
+
+TYPED_TEST(CheckTest, FactsOfNestedBoxes) {
+  constexpr int kDim = TypeParam::value;
+  const Cage<kDim> outer = box_cage<kDim>(1), hole = box_cage<kDim>(0.6),
+                   core = box_cage<kDim>(0.3);
+  const Vector<kDim> far = Vector<kDim>::Constant(1000);
+  for (const auto& cage :
+       {join(join(hole, core), outer), join(join(reversed(hole), core), outer)}) {
+    Cage<kDim> moved = cage;
+    moved.points.colwise() += far;
+    const auto facts = measure_cage(moved);
+    EXPECT_EQ(facts.parts, 2);
+    EXPECT_EQ(facts.holes, 1);
+    EXPECT_NEAR(facts.size, 2 * std::sqrt(kDim), 1e-12);
+    const double expected = std::pow(2, kDim) - std::pow(1.2, kDim) + std::pow(0.6, kDim);
+    EXPECT_NEAR(facts.measure, expected, 1e-9);
+    EXPECT_NEAR(facts.shortest_edge, 0.6, 1e-9);
+    EXPECT_EQ(facts.shortest_ends[0] / hole.size(), 1);  // both in the core
+    EXPECT_EQ(facts.shortest_ends[1] / hole.size(), 1);
+    EXPECT_NEAR(
+        (moved.points.col(facts.shortest_ends[0]) - moved.points.col(facts.shortest_ends[1]))
+            .norm(),
+        0.6, 1e-9);
+  }
+}
+
+TYPED_TEST(CheckTest, PointsOutsideAreNamed) {
+  constexpr int kDim = TypeParam::value;
+  const auto cage = join(box_cage<kDim>(1), box_cage<kDim>(0.5));
+  PointList<kDim> points = PointList<kDim>::Zero(kDim, 6);
+  points.row(0) << 0.75, 0.25, 1.5, 1, 1 + 1e-8, -1 - 1e-5;
+  EXPECT_EQ(points_outside(cage, points), (std::vector<Index>{1, 2, 5}));
+  EXPECT_TRUE(points_outside(cage, PointList<kDim>(kDim, 0)).empty());
+}
+
+}  // namespace
+}  // namespace flbc::testing

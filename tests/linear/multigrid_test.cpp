@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linear/multigrid.h"
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "flbc/solver.h"
+#include "problem/laplacian.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr std::size_t kStride = 24;
+
+// The stiffness matrix on the interior vertices: what the splitting solves.
+template <int Dim>
+RowMatrix interior_matrix(Shape shape, Index subdivisions, double perturbation) {
+  const auto sample = make_sample<Dim>(shape, subdivisions, perturbation);
+  const auto on_boundary =
+      boundary_vertices(build_topology(sample.mesh), sample.mesh.num_vertices());
+  std::vector<Index> place(on_boundary.size(), -1);
+  Index count = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (!on_boundary[v]) place[v] = count++;
+  }
+  const auto stiffness = stiffness_matrix(sample.mesh);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Index v = 0; v < stiffness.cols(); ++v) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
+      if (place[v] < 0 || place[it.row()] < 0) continue;
+      entries.emplace_back(place[it.row()], place[v], it.value());
+    }
+  }
+  RowMatrix matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+template <class Scalar>
+using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+RowMajor<double> random_rows(Eigen::Index size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return RowMajor<double>::NullaryExpr(size, kStride, [&] { return uniform(random); });
+}
+
+template <class Scalar>
+RowMajor<double> cycle(Multigrid<Scalar>& multigrid, const RowMajor<double>& right_side) {
+  AlignedArray<Scalar> rows(static_cast<std::size_t>(right_side.size()));
+  Eigen::Map<RowMajor<Scalar>> map(rows.data(), right_side.rows(), kStride);
+  map = right_side.cast<Scalar>();
+  multigrid.cycle_slice(rows.data(), 0, kStride);
+  return map.template cast<double>();
+}
+
+// The slowest of the errors e <- (I - B^-1 A) e after some steps, measured as |e|_A.
+double contraction(const RowMatrix& matrix, Multigrid<double>& multigrid) {
+  RowMajor<double> error = random_rows(matrix.rows(), 7);
+  double factor = 1;
+  for (int step = 0; step < 15; ++step) {
+    const double before = std::sqrt(error.cwiseProduct(matrix * error).sum());
+    error -= cycle(multigrid, matrix * error);
+    factor = std::sqrt(error.cwiseProduct(matrix * error).sum()) / before;
+    error /= before;
+  }
+  return factor;
+}
+
+template <class Dimension>
+class MultigridTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(MultigridTest, Dimensions);
+
+TYPED_TEST(MultigridTest, ContractsAlikeOnCoarseAndFineMeshes) {
+  constexpr int kDim = TypeParam::value;
+  for (const double perturbation : {0.0, 0.25}) {
+    for (const Index subdivisions : {kDim == 2 ? 60 : 16, kDim == 2 ? 200 : 36}) {
+      const auto matrix = interior_matrix<kDim>(Shape::kBox, subdivisions, perturbation);
+      Multigrid<double> multigrid(matrix, kStride);
+      EXPECT_LT(contraction(matrix, multigrid), 0.75) << subdivisions << ' ' << perturbation;
+      EXPECT_LT(multigrid.operator_complexity(), 1.6);
+    }
+  }
+}
+
+TYPED_TEST(MultigridTest, IsLinearAndSymmetric) {
+  constexpr int kDim = TypeParam::value;
+  const auto matrix = interior_matrix<kDim>(Shape::kCorner, kDim == 2 ? 50 : 12, 0.2);
+  Multigrid<double> multigrid(matrix, kStride);
+  const auto x = random_rows(matrix.rows(), 1);
+  const auto y = random_rows(matrix.rows(), 2);
+  const auto bx = cycle(multigrid, x);
+  const auto by = cycle(multigrid, y);
+  const RowMajor<double> combined = cycle<double>(multigrid, 2 * x - 3 * y);
+  EXPECT_LT((combined - (2 * bx - 3 * by)).norm(), 1e-12 * combined.norm());
+  const Eigen::RowVectorXd xby = x.cwiseProduct(by).colwise().sum();
+  const Eigen::RowVectorXd bxy = bx.cwiseProduct(y).colwise().sum();
+  EXPECT_LT((xby - bxy).norm(), 1e-11 * bx.norm() * y.norm());
+  // B >= A: a cycle never goes too far, which keeps a splitting method convergent.
+  const Eigen::RowVectorXd energy = bx.cwiseProduct(matrix * bx).colwise().sum();
+  const Eigen::RowVectorXd work = bx.cwiseProduct(x).colwise().sum();
+  EXPECT_TRUE((energy.array() <= work.array() * (1 + 1e-12)).all());
+  EXPECT_TRUE((energy.array() > 0).all());
+}
+
+TYPED_TEST(MultigridTest, SinglePrecisionIsTheSameCycle) {
+  constexpr int kDim = TypeParam::value;
+  const auto matrix = interior_matrix<kDim>(Shape::kRing, kDim == 2 ? 24 : 6, 0);
+  Multigrid<double> exact(matrix, kStride);
+  Multigrid<float> multigrid(matrix, kStride);
+  const auto x = random_rows(matrix.rows(), 3);
+  EXPECT_LT((cycle(multigrid, x) - cycle(exact, x)).norm(), 1e-5 * cycle(exact, x).norm());
+}
+
+TYPED_TEST(MultigridTest, EverySliceGivesTheSameBits) {
+  constexpr int kDim = TypeParam::value;
+  const auto matrix = interior_matrix<kDim>(Shape::kBox, kDim == 2 ? 50 : 14, 0.2);
+  Multigrid<float> multigrid(matrix, kStride);
+  const RowMajor<float> right_side = random_rows(matrix.rows(), 4).template cast<float>();
+  const auto run = [&](std::initializer_list<std::size_t> borders) {
+    AlignedArray<float> rows(static_cast<std::size_t>(right_side.size()));
+    std::copy_n(right_side.data(), right_side.size(), rows.data());
+    for (auto end = borders.begin() + 1; end != borders.end(); ++end) {
+      multigrid.cycle_slice(rows.data(), end[-1], *end);
+    }
+    return rows;
+  };
+  const auto whole = run({0, kStride});
+  for (const auto& pieces : {run({0, 8, kStride}), run({0, 16, kStride}), run({0, 8, 16, 24})}) {
+    EXPECT_EQ(std::memcmp(whole.data(), pieces.data(), whole.size() * sizeof(float)), 0);
+  }
+}
+
+// The optimum does not depend on how the linear systems are solved.
+TYPED_TEST(MultigridTest, LeavesTheOptimumWhereItIs) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    SolverOptions options;
+    options.tolerance = 1e-9;
+    options.certify = true;
+    options.linear_solver = LinearSolver::kDirect;
+    const auto direct = solve(problem, options);
+    options.linear_solver = LinearSolver::kMultigrid;
+    const auto multigrid = solve(problem, options);
+    EXPECT_EQ(multigrid.report.status, SolveStatus::kConverged);
+    const double squared = (direct.weights - multigrid.weights).squaredNorm() /
+                           static_cast<double>(direct.weights.size());
+    EXPECT_LT(squared, 1e-8);
+    EXPECT_LE(multigrid.report.certificate.lower_bound,
+              direct.report.certificate.objective * (1 + 1e-12));
+    EXPECT_LT(multigrid.report.iterations, 3 * direct.report.iterations + 20);
+  }
+}
+
+TEST(MultigridOfDiagonalsTest, TakesMatricesThatCannotBeCoarsened) {
+  for (const Index size : {1, 3, 5000}) {
+    RowMatrix diagonal(size, size);
+    for (Index k = 0; k < size; ++k) diagonal.insert(k, k) = k + 1;
+    Multigrid<double> multigrid(diagonal, kStride);
+    const auto x = random_rows(size, 5);
+    const RowMajor<double> solved = cycle(multigrid, x);
+    EXPECT_LT((diagonal * solved - x).norm(), 1e-12 * x.norm()) << size;
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/tetgen/isolated_process.h"
+
+#include <dirent.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace flbc {
+namespace {
+
+int count_open_files() {
+  DIR* directory = opendir("/proc/self/fd");
+  if (directory == nullptr) return -1;
+  int count = 0;
+  while (readdir(directory) != nullptr) ++count;
+  closedir(directory);
+  return count;
+}
+
+bool has_child() {
+  return waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD;
+}
+
+// Checks after every test that nothing was left behind.
+class IsolatedProcessTest : public ::testing::Test {
+ protected:
+  void SetUp() override { open_before_ = count_open_files(); }
+  void TearDown() override {
+    EXPECT_EQ(count_open_files(), open_before_);
+    EXPECT_FALSE(has_child());
+  }
+
+ private:
+  int open_before_ = 0;
+};
+
+TEST_F(IsolatedProcessTest, OutputArrivesInOrderAndWhole) {
+  std::vector<int> numbers(1000000);  // much more than a pipe holds
+  std::iota(numbers.begin(), numbers.end(), 7);
+  const ProcessOutcome outcome = run_isolated(
+      [&](const ByteSink& send) {
+        const std::size_t half = numbers.size() / 2 * sizeof(int);
+        send(numbers.data(), half);
+        send(nullptr, 0);
+        send(reinterpret_cast<const char*>(numbers.data()) + half, half);
+      },
+      60);
+  ASSERT_EQ(outcome.end, ProcessEnd::kFinished);
+  const char* expected = reinterpret_cast<const char*>(numbers.data());
+  EXPECT_EQ(outcome.output, std::vector<char>(expected, expected + numbers.size() * sizeof(int)));
+}
+
+TEST_F(IsolatedProcessTest, ChangesInTheChildStayThere) {
+  int value = 1;
+  run_isolated([&](const ByteSink&) { value = 2; }, 60);
+  EXPECT_EQ(value, 1);
+}
+
+TEST_F(IsolatedProcessTest, CrashIsReportedWithItsSignal) {
+  for (int signal : {SIGSEGV, SIGABRT, SIGFPE}) {
+    const ProcessOutcome outcome = run_isolated([&](const ByteSink&) { raise(signal); }, 60);
+    EXPECT_EQ(outcome.end, ProcessEnd::kCrashed);
+    EXPECT_EQ(outcome.signal, signal);
+    EXPECT_NE(describe_signal(signal).find(std::to_string(signal)), std::string::npos);
+  }
+}
+
+TEST_F(IsolatedProcessTest, CrashIsReportedEvenIfTheParentHandlesTheSignal) {
+  const auto before = std::signal(SIGSEGV, [](int) { std::_Exit(0); });
+  const ProcessOutcome outcome = run_isolated([](const ByteSink&) { raise(SIGSEGV); }, 60);
+  std::signal(SIGSEGV, before);
+  EXPECT_EQ(outcome.end, ProcessEnd::kCrashed);
+}
+
+TEST_F(IsolatedProcessTest, ExceptionsEndTheChildOnly) {
+  const auto throw_int = [](const ByteSink&) { throw 1; };
+  EXPECT_EQ(run_isolated(throw_int, 60).end, ProcessEnd::kThrew);
+  const auto throw_error = [](const ByteSink&) { throw std::runtime_error("x"); };
+  EXPECT_EQ(run_isolated(throw_error, 60).end, ProcessEnd::kThrew);
+}
+
+TEST_F(IsolatedProcessTest, TimeLimitStopsASleeperAndABusyWriter) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto sleeper = [](const ByteSink&) {
+    std::this_thread::sleep_for(std::chrono::seconds(60));
+  };
+  EXPECT_EQ(run_isolated(sleeper, 0.2).end, ProcessEnd::kTimedOut);
+  const auto writer = [](const ByteSink& send) {
+    while (true) {
+      send("x", 1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  EXPECT_EQ(run_isolated(writer, 0.2).end, ProcessEnd::kTimedOut);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST_F(IsolatedProcessTest, WhatTheChildPrintsIsDiscarded) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  std::printf("parent ");  // buffered here, and must not come out twice
+  run_isolated(
+      [](const ByteSink&) {
+        std::printf("child");
+        std::fprintf(stderr, "child");
+        std::fflush(stdout);
+      },
+      60);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "parent ");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(IsolatedProcessTest, SignalsToTheParentDoNotDisturb) {
+  struct sigaction action {
+  }, before{};
+  action.sa_handler = [](int) {};
+  sigaction(SIGALRM, &action, &before);  // without SA_RESTART: system calls return EINTR
+  ualarm(20000, 20000);
+  const ProcessOutcome outcome = run_isolated(
+      [](const ByteSink& send) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        send("done", 4);
+      },
+      60);
+  ualarm(0, 0);
+  sigaction(SIGALRM, &before, nullptr);
+  EXPECT_EQ(outcome.end, ProcessEnd::kFinished);
+  EXPECT_EQ(std::string(outcome.output.begin(), outcome.output.end()), "done");
+}
+
+TEST_F(IsolatedProcessTest, RunsFromSeveralThreadsDoNotMix) {
+  std::vector<std::thread> threads;
+  std::vector<std::string> received(4);
+  for (std::size_t t = 0; t < received.size(); ++t) {
+    threads.emplace_back([&received, t] {
+      for (int run = 0; run < 10; ++run) {
+        const std::string text = std::to_string(t);
+        const auto outcome =
+            run_isolated([&](const ByteSink& send) { send(text.data(), text.size()); }, 60);
+        received[t].append(outcome.output.begin(), outcome.output.end());
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t t = 0; t < received.size(); ++t) {
+    EXPECT_EQ(received[t], std::string(10, char('0' + int(t))));
+  }
+}
+
+}  // namespace
+}  // namespace flbc

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Editing a rest cage: the same optima as from scratch, in fewer iterations, whatever the way.
+#include "flbc/editing.h"
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class EditingTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(EditingTest, Dimensions);
+
+constexpr double kTolerance = 1e-7;
+
+template <int Dim>
+Sample<Dim> sample_of(Shape shape = Shape::kCorner) {
+  return make_sample<Dim>(shape, Dim == 2 ? 16 : 5, 0.2);
+}
+
+SolverOptions tight() {
+  SolverOptions options;
+  options.tolerance = kTolerance;
+  return options;
+}
+
+// One control point moves by a part of the cage's size, in a direction of no symmetry.
+template <int Dim>
+PointList<Dim> with_one_moved(const Cage<Dim>& cage, double part, Index point = 2) {
+  PointList<Dim> moved = cage.points;
+  moved.col(point) += part * bounding_box_diagonal(cage.points) * Vector<Dim>::LinSpaced(0.9, 0.3).normalized();
+  return moved;
+}
+
+// All of them: a bend.
+template <int Dim>
+PointList<Dim> bent(const Cage<Dim>& cage, double part) {
+  PointList<Dim> moved = cage.points;
+  const double size = bounding_box_diagonal(cage.points);
+  moved.row(1).array() += part * size * (4 / size * cage.points.row(0).array()).sin();
+  return moved;
+}
+
+template <int Dim>
+WeightMatrix optimum(const EditableCoordinates<Dim>& coordinates) {
+  SolverOptions options;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-100;
+  options.max_iterations = 2000;
+  return solve(coordinates.cage(), coordinates.mesh(), options).weights;
+}
+
+TYPED_TEST(EditingTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto sample = sample_of<kDim>(shape);
+    for (const auto& control_points :
+         {with_one_moved(sample.cage, 0.002), with_one_moved(sample.cage, 0.03),
+          bent(sample.cage, 0.005)}) {
+      EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, tight());
+      const auto warm = coordinates.move(control_points);
+      const auto cold = solve(coordinates.cage(), coordinates.mesh(), tight());
+      EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
+      EXPECT_LT(warm.report.iterations, cold.report.iterations);
+      const auto exact = optimum(coordinates);
+      const auto& mesh = coordinates.mesh();
+      EXPECT_LT(mean_squared_difference(mesh, warm.weights, exact), 3 * kTolerance);
+      const auto judgement = judge(coordinates.cage(), mesh, warm.weights);
+      EXPECT_LT(judgement.partition_error, 1e-12);
+      EXPECT_LT(judgement.reproduction_error, 1e-12);
+      EXPECT_EQ(judgement.lagrange_error, 0);
+      EXPECT_LT(judgement.linearity_error, 1e-11);
+      EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
+      EXPECT_GE(judgement.min_weight, 0);
+    }
+  }
+}
+
+TYPED_TEST(EditingTest, TheMeshFollowsByTheFirstWeights) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, tight());
+  const WeightMatrix first = coordinates.solution().weights;
+  coordinates.move(with_one_moved(sample.cage, 0.01, 1));
+  const auto control_points = with_one_moved(sample.cage, 0.02);
+  coordinates.move(control_points);
+  EXPECT_LT((coordinates.mesh().points - control_points * first).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_TRUE(coordinates.cage().points == control_points);
+}
+
+TYPED_TEST(EditingTest, ThereAndBackIsWhereItStarted) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, tight());
+  const auto exact = optimum(coordinates);
+  for (const double part : {0.01, 0.02, 0.03, 0.02, 0.01}) {
+    coordinates.move(with_one_moved(sample.cage, part), {3, 0});
+  }
+  const auto back = coordinates.move(sample.cage.points);
+  EXPECT_LT((coordinates.mesh().points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_EQ(back.report.status, SolveStatus::kConverged);
+  EXPECT_LT(mean_squared_difference(sample.mesh, back.weights, exact), 3 * kTolerance);
+}
+
+TYPED_TEST(EditingTest, AfterAnchoringTheMeshFollowsByThePresentWeights) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh);
+  coordinates.move(with_one_moved(sample.cage, 0.03));
+  const auto before = coordinates.mesh().points;
+  const WeightMatrix weights = coordinates.solution().weights;
+  coordinates.anchor();
+  EXPECT_TRUE(coordinates.mesh().points == before);
+  const auto control_points = with_one_moved(sample.cage, 0.06);
+  coordinates.move(control_points);
+  EXPECT_LT((coordinates.mesh().points - control_points * weights).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TYPED_TEST(EditingTest, ABudgetEndsAStepAndRefiningGoesOn) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const auto control_points = with_one_moved(sample.cage, 0.03);
+  auto endless = tight();
+  endless.tolerance = 1e-30;
+  endless.max_iterations = 60;
+  EditableCoordinates<kDim> at_once(sample.cage, sample.mesh, endless);
+  at_once.move(control_points, {40, 0});
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, endless);
+  const auto& solution = coordinates.move(control_points, {10, 0});
+  EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
+  EXPECT_EQ(solution.report.iterations, 10);
+  EXPECT_GE(solution.report.quality.min_weight, 0);
+  EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
+  for (int frame = 0; frame < 3; ++frame) coordinates.refine({10, 0});
+  EXPECT_TRUE(coordinates.solution().weights == at_once.solution().weights);  // to the bit
+
+  EditableCoordinates<kDim> released(sample.cage, sample.mesh, tight());
+  EXPECT_EQ(released.move(control_points, {5, 0}).report.iterations, 5);
+  const auto& refined = released.refine();
+  EXPECT_EQ(refined.report.status, SolveStatus::kConverged);
+  EXPECT_LT(mean_squared_difference(released.mesh(), refined.weights, optimum(released)),
+            3 * kTolerance);
+}
+
+TYPED_TEST(EditingTest, ABudgetOfTimeLeavesUsableWeights) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  int calls = 0;
+  auto options = tight();
+  options.tolerance = 1e-30;  // never
+  options.check_interval = 7;
+  options.max_iterations = 60;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.iteration % 7, 0);
+    ++calls;
+    return true;
+  };
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options);
+  calls = 0;
+  const auto& shortest = coordinates.move(with_one_moved(sample.cage, 0.01), {0, 1e-9});
+  EXPECT_EQ(shortest.report.status, SolveStatus::kIterationLimit);
+  EXPECT_EQ(shortest.report.iterations, 1);
+  EXPECT_EQ(calls, 0);
+  EXPECT_LT(shortest.report.quality.max_reproduction_error, 1e-13);
+  const auto& longest = coordinates.move(with_one_moved(sample.cage, 0.02), {0, 1e9});
+  EXPECT_EQ(longest.report.iterations, 60);
+  EXPECT_EQ(calls, 8);
+}
+
+TYPED_TEST(EditingTest, RefusesFoldsAndStaysAsItWas) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, tight());
+  coordinates.move(with_one_moved(sample.cage, 0.01), {5, 0});
+  const auto points = coordinates.mesh().points;
+  const WeightMatrix weights = coordinates.solution().weights;
+  // Through the opposite side of the cage.
+  PointList<kDim> folded = sample.cage.points;
+  const Vector<kDim> center = folded.rowwise().mean();
+  folded.col(0) += 2.5 * (center - folded.col(0));
+  try {
+    coordinates.move(folded);
+    FAIL() << "a cell was turned over";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    const auto number = text.find("cell ");
+    ASSERT_NE(number, std::string::npos) << text;
+    const int cell = std::stoi(text.substr(number + 5));
+    // Indeed turned over.
+    DomainMesh<kDim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights,
+                          coordinates.mesh().cells};
+    EXPECT_LE(signed_measure(mesh, cell), 0) << text;
+    EXPECT_NE(text.find("("), std::string::npos) << text;
+  }
+  EXPECT_TRUE(coordinates.mesh().points == points);
+  EXPECT_TRUE(coordinates.cage().points == with_one_moved(sample.cage, 0.01));
+  EXPECT_TRUE(coordinates.solution().weights == weights);
+  // And goes on as if nothing had happened.
+  EditableCoordinates<kDim> other(sample.cage, sample.mesh, tight());
+  other.move(with_one_moved(sample.cage, 0.01), {5, 0});
+  EXPECT_TRUE(coordinates.refine({5, 0}).weights == other.refine({5, 0}).weights);
+}
+
+TYPED_TEST(EditingTest, RefusesWhatIsNoCageByName) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh);
+  const PointList<kDim> fewer = sample.cage.points.leftCols(sample.cage.size() - 1);
+  try {
+    coordinates.move(fewer);
+    FAIL() << "accepted too few control points";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(std::to_string(fewer.cols())), std::string::npos) << text;
+    EXPECT_NE(text.find(std::to_string(sample.cage.size())), std::string::npos) << text;
+  }
+  PointList<kDim> infinite = sample.cage.points;
+  infinite(1, 2) = std::nan("");
+  EXPECT_THROW(coordinates.move(infinite), InputError);
+  EXPECT_THROW(coordinates.move(sample.cage.points, {-1, 0}), OptionError);
+  EXPECT_THROW(coordinates.refine({0, -1}), OptionError);
+  EXPECT_THROW(coordinates.refine({0, std::nan("")}), OptionError);
+  EXPECT_TRUE(coordinates.mesh().points == sample.mesh.points);
+}
+
+// A callback that throws is the only way in which a solve fails in the middle here.
+TYPED_TEST(EditingTest, SurvivesASolveThatFails) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  bool fail = false;
+  auto options = tight();
+  options.progress = [&](const Progress&) {
+    if (fail) throw std::runtime_error("no more");
+    return true;
+  };
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options);
+  const WeightMatrix weights = coordinates.solution().weights;
+  fail = true;
+  EXPECT_THROW(coordinates.move(bent(sample.cage, 0.02)), std::runtime_error);
+  EXPECT_TRUE(coordinates.solution().weights == weights);
+  EXPECT_TRUE(coordinates.mesh().points == sample.mesh.points);
+  fail = false;
+  const auto refined = coordinates.refine();
+  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights, optimum(coordinates)),
+            3 * kTolerance);
+}
+
+TYPED_TEST(EditingTest, ThreadsDoNotChangeABit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const auto result = [&](int threads) {
+    auto options = tight();
+    options.threads = threads;
+    EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options);
+    coordinates.move(bent(sample.cage, 0.01), {6, 0});
+    coordinates.refine({6, 0});
+    return WeightMatrix(coordinates.move(with_one_moved(sample.cage, 0.01)).weights);
+  };
+  const auto one = result(1);
+  EXPECT_TRUE(result(2) == one);
+  EXPECT_TRUE(result(4) == one);
+}
+
+// Other methods work too; kGradient inherits as well.
+TYPED_TEST(EditingTest, EveryMethodFollows) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 8 : 3, 0.2);
+  for (const auto method : {Method::kGradient, Method::kPaper, Method::kLbc2014, Method::kHarmonic,
+                            Method::kMeanValue}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    SolverOptions options;
+    options.method = method;
+    options.max_iterations = 3000;
+    if (method == Method::kGradient) options.tolerance = 2e-4;
+    EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options);
+    const auto warm = coordinates.move(with_one_moved(sample.cage, 0.005));
+    const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
+    if (method == Method::kGradient) {
+      EXPECT_LT(warm.report.iterations, cold.report.iterations);
+      EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, cold.weights), 1e-3);
+    } else {
+      EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, cold.weights), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

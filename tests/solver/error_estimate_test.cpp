@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimate that Method::kValue stops by, on errors that are known because they are made up.
+#include "solver/splitting/error_estimate.h"
+
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace flbc::splitting {
+namespace {
+
+using Modes = std::vector<std::pair<double, std::complex<double>>>;  // amplitude, factor
+
+// Weights whose error is a sum of modes in directions of their own, each multiplied by its factor
+// in every iteration.
+struct MadeUpRun {
+  Modes modes;
+
+  std::complex<double> part(std::size_t mode, int iteration) const {
+    return modes[mode].first * std::pow(modes[mode].second, iteration);
+  }
+  double error(int iteration) const {
+    double sum = 0;
+    for (std::size_t m = 0; m < modes.size(); ++m) sum += std::norm(part(m, iteration));
+    return sum;
+  }
+  double difference(int iteration, int before) const {
+    double sum = 0;
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      sum += std::norm(part(m, iteration) - part(m, before));
+    }
+    return sum;
+  }
+};
+
+// Weights whose error shrinks as a power of the number of iterations.
+struct PowerRun {
+  double power;
+
+  double length(int iteration) const { return std::pow(1 + iteration, -power); }
+  double error(int iteration) const { return std::pow(length(iteration), 2); }
+  double difference(int iteration, int before) const {
+    return std::pow(length(iteration) - length(before), 2);
+  }
+};
+
+constexpr double kNever = 0;  // a tolerance that is not reached: no residual is asked for
+
+// Calls `check(iteration, estimate / error)` whenever there is a fresh estimate.
+template <class Run>
+void follow(const Run& run, int last, const std::function<void(int, double)>& check) {
+  constexpr int kSpan = WeightHistory<float>::kSpan;
+  ErrorEstimate estimate(false, kNever);
+  for (int k = 1; k <= last; ++k) {
+    const bool look = k >= kSpan && k % WeightHistory<float>::kStep == 0;
+    const double now =
+        estimate(k, run.difference(k, k - 1), look ? run.difference(k, k - kSpan) : -1);
+    if (look && k > 2 * kSpan) check(k, now / run.error(k));
+  }
+}
+
+TEST(ErrorEstimate, IsTheErrorOfADriftAndALittleMore) {
+  for (const double factor : {0.98, 0.985, 0.99}) {
+    follow(MadeUpRun{{{0.1, factor}}}, 500, [&](int k, double ratio) {
+      // Before it has shrunk much, it may as well shrink as a power of k.
+      const bool shows = -std::log(factor) * k > 3.2;
+      EXPECT_GT(ratio, 1.2) << factor << " at " << k;
+      EXPECT_LT(ratio, shows ? 1.3 : 12) << factor << " at " << k;
+    });
+  }
+}
+
+// Powers of the length; the mean squared error shrinks with twice the power.
+TEST(ErrorEstimate, IsNotMuchTooSmallWhereErrorsShrinkAsAPower) {
+  for (const double power : {0.5, 1.0, 2.0, 3.0}) {
+    follow(PowerRun{power}, 5000, [&](int k, double ratio) {
+      if (k < 250) return;  // a span is too large a part of the iterations
+      EXPECT_GT(ratio, power < 1 ? 0.2 : 0.28) << power << " at " << k;
+      EXPECT_LT(ratio, 3) << power << " at " << k;
+    });
+  }
+}
+
+TEST(ErrorEstimate, FollowsASlowPartOnceItShows) {
+  for (const double slow : {0.995, 0.998, 0.9995}) {
+    follow(MadeUpRun{{{1, 0.93}, {0.05, slow}}}, 3000, [&](int k, double ratio) {
+      if (k < 250) return;
+      // It shrinks to a third within 1 / rate iterations; farther than one and a half times the
+      // iterations there have been is not looked.
+      const double seen = std::min(1.0, std::pow(-1.5 * k * std::log(slow), 2));
+      EXPECT_GT(ratio, 0.9 * seen) << slow << " at " << k;
+      EXPECT_LT(ratio, 10) << slow << " at " << k;
+    });
+  }
+}
+
+// As on real meshes: many modes, the slower the weaker, of which slow ones remain in the end. (What
+// a single slow mode far from all others will do, nothing tells before it shows.)
+TEST(ErrorEstimate, IsNotMuchTooSmallWhereSlowPartsRemain) {
+  for (const double slowest : {0.02, 0.015, 0.01}) {
+    for (const double decay : {0.7, 0.5, 0.35}) {
+      MadeUpRun run;
+      double amplitude = 1;
+      for (double rate = 0.1; rate > slowest; rate /= 1.3, amplitude *= decay) {
+        run.modes.push_back({amplitude, std::exp(-rate)});
+      }
+      follow(run, 400, [&](int k, double ratio) {
+        EXPECT_GT(ratio, 1.0 / 3) << slowest << " with " << decay << " at " << k;
+        // While the error shrinks to nothing within a span, the difference is the error before.
+        EXPECT_LT(ratio, k < 100 ? 40 : 10) << slowest << " with " << decay << " at " << k;
+      });
+    }
+  }
+}
+
+TEST(ErrorEstimate, SeesThroughOscillations) {
+  for (const double period : {20.0, 40.0, 80.0}) {
+    const auto factor = std::polar(0.98, 2 * 3.14159265358979 / period);
+    follow(MadeUpRun{{{1, factor}, {0.5, std::conj(factor) * 0.99}, {0.02, 0.985}}}, 400,
+           [&](int k, double ratio) {
+             EXPECT_GT(ratio, 1.0 / 3) << period << " at " << k;
+             EXPECT_LT(ratio, k < 100 ? 100 : 50) << period << " at " << k;
+           });
+  }
+}
+
+TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
+  ErrorEstimate cold(false, kNever);
+  ErrorEstimate warm(true, kNever);
+  const double estimate = cold(1, 1e-9, -1);
+  EXPECT_GT(estimate, 1e-7);
+  EXPECT_GT(warm(1, 1e-9, -1), estimate);
+  EXPECT_LT(cold(2, 1e-10, -1), estimate);
+}
+
+TEST(ErrorEstimate, KeepsTheLastEstimateBetweenTwoLooks) {
+  ErrorEstimate estimate(false, kNever);
+  estimate(32, 1e-11, 1e-6);
+  const double last = estimate(40, 1e-11, 5e-7);
+  EXPECT_EQ(estimate(41, 1e-15, -1), last);
+  EXPECT_LT(estimate(48, 1e-11, 1e-7), last);
+}
+
+TEST(ErrorEstimate, PassesOnNumbersThatAreNotFinite) {
+  ErrorEstimate estimate(false, kNever);
+  EXPECT_TRUE(std::isnan(estimate(1, std::nan(""), -1)));
+  EXPECT_TRUE(std::isinf(estimate(2, INFINITY, -1)));
+}
+
+TEST(ErrorEstimate, CatchesRunsThatSpeedUpAgain) {
+  ErrorEstimate slow(false, kNever);
+  ErrorEstimate fast(false, kNever);
+  for (const auto estimate : {&slow, &fast}) {
+    (*estimate)(32, 1e-9, 1e-5);
+    (*estimate)(40, 1e-9, 1e-6);
+  }
+  EXPECT_GT(fast(48, 1e-8, 1e-7), 10 * slow(48, 1e-10, 1e-7));
+}
+
+TEST(ErrorEstimate, DoesNotEndWhereNothingShrinks) {
+  ErrorEstimate estimate(false, kNever);
+  for (int k = 32; k < 400; k += 8) {
+    EXPECT_GT(estimate(k, 1e-12, 1e-8), k > 40 ? 1e-7 : 1e-9);
+  }
+}
+
+// ---- what the weights do not show ---------------------------------------------------------------
+
+// Brings an estimate to where weights alone would end a run that promises 1e-6.
+int bring_to_the_end(ErrorEstimate& estimate) {
+  EXPECT_FALSE(estimate.wants_residual());
+  for (int k = 32;; k += 8) {
+    const double now = estimate(k, 1e-12, 1e-3 * std::pow(0.3, (k - 32) / 8));
+    if (estimate.wants_residual()) {
+      EXPECT_GT(now, 1e-6);
+      return k;
+    }
+    if (now <= 1e-6 || k > 1000) {
+      ADD_FAILURE() << "ends unconfirmed at " << k;
+      return k;
+    }
+  }
+}
+
+TEST(ErrorEstimate, IsConfirmedByASmallResidual) {
+  ErrorEstimate estimate(false, 1e-6);
+  const int k = bring_to_the_end(estimate);
+  EXPECT_LE(estimate(k + 1, 1e-12, -1, 1e-7), 1e-6);
+  EXPECT_FALSE(estimate.wants_residual());
+}
+
+TEST(ErrorEstimate, ALargeResidualKeepsARunGoing) {
+  ErrorEstimate estimate(false, 1e-6);
+  const int k = bring_to_the_end(estimate);
+  EXPECT_GT(estimate(k + 1, 1e-12, -1, 1e-3), 1e-5);
+  EXPECT_FALSE(estimate.wants_residual());  // not again at once
+  int next = k + 2;
+  for (; next < 2 * k && !estimate.wants_residual(); ++next) {
+    EXPECT_GT(estimate(next, 1e-12, next % 8 == 0 ? 1e-9 : -1), 1e-5) << next;
+  }
+  ASSERT_LT(next, 2 * k);
+  EXPECT_LE(estimate(next, 1e-12, -1, 1e-7), 1e-6);
+}
+
+TEST(ErrorEstimate, AResidualCountsMoreTheLongerItStays) {
+  const auto hidden = [](int iterations) {
+    ErrorEstimate estimate(false, 1e-6);
+    int k = 40;
+    for (; k < iterations; k += 8) estimate(k, 1e-12, 1e-3 * std::pow(0.9, k));
+    return estimate(k, 1e-12, 1e-20, 1e-3);
+  };
+  EXPECT_GT(hidden(80), 1e-3 / 40);
+  EXPECT_GT(hidden(1600), 10 * hidden(80));
+}
+
+TEST(ErrorEstimate, PassesOnResidualsThatAreNotFinite) {
+  ErrorEstimate estimate(false, 1e-6);
+  EXPECT_TRUE(std::isnan(estimate(bring_to_the_end(estimate) + 1, 1e-12, -1, std::nan(""))));
+}
+
+// ---- differences of weights ---------------------------------------------------------------------
+
+template <class Scalar>
+class WeightHistoryTest : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(WeightHistoryTest, Scalars);
+
+TYPED_TEST(WeightHistoryTest, ComparesWithTheWeightsASpanAgo) {
+  using History = WeightHistory<TypeParam>;
+  const std::vector<Index> vertices{0, 2, 3};  // vertex 1 is on the boundary
+  constexpr std::size_t kStride = 8;
+  History history(vertices, kStride);
+  std::vector<TypeParam> weights(4 * kStride);
+  for (int iteration = 0; iteration <= 200; ++iteration) {
+    for (std::size_t v = 0; v < 4; ++v) {
+      weights[v * kStride] = static_cast<TypeParam>(iteration * (v + 1));
+    }
+    weights[kStride] = static_cast<TypeParam>(1e6 * iteration);
+    const double difference = history(iteration, weights.data());
+    if (iteration % History::kStep != 0 || iteration < History::kSpan) {
+      EXPECT_LT(difference, 0) << iteration;
+    } else {
+      EXPECT_DOUBLE_EQ(difference, History::kSpan * History::kSpan * (1 + 9 + 16) / 3.0);
+    }
+  }
+}
+
+TYPED_TEST(WeightHistoryTest, ASampleOfALargeMeshServes) {
+  using History = WeightHistory<TypeParam>;
+  std::vector<Index> vertices(100000);
+  std::iota(vertices.begin(), vertices.end(), 0);
+  History history(vertices, 8);
+  std::vector<TypeParam> weights(8 * vertices.size());
+  history(0, weights.data());
+  double sum = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    weights[8 * v + 3] = static_cast<TypeParam>(std::sin(1e-4 * static_cast<double>(v)));
+    sum += std::pow(static_cast<double>(weights[8 * v + 3]), 2);
+  }
+  EXPECT_NEAR(history(History::kSpan, weights.data()), sum / 1e5, 0.01 * sum / 1e5);
+}
+
+}  // namespace
+}  // namespace flbc::splitting

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The compact iteration against the textbook one, iterate by iterate.
+#include "solver/gradient/gradient_admm.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "flbc/harmonic.h"
+#include "flbc/recovery.h"
+#include "support/hollow_sample.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+#include "support/textbook_admm.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class GradientAdmmTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(GradientAdmmTest, Dimensions);
+
+// A penalty that lets some balls of the Z-step be active and some not.
+template <int Dim>
+constexpr double kPenalty = Dim == 2 ? 100 : 10000;
+
+template <int Dim>
+TextbookAdmm<Dim> textbook_for(const LbcProblem<Dim>& problem,
+                               const gradient::GradientAdmm<double, Dim>& admm) {
+  TextbookInput<Dim> input;
+  input.control_points = problem.cage.points;
+  input.mesh = problem.mesh;
+  input.phi = problem.phi;
+  input.boundary_weights = demanded_boundary_weights(problem.cage, problem.mesh);
+  input.penalty = kPenalty<Dim>;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    input.initial_gradients.push_back(admm.gradients().cell(s));
+  }
+  return TextbookAdmm<Dim>(std::move(input));
+}
+
+template <int Dim>
+void expect_equal_iterates(const LbcProblem<Dim>& problem,
+                           gradient::GradientAdmm<double, Dim>& admm) {
+  auto textbook = textbook_for(problem, admm);
+  double largest = 0;
+  for (int iteration = 1; iteration <= 50; ++iteration) {
+    textbook.iterate();
+    const auto residuals = admm.residuals(admm.iterate());
+    double difference = 0;
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      const PointList<Dim> expected = textbook.gradient(s);
+      largest = std::max(largest, expected.cwiseAbs().maxCoeff());
+      difference =
+          std::max(difference, (admm.gradients().cell(s) - expected).cwiseAbs().maxCoeff());
+    }
+    ASSERT_LT(difference, 1e-10 * largest) << "iteration " << iteration;
+    EXPECT_NEAR(residuals.primal, textbook.primal_residual_norm(),
+                1e-6 * textbook.primal_residual_norm() + 1e-12);
+    EXPECT_NEAR(residuals.dual, textbook.dual_residual_norm(),
+                1e-6 * textbook.dual_residual_norm() + 1e-12 * kPenalty<Dim>);
+  }
+  EXPECT_EQ(admm.num_residual_components(),
+            static_cast<double>(textbook.num_residual_components()));
+}
+
+TYPED_TEST(GradientAdmmTest, EqualsTextbookFromLeastNorm) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
+    admm.start_from_least_norm();
+    expect_equal_iterates(problem, admm);
+  }
+}
+
+TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
+    gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
+    admm.start_from_weights(harmonic_coordinates(problem));
+    expect_equal_iterates(problem, admm);
+  }
+}
+
+// Over-relaxation changes the path, not the limit.
+TYPED_TEST(GradientAdmmTest, RelaxedIterationReachesTheSameOptimum) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 4 : 2, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto optimum = [&](double relaxation, int iterations) {
+    gradient::GradientAdmm<double, kDim> admm(problem, kDim == 2 ? 1e4 : 1e5, relaxation, {});
+    admm.start_from_least_norm();
+    for (int k = 0; k < iterations; ++k) admm.iterate();
+    return integrate_least_squares(problem, admm.gradients());
+  };
+  const auto plain = optimum(1, 6000);
+  const auto relaxed = optimum(1.8, 3000);
+  EXPECT_LT(mean_squared_difference(problem.mesh, plain, relaxed), 1e-7);
+}
+
+template <int Dim>
+double period_violation(const LbcProblem<Dim>& problem, const gradient::Period<Dim>& period,
+                        const gradient::GradientAdmm<double, Dim>& admm) {
+  Eigen::VectorXd sum = -period.values;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    sum += admm.gradients().cell(s).transpose() * period.field.col(s);
+  }
+  return sum.cwiseAbs().maxCoeff();
+}
+
+// Along a path from one boundary component to another, gradients must add up to the difference of
+// the boundary values; (8)-(10) alone leave that open.
+TYPED_TEST(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_hollow_sample<kDim>();
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto periods = gradient::boundary_periods(problem);
+  ASSERT_EQ(periods.size(), 1U);
+  const auto gap = [&](const std::vector<gradient::Period<kDim>>& used) {
+    gradient::GradientAdmm<double, kDim> admm(problem, kDim == 2 ? 1e4 : 1e5, 1.8, used);
+    admm.start_from_least_norm();
+    for (int k = 0; k < 1500; ++k) admm.iterate();
+    return period_violation(problem, periods[0], admm);
+  };
+  const double apart = gap({});
+  EXPECT_GT(apart, 1e-3 * periods[0].values.cwiseAbs().maxCoeff());
+  EXPECT_LT(gap(periods), 1e-2 * apart);
+}
+
+TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValues) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_hollow_sample<kDim>();
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  auto weights = demanded_boundary_weights(sample.cage, sample.mesh);
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.slot[v] < 0) weights.col(v).setRandom();
+  }
+  gradient::GradientAdmm<double, kDim> admm(problem, 1, 1, {});
+  admm.start_from_weights(weights);
+  for (const auto& period : gradient::boundary_periods(problem)) {
+    EXPECT_NEAR(period.field.norm(), 1, 1e-12);
+    EXPECT_LT(period_violation(problem, period, admm), 1e-12);
+  }
+}
+
+TYPED_TEST(GradientAdmmTest, SinglePrecisionFollowsDouble) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 2, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  gradient::GradientAdmm<float, kDim> single(problem, kPenalty<kDim>, 1, {});
+  gradient::GradientAdmm<double, kDim> exact(problem, kPenalty<kDim>, 1, {});
+  single.start_from_least_norm();
+  exact.start_from_least_norm();
+  double largest = 0;
+  double difference = 0;
+  for (int k = 0; k < 100; ++k) {
+    single.iterate();
+    exact.iterate();
+  }
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const auto expected = exact.gradients().cell(s);
+    largest = std::max(largest, expected.cwiseAbs().maxCoeff());
+    difference =
+        std::max(difference, (single.gradients().cell(s) - expected).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(difference, 1e-4 * largest);
+}
+
+TYPED_TEST(GradientAdmmTest, ThreadsDoNotChangeABit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto run = [&](int threads) {
+    const ThreadScope scope(threads);
+    gradient::GradientAdmm<float, kDim> admm(problem, 1000, 1.8, {});
+    admm.start_from_least_norm();
+    double residuals = 0;
+    for (int k = 0; k < 20; ++k) residuals += admm.residuals(admm.iterate()).primal;
+    Eigen::MatrixXd last = admm.gradients().cell(problem.mesh.num_cells() / 2);
+    return std::make_pair(residuals, last);
+  };
+  const auto one = run(1);
+  for (const int threads : {2, 4}) {
+    const auto many = run(threads);
+    EXPECT_EQ(one.first, many.first);
+    EXPECT_TRUE((one.second.array() == many.second.array()).all());
+  }
+}
+
+// All of an iteration's state: rows of gradients, flux and facets' pulls, to the bit.
+template <class Scalar, int Dim>
+std::vector<double> state_of(const LbcProblem<Dim>& problem,
+                             gradient::GradientAdmm<Scalar, Dim>& admm) {
+  std::vector<double> state;
+  const auto append = [&](const auto& matrix) {
+    const Eigen::MatrixXd numbers = matrix.template cast<double>();
+    state.insert(state.end(), numbers.data(), numbers.data() + numbers.size());
+  };
+  const auto flux = admm.flux();
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    append(admm.gradients().cell(s));
+    append(flux.cell(s));
+  }
+  for (Index f = 0; f < problem.topology.num_facets(); ++f) append(admm.facet_pull(f));
+  append(admm.period_factors());
+  return state;
+}
+
+// The same cells in an order without any locality.
+template <int Dim>
+DomainMesh<Dim> scattered(DomainMesh<Dim> mesh) {
+  std::vector<Index> order(mesh.num_cells());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  const CellList<Dim> cells = mesh.cells;
+  for (Index s = 0; s < mesh.num_cells(); ++s) mesh.cells.col(s) = cells.col(order[s]);
+  return mesh;
+}
+
+struct Run {
+  std::vector<double> state;
+  gradient::Residuals residuals;
+
+  bool operator==(const Run& other) const {
+    return state == other.state && residuals.primal == other.residuals.primal &&
+           residuals.dual == other.residuals.dual;
+  }
+};
+
+// From harmonic coordinates, so many iterations together at each step.
+template <class Scalar, int Dim>
+Run run_in_steps(const LbcProblem<Dim>& problem, int threads, const std::vector<int>& steps,
+                 double relaxation) {
+  const ThreadScope scope(threads);
+  gradient::GradientAdmm<Scalar, Dim> admm(problem, kPenalty<Dim>, relaxation,
+                                           gradient::boundary_periods(problem));
+  admm.start_from_weights(harmonic_coordinates(problem));
+  Run run;
+  for (const int count : steps) run.residuals = admm.residuals(admm.iterate(count));
+  run.state = state_of(problem, admm);
+  return run;
+}
+
+template <class Scalar, int Dim>
+void expect_same_bits(const LbcProblem<Dim>& problem, double relaxation) {
+  const auto expected = run_in_steps<Scalar>(problem, 1, {1, 1, 1, 1, 1, 1, 1}, relaxation);
+  for (const int threads : {1, 2, 3}) {
+    for (const auto& steps : {std::vector<int>{7}, {5, 2}, {1, 6}, {1, 1, 1, 1, 1, 1, 1}}) {
+      EXPECT_TRUE(run_in_steps<Scalar>(problem, threads, steps, relaxation) == expected)
+          << threads << " threads, " << steps.front() << " iterations at first";
+    }
+  }
+  // and the comparison sees a difference
+  EXPECT_FALSE(run_in_steps<Scalar>(problem, 1, {6}, relaxation) == expected);
+}
+
+// Parts of a mesh (of 512 cells at least) are swept by threads of their own.
+TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 16 : 6, 0.2);
+  ASSERT_GT(sample.mesh.num_cells(), 3 * 512);
+  for (const auto& mesh : {sample.mesh, scattered(sample.mesh)}) {
+    const auto problem = make_problem(sample.cage, mesh, DistanceScheme::kSquare);
+    expect_same_bits<float>(problem, 1.8);
+    expect_same_bits<float>(problem, 1);
+    expect_same_bits<double>(problem, 1);
+  }
+}
+
+TYPED_TEST(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_hollow_sample<kDim>();
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  ASSERT_EQ(gradient::boundary_periods(problem).size(), 1U);
+  expect_same_bits<float>(problem, 1.8);
+}
+
+TYPED_TEST(GradientAdmmTest, StateIsCompact) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 30 : 10, 0);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const gradient::GradientAdmm<float, kDim> admm(problem, 1, 1, {});
+  EXPECT_LE(admm.numbers_per_cell(), kDim == 2 ? 12 : 14);
+}
+
+}  // namespace
+}  // namespace flbc::testing

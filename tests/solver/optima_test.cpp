@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The library's solvers against optima of an interior-point method (tests/data/references): three
+// iterations and a fourth method that have nothing in common but the problem.
+#include <cmath>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/certificate.h"
+#include "flbc/coordinates.h"
+#include "flbc/quality.h"
+#include "flbc/solver.h"
+#include "solver/splitting/weight_splitting.h"
+#include "support/judge.h"
+#include "support/reference_optimum.h"
+#include "support/simplex.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class OptimaTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(OptimaTest, Dimensions);
+
+template <int Dim>
+LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
+  auto problem = make_problem(reference.cage, reference.mesh, DistanceScheme::kConstant);
+  problem.phi = reference.phi;
+  return problem;
+}
+
+// The penalties suit these small meshes and the long way to an accurate optimum; the automatic ones
+// suit larger meshes and fewer digits.
+template <int Dim>
+SolverOptions accurate(Method method, NonNegative non_negative) {
+  SolverOptions options;
+  options.method = method;
+  options.non_negative = non_negative;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-30;  // never: run to the end
+  options.max_iterations = 4000;
+  options.penalty = 300;
+  if (method == Method::kGradient) {
+    options.max_iterations = 30000;
+    options.penalty = Dim == 2 ? 1e5 : 1e6;
+  }
+  if (method == Method::kLbc2014) {
+    options.max_iterations = 8000;
+    options.penalty = Dim == 2 ? 3 : 0.03;
+  }
+  return options;
+}
+
+template <int Dim, class Variant>
+void expect_optimal(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
+                    const Variant& reference) {
+  const double objective =
+      testing::objective(problem.mesh, weights, problem.phi) / std::pow(problem.scale, Dim - 1);
+  EXPECT_NEAR(objective, reference.objective, 1e-6 * reference.objective);
+  EXPECT_LT((weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
+  for (const auto& reference : reference_optima<TypeParam::value>()) {
+    SCOPED_TRACE(reference.name);
+    const auto problem = problem_of(reference);
+    expect_optimal(
+        problem,
+        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kOff)).weights,
+        reference.unconstrained);
+    expect_optimal(
+        problem,
+        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kConstraint))
+            .weights,
+        reference.non_negative);
+  }
+}
+
+TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
+  for (const auto& reference : reference_optima<TypeParam::value>()) {
+    SCOPED_TRACE(reference.name);
+    expect_optimal(problem_of(reference),
+                   solve(problem_of(reference),
+                         accurate<TypeParam::value>(Method::kLbc2014, NonNegative::kOff))
+                       .weights,
+                   reference.unconstrained);
+  }
+}
+
+// As published, W = w weighs 1 whatever the mesh, with which some of these would take millions of
+// iterations; the optimum does not depend on it.
+TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& reference : reference_optima<kDim>()) {
+    SCOPED_TRACE(reference.name);
+    const auto problem = problem_of(reference);
+    splitting::Metric metric;
+    metric.cell.resize(problem.mesh.num_cells());
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      metric.cell[s] = std::pow(simplex_measure<kDim>(cell_corners(problem.mesh, s)), 2);
+    }
+    const double per_cell = metric.cell.mean() / metric.cell.cwiseSqrt().mean();
+    const double size = bounding_box_diagonal(problem.cage.points);
+    metric.vertex = Eigen::VectorXd::Constant(
+        problem.mesh.num_vertices(),
+        100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
+    splitting::WeightSplitting<double, kDim> splitting(problem, metric, 300 / per_cell, 1.65);
+    splitting.start_from_harmonic(8);
+    for (int iteration = 0; iteration < 8000; ++iteration) splitting.iterate();
+    expect_optimal(problem, splitting.weights(), reference.non_negative);
+  }
+}
+
+TYPED_TEST(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
+  for (const auto& reference : reference_optima<TypeParam::value>()) {
+    SCOPED_TRACE(reference.name);
+    expect_optimal(problem_of(reference),
+                   solve(problem_of(reference),
+                         accurate<TypeParam::value>(Method::kGradient, NonNegative::kOff))
+                       .weights,
+                   reference.unconstrained);
+  }
+}
+
+// A bound is below the optimum at any time, and close in the end.
+TYPED_TEST(OptimaTest, CertificatesHold) {
+  for (const auto& reference : reference_optima<TypeParam::value>()) {
+    const auto problem = problem_of(reference);
+    const double optimum = reference.non_negative.objective;
+    for (const auto method :
+         {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
+      for (const int iterations : {1, 3, 10, 100, 3000}) {
+        SCOPED_TRACE(reference.name + ", method " + std::to_string(static_cast<int>(method)) +
+                     ", iterations " + std::to_string(iterations));
+        SolverOptions options;
+        options.method = method;
+        options.tolerance = 1e-17;
+        options.max_iterations = iterations;
+        options.certify = true;
+        const auto certificate = solve(problem, options).report.certificate;
+        EXPECT_LE(certificate.lower_bound, optimum * (1 + 1e-9));
+        EXPECT_GE(certificate.objective, optimum * (1 - 1e-9));
+        EXPECT_NEAR(certificate.relative_gap, 1 - certificate.lower_bound / certificate.objective,
+                    1e-12);
+        if (method == Method::kValue && iterations == 3000) {
+          EXPECT_LT(certificate.relative_gap, 1e-4);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/solver.h"
+
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "flbc/harmonic.h"
+#include "flbc/quality.h"
+#include "flbc/recovery.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class SolverTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SolverTest, Dimensions);
+
+TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    for (const auto method : {Method::kGradient, Method::kPaper, Method::kHarmonic}) {
+      SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
+      SolverOptions options;
+      options.method = method;
+      options.max_iterations = 100;  // the constraints hold from the first one on
+      const auto solution = solve(sample.cage, sample.mesh, options);
+      EXPECT_EQ(solution.report.method, method);
+      const auto judgement = judge(sample.cage, sample.mesh, solution.weights);
+      EXPECT_LT(judgement.partition_error, 1e-13);
+      EXPECT_LT(judgement.reproduction_error, 1e-13);
+      EXPECT_EQ(judgement.lagrange_error, 0);
+      EXPECT_LT(judgement.linearity_error, 1e-11);
+      EXPECT_EQ(judgement.min_weight, solution.report.quality.min_weight);
+    }
+  }
+}
+
+// Two methods with nothing in common but the problem: start, penalty, relaxation, recovery and
+// precision differ, the optimum may not. Its value is a lower bound for every feasible function.
+TYPED_TEST(SolverTest, GradientAndPaperAgree) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto optimum = [&](Method method, Precision precision) {
+      SolverOptions options;
+      options.method = method;
+      options.precision = precision;
+      options.penalty = kDim == 2 ? 1e4 : 1e5;
+      options.tolerance = 1e-20;  // never: run to the end
+      options.max_iterations = 4000;
+      return solve(problem, options).weights;
+    };
+    const auto paper = optimum(Method::kPaper, Precision::kDouble);
+    const auto gradient = optimum(Method::kGradient, Precision::kSingle);
+    const double value = testing::objective(problem.mesh, paper, problem.phi);
+    EXPECT_NEAR(testing::objective(problem.mesh, gradient, problem.phi), value, 5e-3 * value);
+    // Symmetric boxes leave the optimum some freedom, so this is no sharper.
+    EXPECT_LT(mean_squared_difference(problem.mesh, paper, gradient), 1e-4);
+    EXPECT_LE(value, testing::objective(problem.mesh, harmonic_coordinates(problem), problem.phi) *
+                         (1 + 1e-9));
+  }
+}
+
+TYPED_TEST(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  const auto expected = solve(sample.cage, sample.mesh);
+  for (const double scale : {1e-3, 1e3}) {
+    auto moved = sample;
+    const auto place = [&](PointList<kDim>& points) {
+      points = (scale * points).colwise() + Vector<kDim>::Constant(3 * scale);
+    };
+    place(moved.cage.points);
+    place(moved.mesh.points);
+    for (Index f = 0; f < moved.cage.facets.cols(); ++f) {
+      std::swap(moved.cage.facets(0, f), moved.cage.facets(1, f));
+    }
+    const auto solution = solve(moved.cage, moved.mesh);
+    EXPECT_LT(mean_squared_difference(sample.mesh, solution.weights, expected.weights), 1e-8);
+    EXPECT_NEAR(solution.report.objective, expected.report.objective * std::pow(scale, kDim - 1),
+                1e-3 * solution.report.objective);
+  }
+}
+
+TYPED_TEST(SolverTest, ThreadsDoNotChangeABit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+  SolverOptions options;
+  options.threads = 1;
+  const auto one = solve(sample.cage, sample.mesh, options).weights;
+  for (const int threads : {2, 4}) {
+    options.threads = threads;
+    EXPECT_TRUE((solve(sample.cage, sample.mesh, options).weights.array() == one.array()).all());
+  }
+}
+
+TYPED_TEST(SolverTest, ReportsHowItEnded) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  SolverOptions options;
+  options.tolerance = 1e-30;
+  options.max_iterations = 7;
+  EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.status, SolveStatus::kIterationLimit);
+  EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.iterations, 7);
+
+  options.max_iterations = 1000;
+  int calls = 0;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.iteration, 10 * ++calls);
+    return calls < 3;
+  };
+  const auto stopped = solve(sample.cage, sample.mesh, options);
+  EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
+  EXPECT_EQ(stopped.report.iterations, 30);
+  EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
+}
+
+// Numbers out of the range of single or double precision must not pass for a result.
+TYPED_TEST(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  for (const double penalty : {1e-320, 1e-300, 1e-40, 1e-30, 1e30, 1e40, 1e300}) {
+    for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
+      for (const auto method : {Method::kGradient, Method::kPaper}) {
+        SolverOptions options;
+        options.method = method;
+        options.precision = precision;
+        options.penalty = penalty;
+        options.max_iterations = 40;
+        try {
+          const auto solution = solve(sample.cage, sample.mesh, options);
+          EXPECT_TRUE(solution.weights.allFinite()) << penalty;
+          EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-9) << penalty;
+        } catch (const SolverError& error) {
+          EXPECT_NE(std::string(error.what()).find("penalty"), std::string::npos) << error.what();
+          EXPECT_TRUE(penalty < 1e-25) << penalty;
+        }
+      }
+    }
+  }
+  SolverOptions options;
+  options.penalty = 1e-320;
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options), SolverError);
+}
+
+TYPED_TEST(SolverTest, MessagesGiveTheUsersCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  auto sample = make_sample<kDim>(Shape::kBox, 2);
+  Index corner = 0;
+  sample.mesh.points.colwise().sum().maxCoeff(&corner);
+  sample.mesh.points.col(corner).setConstant(1.25);
+  try {
+    solve(sample.cage, sample.mesh);
+    FAIL() << "accepted a mesh that leaves the cage";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("(1.25, 1.25"), std::string::npos) << error.what();
+  }
+}
+
+TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 1);
+  const auto refused = [&](const char* field, auto change) {
+    SolverOptions options;
+    change(options);
+    try {
+      solve(sample.cage, sample.mesh, options);
+      ADD_FAILURE() << field << " was accepted";
+    } catch (const OptionError& error) {
+      EXPECT_EQ(std::string(error.what()).find(field), 0U) << error.what();
+    }
+  };
+  refused("tolerance", [](auto& o) { o.tolerance = -1e-8; });
+  refused("tolerance", [](auto& o) { o.tolerance = std::nan(""); });
+  refused("max_iterations", [](auto& o) { o.max_iterations = 0; });
+  refused("penalty", [](auto& o) { o.penalty = -1; });
+  refused("relaxation", [](auto& o) { o.relaxation = 2; });
+  refused("check_interval", [](auto& o) { o.check_interval = 0; });
+  refused("threads", [](auto& o) { o.threads = -1; });
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether Method::kValue keeps what its tolerance promises: on real cages, at any scale, on meshes
+// of very different cells, and with few and many control points.
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/meshing.h"
+#include "flbc/solver.h"
+#include "support/judge.h"
+#include "support/model_cages.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+// The promise is a mean squared error of `tolerance`, up to this factor.
+constexpr double kAllowance = 3;
+
+template <class Dimension>
+class ToleranceTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ToleranceTest, Dimensions);
+
+DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
+  return triangulate(cage, {vertices});
+}
+DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
+  return tetrahedralize(cage, {vertices});
+}
+
+// What errors are measured against, and proven to be good enough for that.
+template <int Dim>
+WeightMatrix optimum(const LbcProblem<Dim>& problem, int iterations, bool prove = true) {
+  SolverOptions options;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-100;
+  options.max_iterations = iterations;
+  options.certify = prove;
+  const auto solution = solve(problem, options);
+  EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);  // 0 without proof
+  return solution.weights;
+}
+
+SolverOptions with_tolerance(double tolerance) {
+  SolverOptions options;
+  options.tolerance = tolerance;
+  options.certify = true;
+  return options;
+}
+
+template <int Dim>
+void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, int iterations,
+                         double largest_gap) {
+  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+  const auto exact = optimum(problem, iterations);
+  for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+    SCOPED_TRACE(tolerance);
+    const auto solution = solve(problem, with_tolerance(tolerance));
+    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+    EXPECT_LT(mean_squared_difference(mesh, solution.weights, exact), kAllowance * tolerance);
+    const double gap = solution.report.certificate.relative_gap;
+    EXPECT_GE(gap, -1e-9);
+    EXPECT_LT(gap, tolerance > 1e-7 ? 1 : largest_gap);
+  }
+}
+
+// ---- scale --------------------------------------------------------------------------------------
+
+TYPED_TEST(ToleranceTest, IsTheSameAtEveryScale) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto sample = make_sample<kDim>(shape, kDim == 2 ? 12 : 4, 0.2);
+    const double width = bounding_box_diagonal(sample.cage.points);
+    const auto expected = solve(sample.cage, sample.mesh, with_tolerance(1e-7));
+    for (const double size : {0.001, 0.03, 7.0, 1000.0}) {
+      SCOPED_TRACE(sample.name + ", size " + std::to_string(size));
+      auto scaled = sample;
+      scaled.cage.points *= size / width;
+      scaled.mesh.points *= size / width;
+      const auto solution = solve(scaled.cage, scaled.mesh, with_tolerance(1e-7));
+      EXPECT_EQ(solution.report.iterations, expected.report.iterations);
+      EXPECT_LT((solution.weights - expected.weights).cwiseAbs().maxCoeff(), 1e-4);
+      EXPECT_LT(mean_squared_difference(sample.mesh, solution.weights, expected.weights), 1e-11);
+      EXPECT_NEAR(solution.report.certificate.relative_gap,
+                  expected.report.certificate.relative_gap, 1e-3);
+      const double enlargement = std::pow(size / width, kDim - 1);
+      EXPECT_NEAR(solution.report.objective, enlargement * expected.report.objective,
+                  1e-4 * solution.report.objective);
+    }
+  }
+}
+
+// ---- graded meshes ------------------------------------------------------------------------------
+
+// A box that is meshed the finer the nearer to one corner: distances r from it, in the maximum
+// norm, become r^power. \param ratio  between the sizes of the largest and the smallest cells
+template <int Dim>
+Sample<Dim> graded_box(Index subdivisions, double ratio) {
+  auto sample = make_sample<Dim>(Shape::kBox, subdivisions);
+  const double power = 1 + std::log(ratio) / std::log(subdivisions);
+  for (Index v = 0; v < sample.mesh.num_vertices(); ++v) {
+    const double distance = sample.mesh.points.col(v).template lpNorm<Eigen::Infinity>();
+    if (distance > 0) sample.mesh.points.col(v) *= std::pow(distance, power - 1);
+  }
+  return sample;
+}
+
+TYPED_TEST(ToleranceTest, HoldsOnMeshesGradedByAFactorOfAHundred) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = graded_box<kDim>(kDim == 2 ? 24 : 8, 100);
+  double least = std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
+    const double size = std::pow(std::abs(signed_measure(sample.mesh, s)), 1.0 / kDim);
+    least = std::min(least, size);
+    largest = std::max(largest, size);
+  }
+  ASSERT_GT(largest, 100 * least);
+  expect_promise_kept(sample.cage, sample.mesh, 2000, 0.02);
+}
+
+// ---- few and many control points ----------------------------------------------------------------
+
+Cage<2> regular_polygon(Index corners) {
+  Cage<2> cage;
+  cage.points.resize(2, corners);
+  cage.facets.resize(2, corners);
+  for (Index i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / corners;
+    cage.points.col(i) << std::cos(angle), std::sin(angle);
+    cage.facets.col(i) << i, (i + 1) % corners;
+  }
+  return cage;
+}
+
+// An octahedron whose faces are subdivided and blown up; 4 k^2 + 2 control points.
+Cage<3> round_octahedron(Index k) {
+  // Corners are the points with integer coordinates |x| + |y| + |z| = k.
+  std::vector<Vector<3>> points;
+  const auto number = [&](const Vector<3>& point) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if ((points[i] - point).norm() < 0.5) return static_cast<Index>(i);
+    }
+    points.push_back(point);
+    return static_cast<Index>(points.size() - 1);
+  };
+  std::vector<Vector<3>> corners;  // three per face
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vector<3> sign((octant & 1) ? -1 : 1, (octant & 2) ? -1 : 1, (octant & 4) ? -1 : 1);
+    const auto add = [&](Index a, Index b, int da, int db) {
+      const auto at = [&](Index x, Index y) {
+        return Vector<3>(sign.cwiseProduct(Vector<3>(x, y, k - x - y)));
+      };
+      const bool flip = sign.prod() * da * db < 0;
+      corners.push_back(at(a, b));
+      corners.push_back(flip ? at(a, b + db) : at(a + da, b));
+      corners.push_back(flip ? at(a + da, b) : at(a, b + db));
+    };
+    for (Index a = 0; a <= k; ++a) {
+      for (Index b = 0; a + b <= k; ++b) {
+        if (a + b < k) add(a, b, 1, 1);
+        if (a > 0 && b > 0) add(a, b, -1, -1);
+      }
+    }
+  }
+  Cage<3> cage;
+  cage.facets.resize(3, static_cast<Eigen::Index>(corners.size() / 3));
+  for (std::size_t c = 0; c < corners.size(); ++c) cage.facets.data()[c] = number(corners[c]);
+  cage.points.resize(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cage.points.col(static_cast<Eigen::Index>(i)) = points[i].normalized();
+  }
+  return cage;
+}
+
+TEST(Tolerance2dTest, HoldsOnRegularPolygons) {
+  for (const Index corners : {3, 4, 7, 15}) {
+    SCOPED_TRACE(corners);
+    const auto cage = regular_polygon(corners);
+    ASSERT_TRUE(find_defects(cage).empty());
+    expect_promise_kept(cage, mesh_of(cage, 1500), 2000, 0.02);
+  }
+}
+
+TEST(Tolerance3dTest, HoldsOnRoundCages) {
+  for (const Index k : {1, 2, 4}) {
+    const auto cage = round_octahedron(k);
+    SCOPED_TRACE(cage.size());
+    ASSERT_EQ(cage.size(), 4 * k * k + 2);
+    ASSERT_TRUE(find_defects(cage).empty());
+    expect_promise_kept(cage, mesh_of(cage, 1500), 1500, 0.02);
+  }
+}
+
+// With many control points on a round cage weights stand still for long, far from the optimum,
+// while duals grow; then they converge slowly. The reference is told by one with half the
+// iterations how far it is from the optimum itself.
+TEST(Tolerance2dTest, HoldsOnPolygonsOfManyCorners) {
+  for (const Index corners : {30, 60}) {
+    SCOPED_TRACE(corners);
+    const auto cage = regular_polygon(corners);
+    const auto mesh = mesh_of(cage, 500);
+    const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+    const auto exact = optimum(problem, 6000, false);
+    ASSERT_LT(mean_squared_difference(mesh, exact, optimum(problem, 3000, false)), 1e-7);
+    for (const double tolerance : {1e-5, 1e-6}) {
+      SCOPED_TRACE(tolerance);
+      const auto solution = solve(problem, with_tolerance(tolerance));
+      EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+      EXPECT_LT(mean_squared_difference(mesh, solution.weights, exact), kAllowance * tolerance);
+    }
+  }
+}
+
+// Where the promise cannot be kept within the iterations there are, that is what is said; and the
+// objective is nearly the least one all the same.
+template <int Dim>
+void expect_no_claim(const Cage<Dim>& cage, Index vertices) {
+  SCOPED_TRACE(cage.size());
+  ASSERT_TRUE(find_defects(cage).empty());
+  auto options = with_tolerance(1e-7);
+  options.max_iterations = 800;
+  const auto solution = solve(cage, mesh_of(cage, vertices), options);
+  EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
+  EXPECT_LT(solution.report.certificate.relative_gap, 0.15);
+  EXPECT_GE(solution.report.quality.min_weight, 0);
+}
+
+TEST(Tolerance2dTest, IsNotClaimedTooSoonOnPolygonsOfManyCorners) {
+  expect_no_claim(regular_polygon(60), 1000);
+  expect_no_claim(regular_polygon(250), 3000);
+}
+
+TEST(Tolerance3dTest, IsNotClaimedTooSoonOnRoundCagesOfManyControlPoints) {
+  expect_no_claim(round_octahedron(8), 2000);
+}
+
+// Single precision ends all progress at some error, and no tolerance below it may be claimed.
+TYPED_TEST(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 4, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto exact = optimum(problem, 6000, false);
+  for (const double tolerance : {1e-9, 1e-11, 1e-13, 1e-15}) {
+    SCOPED_TRACE(tolerance);
+    auto options = with_tolerance(tolerance);
+    options.max_iterations = 4000;
+    const auto solution = solve(problem, options);
+    const double error = mean_squared_difference(sample.mesh, solution.weights, exact);
+    if (solution.report.status == SolveStatus::kConverged) {
+      EXPECT_LT(error, kAllowance * tolerance) << solution.report.iterations;
+    } else {
+      EXPECT_LT(tolerance, 1e-9);
+    }
+  }
+}
+
+// As many control points as make the weights unique: no iteration can go wrong.
+TYPED_TEST(ToleranceTest, ASimplexHasItsBarycentricCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kSimplex, 6, 0.2);
+  const auto solution = solve(sample.cage, sample.mesh, with_tolerance(1e-8));
+  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  Eigen::Matrix<double, kDim + 1, kDim + 1> system;
+  system << sample.cage.points, Eigen::Matrix<double, 1, kDim + 1>::Ones();
+  Eigen::MatrixXd right(kDim + 1, sample.mesh.num_vertices());
+  right << sample.mesh.points, Eigen::RowVectorXd::Ones(sample.mesh.num_vertices());
+  EXPECT_LT((system * solution.weights - right).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+// ---- real cages ---------------------------------------------------------------------------------
+
+struct Model {
+  const char* name;
+  const char* file;
+  Index vertices;
+};
+
+template <int Dim>
+void expect_promise_kept_on(const Model& model) {
+  if (!has_model(model.file)) GTEST_SKIP() << model_path(model.file) << " is absent";
+  const auto cage = load_cage<Dim>(model.file);
+  const auto mesh = mesh_of(cage, model.vertices);
+  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+  const auto exact = optimum(problem, 3000, false);
+  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    SCOPED_TRACE(tolerance);
+    SolverOptions options;
+    options.tolerance = tolerance;
+    const auto solution = solve(problem, options);
+    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+    EXPECT_LT(mean_squared_difference(mesh, solution.weights, exact), kAllowance * tolerance);
+  }
+}
+
+std::string name_of(const ::testing::TestParamInfo<Model>& info) {
+  return info.param.name;
+}
+
+class LongTolerance2d : public ::testing::TestWithParam<Model> {};
+TEST_P(LongTolerance2d, Holds) {
+  expect_promise_kept_on<2>(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Models, LongTolerance2d,
+                         ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 2000},
+                                           Model{"cactus", "2d/cactus-control-edgeset.obj", 2000},
+                                           Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000}),
+                         name_of);
+
+class LongTolerance3d : public ::testing::TestWithParam<Model> {};
+TEST_P(LongTolerance3d, Holds) {
+  expect_promise_kept_on<3>(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Models, LongTolerance3d,
+                         ::testing::Values(Model{"horse", "3d/horse_cage.obj", 2000},
+                                           Model{"shark", "3d/shark_cage.obj", 2000},
+                                           Model{"beast", "3d/beast_cage.obj", 2000},
+                                           Model{"arm", "3d/arm_cage.obj", 2500}),
+                         name_of);
+
+}  // namespace
+}  // namespace flbc::testing

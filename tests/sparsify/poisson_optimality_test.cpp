@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What reduce_by_poisson() minimises, and how near the minimum it comes, by trying all supports.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "flbc/bounding_box.h"
+#include "flbc/poses.h"
+#include "sparsify/active_set_qp.h"
+#include "sparsify/metric_search.h"
+#include "sparsify/pose_metric.h"
+#include "support/poisson_problem.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class PoissonOptimalityTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PoissonOptimalityTest, Dimensions);
+
+TYPED_TEST(PoissonOptimalityTest, TheCostIsWhatTheHeaderSays) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(23);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 9, -1, 1);
+  auto problem = problem_on_a_curve<Dim>(control_points, 12, 0.1);
+  auto& edges = problem.edges;
+  for (std::size_t e = 0; e < edges.ends.size(); ++e)
+    edges.weights.push_back(numbers.uniform(1, 2));
+  const auto after = problem.plain(at_most(Dim + 1));
+  const auto length = [&](std::size_t e) {
+    return (problem.points.col(edges.ends[e][0]) - problem.points.col(edges.ends[e][1])).norm();
+  };
+  double mean = 0;
+  for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+    mean += length(e) / static_cast<double>(edges.ends.size());
+  }
+  const double reach = std::max(0.05 * bounding_box_diagonal<Dim>(problem.points), 5 * mean);
+  const double unit = 0.1 * bounding_box_diagonal<Dim>(control_points);
+  const auto mean_cost = [&](const std::vector<PointList<Dim>>& poses) {
+    double sum = 0;
+    for (const auto& pose : poses) {
+      const PointList<Dim> moved = pose * (after - problem.weights);
+      for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+        const auto a = moved.col(edges.ends[e][0]), b = moved.col(edges.ends[e][1]);
+        sum += edges.weights[e] *
+               ((a - b).squaredNorm() +
+                length(e) * length(e) / 2 * (a.squaredNorm() + b.squaredNorm()) / (reach * reach));
+      }
+    }
+    return sum / static_cast<double>(poses.size()) / (unit * unit);
+  };
+  const double expectation = problem.cost(after);
+  const double sampled = mean_cost(independent_poses<Dim>(control_points, 4000)) +
+                         mean_cost(smooth_poses<Dim>(control_points, 4000));
+  EXPECT_NEAR(expectation, sampled, 0.05 * sampled);
+  // Far away, too: only differences count.
+  const std::vector<PointList<Dim>> poses{numbers.matrix(Dim, 9, -1, 1),
+                                          numbers.matrix(Dim, 9, 99, 102)};
+  const double given = mean_cost(poses);
+  EXPECT_NEAR(problem.cost(after, poses), given + 0.1 * expectation, 1e-9 * given);
+  EXPECT_EQ(problem.cost(problem.weights), 0);
+}
+
+// The feasible weights with the least (w - t) . H (w - t) among those with at most `most`
+// influences: of all subsets, each solved as if weights could be negative, the best without one.
+template <int Dim>
+Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points,
+                            const Vector<Dim>& point, const Eigen::VectorXd& target, Index most) {
+  const auto n = static_cast<int>(control_points.cols());
+  Eigen::VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int subset = 1; subset < (1 << n); ++subset) {
+    std::vector<int> support;
+    for (int i = 0; i < n; ++i) {
+      if ((subset >> i) & 1) support.push_back(i);
+    }
+    const auto count = static_cast<Index>(support.size());
+    if (count > most) continue;
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count + Dim + 1, count + Dim + 1);
+    system.topLeftCorner(count, count) = metric(support, support);
+    system.block(count, 0, 1, count).setOnes();
+    system.block(count + 1, 0, Dim, count) = control_points(Eigen::all, support);
+    system.topRightCorner(count, Dim + 1) = system.bottomLeftCorner(Dim + 1, count).transpose();
+    Eigen::VectorXd right(count + Dim + 1);
+    right << (metric * target)(support), 1, point;
+    const Eigen::VectorXd solution = system.fullPivLu().solve(right);
+    if (!((system * solution - right).norm() <= 1e-9)) continue;  // not in the hull of these
+    if (solution.head(count).minCoeff() < -1e-12) continue;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+    weights(support) = solution.head(count);
+    const double cost = (weights - target).dot(metric * (weights - target));
+    if (cost < least) {
+      least = cost;
+      best = weights;
+    }
+  }
+  return best;
+}
+
+TYPED_TEST(PoissonOptimalityTest, OneRowOnAllControlPointsIsTheNearest) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int kControls = 8;
+  Numbers numbers(33);
+  const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
+  const std::vector<PointList<Dim>> poses{numbers.matrix(Dim, kControls, -2, 2)};
+  const auto metric = pose_metric<Dim>(control_points, poses);
+  MetricRow<Dim> row(metric, control_points, 2);
+  MetricSearch<Dim> search(row, metric);
+  std::vector<Index> everyone;
+  for (Index i = 0; i < kControls; ++i) everyone.push_back(i);
+  int best = 0;
+  constexpr int kRows = 40;
+  for (int k = 0; k < kRows; ++k) {
+    const Vector<Dim> point = control_points * numbers.convex(kControls);
+    const Eigen::VectorXd target = numbers.matrix(kControls, 1, -0.3, 0.6);
+    row.aim_at(point) = metric * target;
+    const double shift = target.dot(metric * target);
+    const auto cost_of = [&](const Eigen::VectorXd& weights) {
+      return (weights - target).dot(metric * (weights - target)) - shift;
+    };
+    // Without a limit the problem is convex: two ways to its minimum.
+    const double least =
+        cost_of(nearest_row<Dim>(metric, control_points, point, target, kControls));
+    SparseRow solved;
+    ASSERT_TRUE(row.solve(everyone, std::numeric_limits<double>::infinity(), solved));
+    EXPECT_NEAR(solved.cost, least, 1e-9);
+    // With a limit, removing and exchanging come near it.
+    const Index most = Dim + 2;
+    const double limited = cost_of(nearest_row<Dim>(metric, control_points, point, target, most));
+    SparseRow sparse = solved;
+    ASSERT_TRUE(search.reduce(most, std::numeric_limits<double>::infinity(), sparse));
+    search.exchange(most, 0, std::vector<bool>(kControls, true), sparse);
+    EXPECT_LE(static_cast<Index>(sparse.support.size()), most);
+    EXPECT_GE(sparse.cost, limited - 1e-9);
+    best += sparse.cost <= limited + 1e-7;
+  }
+  EXPECT_GE(best, 3 * kRows / 4);
+}
+
+// Rows that another support would make better while all other rows stay as they are, and by how
+// much. What counts is `noticeable`.
+struct Gains {
+  int rows = 0;
+  double sum = 0;
+};
+
+template <int Dim>
+Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights, Index most,
+                 double noticeable) {
+  const auto metric = pose_metric<Dim>(problem.control_points, {});
+  const double cost = problem.cost(weights);
+  Gains gains;
+  for (Index a = 0; a < static_cast<Index>(weights.cols()); ++a) {
+    // Neighbours pull a row towards their own changes; how stiffly it is held in all, pin
+    // included, is what a change of this row alone costs.
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(weights.rows());
+    for (const auto& [b, c] : problem.edges.ends) {
+      if (a == b || a == c) pull += (weights - problem.weights).col(a == b ? c : b);
+    }
+    WeightMatrix alone = problem.weights;
+    alone(0, a) += 1;
+    const double stiffness = problem.cost(alone) / metric(0, 0);
+    const Eigen::VectorXd target = problem.weights.col(a) + pull / stiffness;
+    WeightMatrix better = weights;
+    better.col(a) =
+        nearest_row<Dim>(metric, problem.control_points, problem.points.col(a), target, most);
+    const double gain = cost - problem.cost(better);
+    EXPECT_GE(gain, -1e-9 * cost) << a;  // the judge is right
+    gains.rows += gain > noticeable;
+    gains.sum += gain;
+  }
+  return gains;
+}
+
+TYPED_TEST(PoissonOptimalityTest, HardlyARowCouldBeBetterForItsNeighbours) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int kPoints = 60;
+  Numbers numbers(34);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 8, -1, 1), kPoints, 0.2);
+  for (const Index most : {Dim + 1, Dim + 2}) {
+    SCOPED_TRACE(most);
+    const auto plain = problem.plain(at_most(most));
+    const double noticeable = 0.01 * problem.cost(plain) / kPoints;
+    const auto left = find_gains<Dim>(problem, problem.reduce(at_most(most)), most, noticeable);
+    const auto before = find_gains<Dim>(problem, plain, most, noticeable);
+    EXPECT_LE(left.rows, kPoints / 10);
+    EXPECT_LE(4 * left.rows, before.rows);
+    EXPECT_LE(left.sum, 0.1 * before.sum);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

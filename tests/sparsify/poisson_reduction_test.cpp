@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/poisson_reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "flbc/poses.h"
+#include "support/io_files.h"
+#include "support/poisson_problem.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class PoissonReductionTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PoissonReductionTest, Dimensions);
+
+// Control points of every kind that could need special care.
+template <int Dim>
+std::vector<PointList<Dim>> cages() {
+  Numbers numbers(22);
+  PointList<Dim> box(Dim, static_cast<int>(std::pow(3, Dim)));
+  for (int k = 0; k < box.cols(); ++k) {
+    for (int axis = 0, rest = k; axis < Dim; ++axis, rest /= 3) box(axis, k) = rest % 3;
+  }
+  PointList<Dim> twice(Dim, 2 * box.cols()), in_plane = box, in_line = box, thin = box;
+  twice << box, box;
+  in_plane.row(0).setConstant(0.5);
+  in_line.topRows(Dim - 1).setConstant(0.5);
+  thin.row(0) *= 1e-7;
+  return {numbers.matrix(Dim, 12, -1, 1), box,       twice, in_plane, in_line, thin,
+          (box.array() + 1e3).matrix(),   1e20 * box};
+}
+
+TYPED_TEST(PoissonReductionTest, KeepsTheConstraintsWhateverComes) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(28);
+  int number = 0;
+  for (const auto& control_points : cages<Dim>()) {
+    SCOPED_TRACE("cage " + std::to_string(number++));
+    auto problem = problem_on_a_curve<Dim>(control_points, 40, 0.3);
+    const auto n = control_points.cols();
+    // Every other row has negative weights, and does not reproduce.
+    for (int v = 0; v < 40; v += 2) problem.weights.col(v) += numbers.matrix(n, 1, -0.2, 0.2);
+    const double size = bounding_box_diagonal<Dim>(control_points);
+    const PointList<Dim> pose = control_points + size * numbers.matrix(Dim, n, -1, 1);
+    for (const Index most : {Dim + 1, Dim + 3}) {
+      SCOPED_TRACE(most);
+      const auto plain = problem.plain(at_most(most));
+      for (const auto& poses : std::vector<std::vector<PointList<Dim>>>{{}, {pose}}) {
+        const auto sparse = problem.reduce(at_most(most), poses);
+        expect_sparse_coordinates<Dim>(control_points, problem.points, sparse, most);
+        EXPECT_LE(problem.cost(sparse, poses), problem.cost(plain, poses));
+      }
+    }
+    const auto dropped = problem.reduce(at_most(8, 0.05));
+    expect_sparse_coordinates<Dim>(control_points, problem.points, dropped, 8);
+  }
+}
+
+TYPED_TEST(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(29);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 14, -1, 1);
+  const auto on_a_curve = problem_on_a_curve<Dim>(control_points, 300, 0);
+  const auto on_a_mesh = problem_on_a_mesh<Dim>();
+  for (const auto* problem : {&on_a_curve, &on_a_mesh}) {
+    // On the mesh most neighbours lie on the cage and stay.
+    const double part = problem == &on_a_curve ? 0.7 : 0.97;
+    const auto independent = independent_poses<Dim>(problem->control_points, 20);
+    const auto smooth = smooth_poses<Dim>(problem->control_points, 20);
+    for (const Index most : {Dim + 1, Dim + 2, Dim + 3}) {
+      SCOPED_TRACE(most);
+      const auto plain = problem->plain(at_most(most));
+      const auto sparse = problem->reduce(at_most(most));
+      expect_sparse_coordinates<Dim>(problem->control_points, problem->points, sparse, most);
+      EXPECT_LT(problem->cost(sparse), part * problem->cost(plain));
+      EXPECT_LT(problem->error(sparse, independent).rms, problem->error(plain, independent).rms);
+      EXPECT_LT(problem->error(sparse, smooth).rms, problem->error(plain, smooth).rms);
+    }
+  }
+}
+
+TYPED_TEST(PoissonReductionTest, GivenPosesCount) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(27);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 14, -1, 1), 200, 0.05);
+  std::vector<PointList<Dim>> poses{problem.control_points, problem.control_points};
+  for (auto& pose : poses) pose += numbers.matrix(Dim, 14, -1, 1);
+  const auto with = problem.reduce(at_most(Dim + 3), poses);
+  const auto without = problem.reduce(at_most(Dim + 3));
+  EXPECT_LT(problem.cost(with, poses), 0.7 * problem.cost(without, poses));
+  EXPECT_LT(problem.error(with, poses).rms, 0.9 * problem.error(without, poses).rms);
+}
+
+TYPED_TEST(PoissonReductionTest, WhatIsSparseStays) {
+  constexpr int Dim = TypeParam::value;
+  auto problem = problem_on_a_mesh<Dim>();
+  const auto sparse = problem.reduce(at_most(Dim + 1));
+  EXPECT_NE(sparse, problem.weights);
+  problem.weights = sparse;
+  EXPECT_EQ(problem.reduce(at_most(Dim + 1)), sparse);
+  EXPECT_EQ(problem.reduce(at_most(Dim + 5)), sparse);
+}
+
+TYPED_TEST(PoissonReductionTest, PointsOnTheCageStayWhateverTheirNeighboursDo) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(36);
+  auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 120, 0.1);
+  for (int v = 0; v < 120; v += 6) {
+    auto row = problem.weights.col(v);
+    const Eigen::VectorXd before = row;
+    row.setZero();
+    for (int k = 0; k < Dim; ++k) row[(v + 5 * k) % 12] = before[(v + 5 * k) % 12];
+    row /= row.sum();
+  }
+  problem.points = problem.control_points * problem.weights;
+  const auto sparse = problem.reduce(at_most(Dim + 1));
+  for (int v = 0; v < 120; ++v) EXPECT_EQ(sparse.col(v) == problem.weights.col(v), v % 6 == 0) << v;
+}
+
+// It starts with one influence more than allowed, where these rows cost nothing.
+TYPED_TEST(PoissonReductionTest, OneInfluenceTooManyIsRemoved) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(35);
+  auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 40, 0.1);
+  problem.weights = problem.plain(at_most(Dim + 3));
+  const auto sparse = problem.reduce(at_most(Dim + 2));
+  expect_sparse_coordinates<Dim>(problem.control_points, problem.points, sparse, Dim + 2);
+}
+
+TYPED_TEST(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(30);
+  auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
+  const auto plain = problem.plain(at_most(Dim + 2));
+  auto& ends = problem.edges.ends;
+  ends.erase(std::remove_if(ends.begin(), ends.end(),
+                            [](const auto& edge) { return std::max(edge[0], edge[1]) >= 50; }),
+             ends.end());
+  const auto sparse = problem.reduce(at_most(Dim + 2));
+  EXPECT_EQ(sparse.rightCols(30), plain.rightCols(30));
+  EXPECT_NE(sparse, plain);
+  ends.clear();
+  EXPECT_EQ(problem.reduce(at_most(Dim + 2)), plain);
+}
+
+TYPED_TEST(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(31);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
+  // Every edge with ends of its own.
+  auto loose = problem;
+  std::vector<Index> origin;
+  for (auto& edge : loose.edges.ends) {
+    for (Index& end : edge) {
+      origin.push_back(end);
+      end = static_cast<Index>(origin.size()) - 1;
+    }
+  }
+  loose.points = problem.points(Eigen::all, origin);
+  loose.weights = problem.weights(Eigen::all, origin);
+  const auto sparse = loose.reduce(at_most(Dim + 2));
+  WeightMatrix welded(12, 80);
+  for (std::size_t k = 0; k < origin.size(); ++k) welded.col(origin[k]) = sparse.col(k);
+  EXPECT_EQ(sparse, welded(Eigen::all, origin));
+  EXPECT_LT(problem.cost(welded), 0.8 * problem.cost(problem.plain(at_most(Dim + 2))));
+}
+
+TYPED_TEST(PoissonReductionTest, NewcomersObeyTheThreshold) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(25);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 14, -1, 1), 60, 0.05);
+  constexpr double kThreshold = 0.06;
+  for (const Index most : {Index{14}, Index{Dim + 3}}) {
+    const auto plain = problem.plain(at_most(most, kThreshold));
+    // Where no weights above the threshold reproduce a point, others may be kept.
+    const auto more = problem.plain(at_most(std::min<Index>(14, most + 1), kThreshold));
+    const auto sparse = problem.reduce(at_most(most, kThreshold));
+    EXPECT_LT(problem.cost(sparse), problem.cost(plain));
+    for (Eigen::Index v = 0; v < 60; ++v) {
+      for (Eigen::Index i = 0; i < 14; ++i) {
+        if (sparse(i, v) == 0 || plain(i, v) > 0 || more(i, v) > 0) continue;
+        EXPECT_GE(problem.weights(i, v), kThreshold) << i << " " << v;
+      }
+    }
+  }
+}
+
+// Turned by a right angle, because bounding_box_diagonal() is that of a box along the axes.
+TYPED_TEST(PoissonReductionTest, SizePlaceAndAxesDoNotMatter) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(32);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
+  auto moved = problem;
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  turn.template topLeftCorner<2, 2>() << 0, -1, 1, 0;
+  for (auto* points : {&moved.control_points, &moved.points}) {
+    *points = (37 * (turn * *points)).colwise() + Vector<Dim>::Constant(50);
+  }
+  const auto sparse = problem.reduce(at_most(Dim + 2));
+  const auto there = moved.reduce(at_most(Dim + 2));
+  EXPECT_NEAR(moved.cost(there), problem.cost(sparse), 1e-6 * problem.cost(sparse));
+  EXPECT_LT((there - sparse).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TYPED_TEST(PoissonReductionTest, TheThreadsDoNotMatter) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(26);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 20, -1, 1), 500, 0.1);
+  const auto on_threads = [&](int threads) {
+    const ThreadScope scope(threads);
+    return problem.reduce(at_most(Dim + 2));
+  };
+  const auto alone = on_threads(1);
+  EXPECT_NE(alone, problem.plain(at_most(Dim + 2)));
+  EXPECT_TRUE(bit_equal(on_threads(2), alone));
+  EXPECT_TRUE(bit_equal(on_threads(5), alone));
+}
+
+TYPED_TEST(PoissonReductionTest, RefusesWhatCannotBe) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(27);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 10, -1, 1), 8, 0.1);
+  EXPECT_NO_THROW(problem.reduce(at_most(Dim + 1)));
+  expect_error<OptionError>([&] { problem.reduce(at_most(Dim)); }, {"control points around it"});
+  auto wrong = problem;
+  wrong.edges.ends.push_back({2, 8});
+  expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"ends at point 8"});
+  expect_error<InputError>([&] { wrong.cost(problem.weights); }, {"ends at point 8"});
+  wrong = problem;
+  wrong.weights = numbers.matrix(9, 8, 0, 1);
+  expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"9 control points do not belong"});
+  expect_error<InputError>([&] { wrong.cost(problem.weights); },
+                           {"9 control points do not belong"});
+  expect_error<InputError>([&] { problem.cost(wrong.weights); },
+                           {"9 control points do not belong"});
+  wrong = problem;
+  wrong.points.col(3).setConstant(9);
+  expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"point 3 at (9, 9"});
+  std::vector<PointList<Dim>> poses{problem.control_points, problem.control_points.leftCols(9)};
+  expect_error<InputError>([&] { problem.reduce(at_most(8), poses); }, {"pose 1 has 9"});
+  poses[1] = problem.control_points;
+  poses[1](0, 0) = std::nan("");
+  expect_error<InputError>([&] { problem.reduce(at_most(8), poses); }, {"pose 1", "not finite"});
+}
+
+}  // namespace
+}  // namespace flbc::testing

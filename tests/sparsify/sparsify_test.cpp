@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/sparsify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "flbc/bounding_box.h"
+#include "flbc/cage.h"
+#include "flbc/errors.h"
+#include "flbc/io/weights_triplets.h"
+#include "flbc/non_negative.h"
+#include "flbc/poses.h"
+#include "flbc/solver.h"
+#include "flbc/sparsify_error.h"
+#include "support/feasible_vertices.h"
+#include "support/io_files.h"
+#include "support/model_cages.h"
+#include "support/poisson_problem.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class SparsifyTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SparsifyTest, Dimensions);
+
+// Control points of every kind that could need special care.
+template <int Dim>
+std::vector<PointList<Dim>> cages() {
+  Numbers numbers(5);
+  PointList<Dim> box(Dim, static_cast<int>(std::pow(3, Dim)));
+  for (int k = 0; k < box.cols(); ++k) {
+    for (int axis = 0, rest = k; axis < Dim; ++axis, rest /= 3) box(axis, k) = rest % 3;
+  }
+  PointList<Dim> twice(Dim, 2 * box.cols());
+  twice << box, box;
+  PointList<Dim> in_plane = box, in_line = box, thin = box;
+  in_plane.row(0).setConstant(0.5);
+  in_line.topRows(Dim - 1).setConstant(0.5);
+  thin.row(0) *= 1e-7;
+  return {numbers.matrix(Dim, 12, -1, 1),
+          numbers.matrix(Dim, 80, -1, 1),
+          box,
+          twice,
+          in_plane,
+          in_line,
+          thin,
+          (box.array() + 1e3).matrix(),
+          1e20 * box};
+}
+
+// Inside, on facets and edges of the hull, and at control points.
+template <int Dim>
+PointList<Dim> points_of(const PointList<Dim>& control_points, int count) {
+  Numbers numbers(6);
+  const auto n = static_cast<int>(control_points.cols());
+  PointList<Dim> points(Dim, count);
+  for (int v = 0; v < count; ++v) {
+    Eigen::VectorXd weights = numbers.convex(n);
+    if (v % 4 == 1) weights = Eigen::VectorXd::Unit(n, numbers.below(n));
+    if (v % 4 == 2) {
+      weights = (Eigen::VectorXd::Unit(n, numbers.below(n)) +
+                 Eigen::VectorXd::Unit(n, numbers.below(n))) /
+                2;
+    }
+    if (v % 4 == 3) {
+      const double highest = control_points.row(Dim - 1).maxCoeff();
+      const double height = highest - control_points.row(Dim - 1).minCoeff();
+      for (int i = 0; i < n; ++i) {
+        if (control_points(Dim - 1, i) < highest - 1e-9 * height) weights[i] = 0;
+      }
+    }
+    points.col(v) = control_points * (weights / weights.sum());
+  }
+  return points;
+}
+
+TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(7);
+  int number = 0;
+  for (const auto& control_points : cages<Dim>()) {
+    SCOPED_TRACE("cage " + std::to_string(number++));
+    const auto points = points_of<Dim>(control_points, 60);
+    const auto n = control_points.cols();
+    for (const double low : {0.0, -1.0}) {
+      WeightMatrix weights = numbers.matrix(n, points.cols(), low, 1);
+      for (auto column : weights.colwise()) column /= column.cwiseAbs().sum();
+      for (const Index most : {Dim + 1, Dim + 3}) {
+        SCOPED_TRACE(most);
+        const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
+        expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
+        EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)), sparse);
+      }
+      const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05));
+      expect_sparse_coordinates<Dim>(control_points, points, dropped, 8);
+    }
+  }
+}
+
+TYPED_TEST(SparsifyTest, WithoutLimitItIsTheProjection) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(8);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 20, -1, 1);
+  const auto points = points_of<Dim>(control_points, 40);
+  const WeightMatrix weights = numbers.matrix(20, 40, -0.2, 0.3);
+  WeightMatrix projected = weights;
+  project_non_negative<Dim>(control_points, points, projected);
+  EXPECT_GT((weights - projected).norm(), 0.1);
+  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, at_most(20)), projected);
+  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, {}), projected);
+}
+
+// The least |w - y|^2 over all supports of `most` control points, by trying every one.
+template <int Dim>
+double least_cost(const PointList<Dim>& control_points, const Vector<Dim>& point,
+                  const Eigen::VectorXd& row, Index most) {
+  const auto n = static_cast<int>(control_points.cols());
+  double least = std::numeric_limits<double>::infinity();
+  for (int subset = 0; subset < (1 << n); ++subset) {
+    std::vector<int> support;
+    for (int i = 0; i < n; ++i) {
+      if ((subset >> i) & 1) support.push_back(i);
+    }
+    if (static_cast<Index>(support.size()) != most) continue;
+    const PointList<Dim> some = control_points(Eigen::all, support);
+    WeightMatrix few = row(support);
+    try {
+      project_non_negative<Dim>(some, PointList<Dim>(point), few);
+    } catch (const InputError&) {
+      continue;  // the point is not in the hull of these
+    }
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+    weights(support) = few.col(0);
+    least = std::min(least, (weights - row).squaredNorm());
+  }
+  return least;
+}
+
+TYPED_TEST(SparsifyTest, IsNearTheBestOfAllSupports) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int kControls = 9, kPoints = 40;
+  Numbers numbers(9);
+  for (const Index most : {Dim + 1, Dim + 2, Dim + 3}) {
+    SCOPED_TRACE(most);
+    int best = 0;
+    double total = 0, least_total = 0;
+    const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
+    PointList<Dim> points(Dim, kPoints);
+    WeightMatrix weights(kControls, kPoints);
+    for (int v = 0; v < kPoints; ++v) {
+      weights.col(v) = numbers.convex(kControls);
+      weights.col(v) /= weights.col(v).sum();
+      points.col(v) = control_points * weights.col(v);
+    }
+    const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
+    expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
+    for (int v = 0; v < kPoints; ++v) {
+      const double cost = (sparse.col(v) - weights.col(v)).squaredNorm();
+      const double least = least_cost<Dim>(control_points, points.col(v), weights.col(v), most);
+      EXPECT_GE(cost, least - 1e-12) << v;  // the judge is right
+      best += cost <= least + 1e-9;
+      total += cost;
+      least_total += least;
+    }
+    EXPECT_GE(best, 3 * kPoints / 4);
+    EXPECT_LE(total, 1.1 * least_total + 1e-9);
+  }
+}
+
+TYPED_TEST(SparsifyTest, MatchesTheOptimumOfItsOwnSupport) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(10);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 30, -1, 1);
+  const auto points = points_of<Dim>(control_points, 40);
+  const WeightMatrix weights = numbers.matrix(30, 40, -0.1, 0.2);
+  const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(6));
+  for (int v = 0; v < 40; ++v) {
+    std::vector<Index> support;
+    for (Index i = 0; i < 30; ++i) {
+      if (sparse(i, v) != 0) support.push_back(i);
+    }
+    WeightMatrix few = weights.col(v)(support);
+    project_non_negative<Dim>(control_points(Eigen::all, support), points.col(v), few);
+    EXPECT_LE((few.col(0) - sparse.col(v)(support)).norm(), 1e-12) << v;
+  }
+}
+
+TYPED_TEST(SparsifyTest, LocalBarycentricCoordinates) {
+  constexpr int Dim = TypeParam::value;
+  const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 6 : 3, 0.1);
+  const auto solution = solve(sample.cage, sample.mesh, {});
+  const auto& points = sample.mesh.points;
+  ASSERT_GT(count_influences(solution.weights).max, Dim + 2);
+  const auto poses = independent_poses<Dim>(sample.cage.points, 10);
+  double before = std::numeric_limits<double>::infinity();
+  for (const Index most : {Dim + 1, Dim + 2, Dim + 4}) {
+    const auto sparse = sparsify<Dim>(sample.cage.points, points, solution.weights, at_most(most));
+    expect_sparse_coordinates<Dim>(sample.cage.points, points, sparse, most);
+    const double error = deformation_error<Dim>(poses, solution.weights, sparse).rms;
+    EXPECT_LT(error, before);  // more influences, less error
+    before = error;
+  }
+  EXPECT_LT(before, 0.01 * bounding_box_diagonal<Dim>(points));
+}
+
+TYPED_TEST(SparsifyTest, ThresholdDropsWhatIsBelow) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(11);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
+  // Small weights everywhere beside large ones on Dim + 4 control points.
+  WeightMatrix weights = numbers.matrix(25, 50, 1e-6, 1e-4);
+  for (int v = 0; v < 50; ++v) {
+    for (int k = 0; k < Dim + 4; ++k) weights((7 * k + v) % 25, v) = numbers.uniform(0.1, 1);
+    weights.col(v) /= weights.col(v).sum();
+  }
+  const PointList<Dim> points = control_points * weights;
+  SparsifyOptions options;
+  options.threshold = 1e-3;
+  const auto sparse = sparsify<Dim>(control_points, points, weights, options);
+  expect_sparse_coordinates<Dim>(control_points, points, sparse, Dim + 4);
+  EXPECT_EQ(count_influences(sparse).mean, Dim + 4);
+  EXPECT_LT(weight_error(weights, sparse).max, 0.05);
+  // Above all weights it must keep as many as the point needs.
+  options.threshold = 0.99;
+  const auto few = sparsify<Dim>(control_points, points, weights, options);
+  expect_sparse_coordinates<Dim>(control_points, points, few, 25);
+  EXPECT_LT(count_influences(few).mean, Dim + 4);
+}
+
+TYPED_TEST(SparsifyTest, TheThreadsDoNotMatter) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(12);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
+  const auto points = points_of<Dim>(control_points, 400);
+  const WeightMatrix weights = numbers.matrix(25, 400, -0.1, 0.2);
+  const auto on_threads = [&](int threads) {
+    const ThreadScope scope(threads);
+    return sparsify<Dim>(control_points, points, weights, at_most(5));
+  };
+  EXPECT_EQ(on_threads(1), on_threads(2));
+}
+
+TYPED_TEST(SparsifyTest, RefusesWhatCannotBe) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(13);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 10, -1, 1);
+  PointList<Dim> points = points_of<Dim>(control_points, 3);
+  const WeightMatrix weights = numbers.matrix(10, 3, 0, 1);
+  const auto run = [&](const SparsifyOptions& options, const WeightMatrix& any) {
+    return sparsify<Dim>(control_points, points, any, options);
+  };
+  EXPECT_NO_THROW(run(at_most(Dim + 1), weights));
+  expect_error<OptionError>([&] { run(at_most(Dim), weights); },
+                            {"needs " + std::to_string(Dim + 1) + " control points"});
+  expect_error<OptionError>([&] { run(at_most(8, 1), weights); }, {"threshold"});
+  expect_error<OptionError>([&] { run(at_most(8, std::nan("")), weights); }, {"threshold"});
+  expect_error<InputError>([&] { run(at_most(8), numbers.matrix(9, 3, 0, 1)); },
+                           {"9 control points do not belong"});
+  expect_error<InputError>([&] { run(at_most(8), numbers.matrix(10, 4, 0, 1)); }, {"4 points"});
+  points.col(1).setConstant(5);
+  expect_error<InputError>([&] { run(at_most(8), weights); }, {"point 1 at (5, 5"});
+}
+
+TEST(ForeignWeights, OfTheArm) {
+  if (!has_model("3d/arm_other_weights.txt")) GTEST_SKIP() << "the real models are absent";
+  const auto control_points = load_cage<3>("3d/arm_cage.obj").points;
+  const auto points = load_cage<3>("3d/arm.obj").points;
+  const auto given = io::read_weight_triplets(model_path("3d/arm_other_weights.txt"),
+                                              static_cast<Index>(control_points.cols()),
+                                              static_cast<Index>(points.cols()));
+  EXPECT_EQ((given.array() < 0).count(), 23675);
+  const auto poses = smooth_poses<3>(control_points, 5);
+  for (const Index most : {4, 8}) {
+    const auto sparse = sparsify<3>(control_points, points, given, at_most(most));
+    expect_sparse_coordinates<3>(control_points, points, sparse, most);
+    EXPECT_LT(deformation_error<3>(poses, given, sparse).rms, 0.005 * bounding_box_diagonal<3>(points));
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing
