@@ -40,8 +40,8 @@ bool read(Mesh& mesh, const std::string& content) {
 template <class Scalar>
 std::string stored(const OpenMesh::PropertyT<Wide<Scalar>>& rows, bool swap) {
   std::ostringstream out(std::ios::binary);
-  EXPECT_EQ(rows.store(out, swap), rows.bounding_box_diagonal());
-  EXPECT_EQ(out.str().size(), rows.bounding_box_diagonal());
+  EXPECT_EQ(rows.store(out, swap), rows.size_of());
+  EXPECT_EQ(out.str().size(), rows.size_of());
   return out.str();
 }
 
@@ -149,11 +149,11 @@ TYPED_TEST(WidePropertyIo, KeepsEveryBitInBothByteOrders) {
   for (const bool swap : {false, true}) {
     Property loaded("rows");
     loaded.resize(3);
-    ASSERT_EQ(restore(loaded, stored(rows, swap), swap), rows.bounding_box_diagonal());
+    ASSERT_EQ(restore(loaded, stored(rows, swap), swap), rows.size_of());
     ASSERT_EQ(loaded.bytes(), rows.bytes());
     EXPECT_EQ(std::memcmp(loaded.data(), rows.data(), rows.bytes()), 0);
   }
-  auto last = stored(rows, true).substr(rows.bounding_box_diagonal() - sizeof(Scalar));
+  auto last = stored(rows, true).substr(rows.size_of() - sizeof(Scalar));
   std::reverse(last.begin(), last.end());
   EXPECT_EQ(std::memcmp(last.data(), &numbers.back(), sizeof(Scalar)), 0);
 }
@@ -233,7 +233,7 @@ TEST(WidePropertyLimits, ReadsStreamsOfUnknownLength) {
   Pipe pipe(stored(rows, false));
   std::istream in(&pipe);
   ASSERT_EQ(in.tellg(), std::istream::pos_type(-1));
-  EXPECT_EQ(loaded.restore(in, false), rows.bounding_box_diagonal());
+  EXPECT_EQ(loaded.restore(in, false), rows.size_of());
   ASSERT_EQ(loaded.bytes(), rows.bytes());
   EXPECT_EQ(std::memcmp(loaded.data(), rows.data(), rows.bytes()), 0);
 }

@@ -279,10 +279,10 @@ TYPED_TEST(WideProperty, TellsSizesAndShowsInTheStatistics) {
   const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "my rows", 2, 9);
   const auto& rows = this->mesh_.property(handle);
   const std::size_t numbers = rows.n_elements() * 2 * 9 * sizeof(typename TypeParam::Scalar);
-  EXPECT_GE(rows.bounding_box_diagonal(), numbers);
-  EXPECT_LE(rows.bounding_box_diagonal(), numbers + 100);
+  EXPECT_GE(rows.size_of(), numbers);
+  EXPECT_LE(rows.size_of(), numbers + 100);
   const std::size_t unknown = OpenMesh::BaseProperty::UnknownSize;
-  EXPECT_EQ(rows.bounding_box_diagonal(5), unknown);
+  EXPECT_EQ(rows.size_of(5), unknown);
   EXPECT_EQ(rows.element_size(), unknown);
   std::ostringstream text;
   this->mesh_.property_stats(text);
