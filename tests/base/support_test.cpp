@@ -249,7 +249,7 @@ TYPED_TEST(SupportTest, ObjectiveOfBarycentricCoordinatesFollowsFromTheFacets) {
     }
     expected += (0.1 + i) * simplex_measure<Dim>(facet) / Dim;
   }
-  EXPECT_NEAR(judged_objective(sample.mesh, harmonic_weights(sample), phi), expected, 1e-12);
+  EXPECT_NEAR(testing::objective(sample.mesh, harmonic_weights(sample), phi), expected, 1e-12);
 }
 
 TYPED_TEST(SupportTest, MeanSquaredDifferenceCountsInteriorVerticesOnly) {

@@ -190,7 +190,7 @@ Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>& cage, const DomainMes
 }
 
 template <int Dim>
-double judged_objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
+double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
                  const Eigen::MatrixXd& phi) {
   check_size(weights, phi.rows(), mesh.num_vertices());
   check_size(phi, phi.rows(), mesh.num_cells());
@@ -228,7 +228,7 @@ double mean_squared_difference(const DomainMesh<Dim>& mesh, const Eigen::MatrixX
   template Judgement<Dim> judge(const Cage<Dim>&, const DomainMesh<Dim>&, const Eigen::MatrixXd&, \
                                 double);                                                          \
   template Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>&, const DomainMesh<Dim>&);   \
-  template double judged_objective(const DomainMesh<Dim>&, const Eigen::MatrixXd&,                       \
+  template double objective(const DomainMesh<Dim>&, const Eigen::MatrixXd&,                       \
                             const Eigen::MatrixXd&);                                              \
   template double mean_squared_difference(const DomainMesh<Dim>&, const Eigen::MatrixXd&,         \
                                           const Eigen::MatrixXd&);

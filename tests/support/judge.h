@@ -45,7 +45,7 @@ Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>& cage, const DomainMes
 
 //! sum_s sum_i phi_i^s A_s |grad w_i|_s. \param phi  n x F
 template <int Dim>
-double judged_objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
+double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
                  const Eigen::MatrixXd& phi);
 
 //! The paper's (5): mean of (a - b)^2 over interior vertices and control points.
