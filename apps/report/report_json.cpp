@@ -59,7 +59,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["max_reproduction_error"] = context.delivered.max_reproduction_error;
   json["mean_influences"] = context.delivered.mean_influences;
   json["penalty"] = report.penalty;
-  json["numbers_per_cell"] = report.numbers_per_cell;
+  json["numbers_per_cell"] = report.state_scalars_per_cell;
   json["version"] = FLBC_VERSION;
   json["options"] = {{"cage", settings.cage},
                      {"domain", settings.domain},

@@ -43,10 +43,10 @@ void visit_levels(ByteReader& archive, std::vector<LevelReport>& levels) {
 template <class Archive, class Report>
 void visit_report(Archive& archive, Report& report) {
   auto& [method, status, control_points, vertices, cells, iterations, primal_residual,
-         dual_residual, penalty, objective, certificate, numbers_per_cell, seconds, quality,
+         dual_residual, penalty, objective, certificate, state_scalars_per_cell, seconds, quality,
          coarse_levels] = report;
   archive(method, status, control_points, vertices, cells, iterations, primal_residual,
-          dual_residual, penalty, objective, numbers_per_cell);
+          dual_residual, penalty, objective, state_scalars_per_cell);
   visit_levels(archive, coarse_levels);
   auto& [certified, lower_bound, relative_gap] = certificate;
   archive(certified, lower_bound, relative_gap);

@@ -86,7 +86,7 @@ void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
   std::printf("%-10s %4d %7d %8d %6d %8.2f %6.2f %6.2f %7.2f %7.2f %8.1f %8.0f %10.2e %9.1e %6.2f",
               test.name, report.control_points, report.vertices, report.cells, report.iterations,
               1000 * report.seconds.solve / report.iterations, mesh_seconds, setup_seconds,
-              report.seconds.solve, report.seconds.recover, report.numbers_per_cell,
+              report.seconds.solve, report.seconds.recover, report.state_scalars_per_cell,
               peak_mebibytes(), report.quality.min_weight, report.quality.max_reproduction_error,
               report.quality.mean_influences);
   if (arguments.reference_iterations > 0) {

@@ -49,7 +49,7 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
   double sum = 0;
   Index interior = 0;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
+    if (problem.boundary.boundary_index[v] >= 0) continue;
     sum += (a.col(v) - b.col(v)).squaredNorm();
     ++interior;
   }

@@ -78,7 +78,7 @@ template <int Dim>
 std::vector<Index> interior_of(const LbcProblem<Dim>& problem) {
   std::vector<Index> interior;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) interior.push_back(v);
+    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
   }
   return interior;
 }
@@ -89,7 +89,7 @@ WeightMatrix feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   const auto boundary = harmonic_coordinates(problem);
   const auto interior = interior_of(problem);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) weights.col(v) = boundary.col(v);
+    if (problem.boundary.boundary_index[v] >= 0) weights.col(v) = boundary.col(v);
   }
   project_non_negative(problem.cage.points, problem.mesh.points, weights, interior);
   return weights;

@@ -57,7 +57,7 @@ WeightMatrix feasible_weights(const LbcProblem<Dim>& problem) {
           .finished();
   const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(constraints).kernel();
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
+    if (problem.boundary.boundary_index[v] >= 0) continue;
     for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
       weights.col(v) +=
           0.1 * std::sin(1.0 + static_cast<double>(v * (k + 1))) * kernel.col(k).normalized();

@@ -33,7 +33,7 @@ TYPED_TEST(BoundaryValuesTest, EqualTheJudgesBarycentricCoordinates) {
       boundary.scatter(static_cast<Index>(b), row);
       EXPECT_LT((row - expected.col(boundary.vertices[b])).cwiseAbs().maxCoeff(), 1e-12);
       EXPECT_NEAR(row.sum(), 1, 1e-15);
-      EXPECT_EQ(boundary.slot[boundary.vertices[b]], static_cast<Index>(b));
+      EXPECT_EQ(boundary.boundary_index[boundary.vertices[b]], static_cast<Index>(b));
     }
     for (Index i = 0; i < sample.cage.size(); ++i) {
       EXPECT_TRUE(sample.mesh.points.col(boundary.control_vertices[i])

@@ -79,7 +79,7 @@ TYPED_TEST(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExactly) {
     const auto weights = transfer.weights();
     const double largest = expected.cwiseAbs().maxCoeff();
     for (Index v = 0; v < meshes.fine.mesh.num_vertices(); ++v) {
-      if (meshes.fine.boundary.slot[v] >= 0) continue;
+      if (meshes.fine.boundary.boundary_index[v] >= 0) continue;
       EXPECT_LT((weights.col(v) - expected.col(v)).cwiseAbs().maxCoeff(), 1e-12 * largest);
     }
     EXPECT_NEAR(transfer.penalty(), 6, 1e-12);
@@ -130,7 +130,7 @@ TYPED_TEST(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
   EXPECT_LT(shortened, n * fine.mesh.num_cells());
 }
 
-// Stokes' theorem: the pulls of a linear potential add up, over the facets of any cell of any mesh,
+// Stokes' theorem: the multipliers of a linear potential add up, over the facets of any cell of any mesh,
 // to the measure times its curl.
 TYPED_TEST(CoarseToFineTest, LinearPotentialsGiveTheirCurlOnEveryMesh) {
   constexpr int kDim = TypeParam::value;
@@ -161,7 +161,7 @@ TYPED_TEST(CoarseToFineTest, LinearPotentialsGiveTheirCurlOnEveryMesh) {
       for (int k = 0; k <= kDim; ++k) {
         const Index f = meshes.fine.topology.cell_facets(k, s);
         const double sign = meshes.fine.topology.sides(0, f) == s ? 1 : -1;
-        sum += sign * transfer.facet_pull(f).row(0).transpose();
+        sum += sign * transfer.facet_multiplier(f).row(0).transpose();
       }
       const double measure = signed_measure(mesh, s);
       // A potential's slope is a density, which does not depend on the scale.
@@ -188,7 +188,7 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
       state.flux_density.template middleCols<kDim>(kDim * s) =
           admm.flux().cell(s).transpose() / signed_measure(problem.mesh, s);
     }
-    state.potential = flux_potential<kDim>(problem, [&](Index f) { return admm.facet_pull(f); });
+    state.potential = flux_potential<kDim>(problem, [&](Index f) { return admm.facet_multiplier(f); });
     state.periods = admm.period_factors();
     const Transfer<kDim> transfer(problem, state, problem);
 
@@ -196,12 +196,12 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
     gradient::GradientAdmm<double, kDim> other(problem, penalty, 1.8, periods);
     other.start_from_duals(
         transfer.weights(), [&](Index s) { return transfer.flux_density(s); },
-        [&](Index f) { return transfer.facet_pull(f); }, transfer.periods());
+        [&](Index f) { return transfer.facet_multiplier(f); }, transfer.periods());
     double largest = 0;
     double difference = 0;
     for (Index f = 0; f < problem.topology.num_facets(); ++f) {
-      largest = std::max(largest, admm.facet_pull(f).norm());
-      difference = std::max(difference, (other.facet_pull(f) - admm.facet_pull(f)).norm());
+      largest = std::max(largest, admm.facet_multiplier(f).norm());
+      difference = std::max(difference, (other.facet_multiplier(f) - admm.facet_multiplier(f)).norm());
     }
     EXPECT_GT(largest, 0);
     EXPECT_LT(difference, 1e-10 * largest);

@@ -143,7 +143,7 @@ TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValu
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   auto weights = demanded_boundary_weights(sample.cage, sample.mesh);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) weights.col(v).setRandom();
+    if (problem.boundary.boundary_index[v] < 0) weights.col(v).setRandom();
   }
   gradient::GradientAdmm<double, kDim> admm(problem, 1, 1, {});
   admm.start_from_weights(weights);
@@ -197,7 +197,7 @@ TYPED_TEST(GradientAdmmTest, ThreadsDoNotChangeABit) {
   }
 }
 
-// All of an iteration's state: rows of gradients, flux and facets' pulls, to the bit.
+// All of an iteration's state: rows of gradients, flux and facets' multipliers, to the bit.
 template <class Scalar, int Dim>
 std::vector<double> state_of(const LbcProblem<Dim>& problem,
                              gradient::GradientAdmm<Scalar, Dim>& admm) {
@@ -211,7 +211,7 @@ std::vector<double> state_of(const LbcProblem<Dim>& problem,
     append(admm.gradients().cell(s));
     append(flux.cell(s));
   }
-  for (Index f = 0; f < problem.topology.num_facets(); ++f) append(admm.facet_pull(f));
+  for (Index f = 0; f < problem.topology.num_facets(); ++f) append(admm.facet_multiplier(f));
   append(admm.period_factors());
   return state;
 }
@@ -290,7 +290,7 @@ TYPED_TEST(GradientAdmmTest, StateIsCompact) {
   const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 30 : 10, 0);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const gradient::GradientAdmm<float, kDim> admm(problem, 1, 1, {});
-  EXPECT_LE(admm.numbers_per_cell(), kDim == 2 ? 12 : 14);
+  EXPECT_LE(admm.state_scalars_per_cell(), kDim == 2 ? 12 : 14);
 }
 
 }  // namespace

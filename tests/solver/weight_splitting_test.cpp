@@ -60,7 +60,7 @@ TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const Metric& 
   input.phi = problem.phi;
   input.initial_weights = start;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) input.interior.push_back(v);
+    if (problem.boundary.boundary_index[v] < 0) input.interior.push_back(v);
   }
   input.cell_metric = metric.cell;
   input.vertex_metric = metric.vertex;

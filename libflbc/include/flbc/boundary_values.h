@@ -17,7 +17,7 @@ namespace flbc {
 template <int Dim>
 struct BoundaryValues {
   std::vector<Index> vertices;          //!< the boundary vertices, ascending
-  std::vector<Index> slot;              //!< per mesh vertex: its place in `vertices`, or -1 inside
+  std::vector<Index> boundary_index;    //!< per mesh vertex: its place in `vertices`, or -1 inside
   FacetList<Dim> control_points;        //!< Dim x B, the control points of the facet
   PointList<Dim> values;                //!< Dim x B, their weights, each column sums to 1
   std::vector<Index> control_vertices;  //!< per control point: the mesh vertex that lies on it

@@ -84,7 +84,7 @@ class AdmissibleFlux {
 template <class Scalar, int Dim>
 double boundary_share(const LbcProblem<Dim>& problem, const AdmissibleFlux<Scalar, Dim>& flux,
                       Index vertex) {
-  const Index b = problem.boundary.slot[vertex];
+  const Index b = problem.boundary.boundary_index[vertex];
   std::array<Rounded, Dim> sums{};
   const Index num_cells =
       flux.for_cells_at(vertex, [&](Index s, const CellGeometry<Dim>& geometry, int corner) {
@@ -134,7 +134,7 @@ template <int Dim>
 WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   std::vector<Index> interior;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    const Index b = problem.boundary.slot[v];
+    const Index b = problem.boundary.boundary_index[v];
     if (b < 0) {
       interior.push_back(v);
     } else {
@@ -161,7 +161,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
         Eigen::VectorXd costs(flux.n), start;
         long double block = 0;
         for (Index v = begin; v < end; ++v) {
-          if (problem.boundary.slot[v] >= 0) {
+          if (problem.boundary.boundary_index[v] >= 0) {
             block += boundary_share(problem, admissible, v);
             continue;
           }

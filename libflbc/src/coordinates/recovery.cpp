@@ -80,7 +80,7 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] >= 0) continue;
+    if (problem.boundary.boundary_index[v] >= 0) continue;
     for (const Index s : around.cells_of(v)) {
       const auto geometry = cell_geometry(mesh, s);
       Index corner = 0;

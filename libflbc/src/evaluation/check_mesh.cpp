@@ -90,7 +90,7 @@ MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Di
                              const WeightMatrix& weights, double mean_influences) {
   std::vector<Index> interior;
   for (Index v = 0; v < domain.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) interior.push_back(v);
+    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
   }
   MeshCheck<Dim> check;
   check.interior_vertices = static_cast<Index>(interior.size());

@@ -129,10 +129,10 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
   const auto on_boundary = boundary_vertices(topology, mesh.num_vertices());
 
   BoundaryValues<Dim> boundary;
-  boundary.slot.assign(mesh.num_vertices(), -1);
+  boundary.boundary_index.assign(mesh.num_vertices(), -1);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     if (!on_boundary[v]) continue;
-    boundary.slot[v] = static_cast<Index>(boundary.vertices.size());
+    boundary.boundary_index[v] = static_cast<Index>(boundary.vertices.size());
     boundary.vertices.push_back(v);
   }
   boundary.control_points.resize(Dim, boundary.vertices.size());

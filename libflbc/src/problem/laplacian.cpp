@@ -49,8 +49,8 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
     : boundary_(boundary.vertices) {
   std::vector<Index> place(mesh.num_vertices());  // of a vertex among the interior or boundary ones
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    place[v] = boundary.slot[v] >= 0 ? boundary.slot[v] : static_cast<Index>(interior_.size());
-    if (boundary.slot[v] < 0) interior_.push_back(v);
+    place[v] = boundary.boundary_index[v] >= 0 ? boundary.boundary_index[v] : static_cast<Index>(interior_.size());
+    if (boundary.boundary_index[v] < 0) interior_.push_back(v);
   }
 
   using Triplet = Eigen::Triplet<double, Index>;
@@ -60,7 +60,7 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
   for (const Index v : interior_) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
       const auto w = static_cast<Index>(it.row());
-      if (boundary.slot[w] >= 0) {
+      if (boundary.boundary_index[w] >= 0) {
         outer.emplace_back(place[v], place[w], it.value());
       } else if (w >= v) {
         inner.emplace_back(place[w], place[v], it.value());

@@ -164,12 +164,12 @@ class EditableCoordinates<Dim>::State {
     if (deadline) deadline->impose_on(options);
     SolveReport report;
     MeshState<Dim> state;
-    Relay<Dim> relay;
-    if (inherits(options.method)) relay = {start, &state};
+    WarmStart<Dim> warm_start;
+    if (inherits(options.method)) warm_start = {start, &state};
     try {
-      auto outcome = run_method(shape.problem, options, report, &kept_, relay);
+      auto result = run_method(shape.problem, options, report, &kept_, warm_start);
       if (deadline && deadline->passed()) report.status = SolveStatus::kIterationLimit;
-      shape.solution = finish(shape.problem, options, std::move(outcome), std::move(report));
+      shape.solution = finish(shape.problem, options, std::move(result), std::move(report));
       shape.state = std::move(state);
     } catch (...) {
       kept_.forget();

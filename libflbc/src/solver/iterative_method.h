@@ -17,7 +17,7 @@ namespace flbc {
 
 //! What a method hands back. Boundary values are exact; interior rows sum to one and reproduce
 //! their points up to the method's precision, and may be negative.
-struct Outcome {
+struct MethodResult {
   WeightMatrix weights;  //!< n x V
   //! Certificate of weights (n x V) from the method's duals.
   std::function<Certificate(const WeightMatrix&)> certify;
@@ -28,33 +28,33 @@ inline bool inherits(Method method) {
   return method == Method::kValue || method == Method::kGradient;
 }
 
-//! How an iteration takes over from one on a coarser mesh and hands over to one on a finer mesh;
+//! Warm start from the state on another mesh, and the state to warm-start yet another one from;
 //! either may be null. For methods that inherits() holds for.
 template <int Dim>
-struct Relay {
-  const Transfer<Dim>* start = nullptr;  //!< where to start
-  MeshState<Dim>* finish = nullptr;      //!< where to leave the last state
+struct WarmStart {
+  const Transfer<Dim>* from = nullptr;    //!< where to start
+  MeshState<Dim>* final_state = nullptr;  //!< where to leave the last state
 };
 
 //! Method::kGradient and kPaper. \param options  resolved \param report  iterations, status,
 //! residuals and seconds are filled in \param storage  memory of the state, may be null
 template <int Dim>
-Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! Method::kValue and kLbc2014. Parameters as above.
 template <int Dim>
-Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! Any method, up to weights that may be negative. Parameters as above; the report is made anew.
 template <int Dim>
-Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, Relay<Dim> relay);
+MethodResult run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! What follows the iteration: non-negative rows, certificate, measures.
 template <int Dim>
-Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Outcome outcome,
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
                 SolveReport report);
 
 //! p / A from p, in the form of MeshState.

@@ -20,7 +20,7 @@ template <int Dim>
 std::vector<Index> interior_vertices(const LbcProblem<Dim>& problem) {
   std::vector<Index> interior;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) interior.push_back(v);
+    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
   }
   return interior;
 }
@@ -32,8 +32,8 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
 }
 
 template <int Dim>
-Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
-  auto certificate = outcome.certify(outcome.weights);
+Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result) {
+  auto certificate = result.certify(result.weights);
   certificate.objective = unscaled(problem, certificate.objective);
   certificate.lower_bound = unscaled(problem, certificate.lower_bound);
   return certificate;
@@ -42,49 +42,49 @@ Certificate certify(const LbcProblem<Dim>& problem, const Outcome& outcome) {
 }  // namespace
 
 template <int Dim>
-Outcome run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+MethodResult run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   report = {};
   report.method = options.method;
   report.control_points = problem.num_control_points();
   report.vertices = problem.mesh.num_vertices();
   report.cells = problem.mesh.num_cells();
-  Outcome outcome;
+  MethodResult result;
   switch (options.method) {
     case Method::kHarmonic:
-      outcome.weights = harmonic_coordinates(problem);
+      result.weights = harmonic_coordinates(problem);
       report.seconds.solve = watch.lap();
       break;
     case Method::kMeanValue:
-      outcome.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
+      result.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
       report.seconds.solve = watch.lap();
       break;
     case Method::kValue:
     case Method::kLbc2014:
-      outcome = solve_by_splitting(problem, options, report, storage, relay);
+      result = solve_by_splitting(problem, options, report, storage, warm_start);
       break;
     default:
-      outcome = solve_by_gradients(problem, options, report, storage, relay);
+      result = solve_by_gradients(problem, options, report, storage, warm_start);
   }
-  require_finite(outcome.weights.allFinite(), options, report);
-  return outcome;
+  require_finite(result.weights.allFinite(), options, report);
+  return result;
 }
 
 template <int Dim>
-Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Outcome outcome,
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
                 SolveReport report) {
   Stopwatch watch;
   if (options.non_negative != NonNegative::kOff) {
-    project_non_negative(problem.cage.points, problem.mesh.points, outcome.weights,
+    project_non_negative(problem.cage.points, problem.mesh.points, result.weights,
                          interior_vertices(problem));
   }
   report.seconds.recover += watch.lap();
-  if (options.certify) report.certificate = certify(problem, outcome);
+  if (options.certify) report.certificate = certify(problem, result);
   report.seconds.certify = watch.lap();
-  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, outcome.weights));
-  report.quality = measure_quality(problem.cage.points, problem.mesh.points, outcome.weights);
-  return {std::move(outcome.weights), std::move(report)};
+  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, result.weights));
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, result.weights);
+  return {std::move(result.weights), std::move(report)};
 }
 
 template <int Dim>
@@ -94,8 +94,8 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& user_options
   const auto options = resolve(user_options, Dim);
   const ThreadScope threads(options.threads);
   SolveReport report;
-  auto outcome = run_method(problem, options, report, storage, Relay<Dim>{});
-  return finish(problem, options, std::move(outcome), std::move(report));
+  auto result = run_method(problem, options, report, storage, WarmStart<Dim>{});
+  return finish(problem, options, std::move(result), std::move(report));
 }
 
 template <int Dim>
@@ -110,12 +110,12 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverO
   return solution;
 }
 
-template Outcome run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&, StateStorage*,
-                            Relay<2>);
-template Outcome run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&, StateStorage*,
-                            Relay<3>);
-template Solution finish(const LbcProblem<2>&, const SolverOptions&, Outcome, SolveReport);
-template Solution finish(const LbcProblem<3>&, const SolverOptions&, Outcome, SolveReport);
+template MethodResult run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            WarmStart<2>);
+template MethodResult run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&, StateStorage*,
+                            WarmStart<3>);
+template Solution finish(const LbcProblem<2>&, const SolverOptions&, MethodResult, SolveReport);
+template Solution finish(const LbcProblem<3>&, const SolverOptions&, MethodResult, SolveReport);
 template Solution solve(const LbcProblem<2>&, const SolverOptions&, StateStorage*);
 template Solution solve(const LbcProblem<3>&, const SolverOptions&, StateStorage*);
 template Solution solve(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&);

@@ -16,8 +16,8 @@ std::vector<Index> number_components(const LbcProblem<Dim>& problem, Index& coun
   for (Index f = 0; f < problem.topology.num_facets(); ++f) {
     if (!problem.topology.is_boundary(f)) continue;
     for (int k = 1; k < Dim; ++k) {
-      sets.unite(boundary.slot[problem.topology.facets(0, f)],
-                 boundary.slot[problem.topology.facets(k, f)]);
+      sets.unite(boundary.boundary_index[problem.topology.facets(0, f)],
+                 boundary.boundary_index[problem.topology.facets(k, f)]);
     }
   }
   std::vector<Index> number(boundary.vertices.size(), -1);

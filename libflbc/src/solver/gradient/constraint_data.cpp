@@ -31,12 +31,12 @@ void set_up_facets(const LbcProblem<Dim>& problem, std::size_t stride,
                    ConstraintData<Scalar, Dim>& data) {
   const Index num_facets = problem.topology.num_facets();
   data.tangents.resize(static_cast<std::size_t>(num_facets) * (Dim - 1) * Dim);
-  data.boundary_slot.assign(num_facets, -1);
+  data.boundary_index.assign(num_facets, -1);
   Index num_boundary = 0;
   for (Index f = 0; f < num_facets; ++f) {
     Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(data.tangents.data() + f * (Dim - 1) * Dim) =
         tangent_basis(problem, f).template cast<Scalar>();
-    if (problem.topology.is_boundary(f)) data.boundary_slot[f] = num_boundary++;
+    if (problem.topology.is_boundary(f)) data.boundary_index[f] = num_boundary++;
   }
   data.boundary_slope =
       AlignedArray<Scalar>(static_cast<std::size_t>(num_boundary) * (Dim - 1) * stride);
@@ -50,12 +50,12 @@ void set_up_boundary_slopes(const LbcProblem<Dim>& problem, std::size_t stride,
   const auto& facets = problem.topology.facets;
   Eigen::MatrixXd corner_weights(n, Dim);
   for (Index f = 0; f < problem.topology.num_facets(); ++f) {
-    if (data.boundary_slot[f] < 0) continue;
+    if (data.boundary_index[f] < 0) continue;
     const auto tangents = tangent_basis(problem, f);
     corner_weights.setZero();
     Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
     for (int k = 0; k < Dim; ++k) {
-      problem.boundary.scatter(problem.boundary.slot[facets(k, f)], corner_weights.col(k));
+      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)], corner_weights.col(k));
       if (k == 0) continue;
       edges.col(k - 1) = tangents.transpose() * (problem.mesh.points.col(facets(k, f)) -
                                                  problem.mesh.points.col(facets(0, f)));
@@ -65,7 +65,7 @@ void set_up_boundary_slopes(const LbcProblem<Dim>& problem, std::size_t stride,
         edges.inverse();
     for (int t = 0; t < Dim - 1; ++t) {
       for (Index i = 0; i < n; ++i) {
-        data.boundary_slope[(static_cast<std::size_t>(data.boundary_slot[f]) * (Dim - 1) + t) *
+        data.boundary_slope[(static_cast<std::size_t>(data.boundary_index[f]) * (Dim - 1) + t) *
                                 stride +
                             i] = static_cast<Scalar>(slopes(i, t));
       }

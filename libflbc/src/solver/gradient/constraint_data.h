@@ -19,7 +19,7 @@ struct ConstraintData {
   AlignedArray<Scalar> basis;
   AlignedArray<Scalar> target;
   std::vector<Scalar> tangents;
-  std::vector<Index> boundary_slot;
+  std::vector<Index> boundary_index;
 };
 
 //! \param penalty  mu > 0 \param stride  numbers per row

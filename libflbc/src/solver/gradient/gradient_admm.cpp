@@ -103,7 +103,7 @@ double GradientAdmm<Scalar, Dim>::update_periods() {
 }
 
 template <class Scalar, int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> GradientAdmm<Scalar, Dim>::facet_pull(
+Eigen::Matrix<double, Eigen::Dynamic, Dim> GradientAdmm<Scalar, Dim>::facet_multiplier(
     Index facet) const {
   Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> dual(n_, Dim - 1);
   for (int t = 0; t < Dim - 1; ++t) {
@@ -224,7 +224,7 @@ CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() {
 }
 
 template <class Scalar, int Dim>
-double GradientAdmm<Scalar, Dim>::numbers_per_cell() const {
+double GradientAdmm<Scalar, Dim>::state_scalars_per_cell() const {
   const std::size_t numbers =
       gradient_.size() + extrapolated_.size() + tv_dual_.size() + facet_dual_.size();
   return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
@@ -244,7 +244,7 @@ Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
           data_.boundary_slope.data(),
           data_.tangents.data(),
           problem_.topology.sides.data(),
-          data_.boundary_slot.data(),
+          data_.boundary_index.data(),
           problem_.topology.cell_facets.data(),
           period_fields_.data(),
           num_periods_,

@@ -49,10 +49,10 @@ class GradientAdmm {
   void start_from_weights(const WeightMatrix& weights);
 
   //! Starts from weights and duals that were found elsewhere. \param weights  n x V \param
-  //! flux_density  p / A of a cell, n x Dim, at most phi long \param facet_pull  see facet_pull()
+  //! flux_density  p / A of a cell, n x Dim, at most phi long \param facet_multiplier  see facet_multiplier()
   //! \param period_factors  n x P
   void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
-                        const VectorsAt<Dim>& facet_pull, const Eigen::MatrixXd& period_factors);
+                        const VectorsAt<Dim>& facet_multiplier, const Eigen::MatrixXd& period_factors);
 
   //! Iterations: X-, Y- and Z-step with their duals, then the G-step. Many at once are faster than
   //! one by one, with the same result to the bit. \param count  at least 1 \return what is needed
@@ -73,13 +73,13 @@ class GradientAdmm {
   CellFieldView<Scalar, Dim> flux();
 
   //! mu u of a facet's constraint on its first side: tangential, n x Dim.
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(Index facet) const;
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(Index facet) const;
 
   //! The periods' duals as factors of their functions' gradients in p / A, n x P.
   Eigen::MatrixXd period_factors() const;
 
   //! Numbers of state held per cell and control point; phi is one more.
-  double numbers_per_cell() const;
+  double state_scalars_per_cell() const;
 
  private:
   void set_up_periods(const std::vector<Period<Dim>>& periods, StateStorage* storage);

@@ -34,7 +34,7 @@ struct Arrays {
   const Scalar* boundary_slope;       // #boundary facets x (Dim - 1): h, tangential derivatives
   const Scalar* tangents;             // E x (Dim - 1) x Dim, orthonormal, no control points
   const std::int32_t* sides;          // E x 2 cells, second -1 on the boundary
-  const std::int32_t* boundary_slot;  // E: place among the boundary facets
+  const std::int32_t* boundary_index;  // E: place among the boundary facets
   const std::int32_t* cell_facets;    // F x (Dim + 1)
   const Scalar* period_fields;        // P x F x Dim, no control points
   std::size_t num_periods;            // P: boundary components - 1

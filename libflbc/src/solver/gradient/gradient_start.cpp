@@ -39,7 +39,7 @@ void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) 
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
                                                  const VectorsAt<Dim>& flux_density,
-                                                 const VectorsAt<Dim>& facet_pull,
+                                                 const VectorsAt<Dim>& facet_multiplier,
                                                  const Eigen::MatrixXd& period_factors) {
   start_from_weights(weights);
   // Rows of an array from those of a matrix, a column each.
@@ -55,7 +55,7 @@ void GradientAdmm<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
   }
 #pragma omp parallel for schedule(static)
   for (Index f = 0; f < problem_.topology.num_facets(); ++f) {
-    store(facet_dual_, f, (facet_pull(f) * tangent_basis(problem_, f)).eval());
+    store(facet_dual_, f, (facet_multiplier(f) * tangent_basis(problem_, f)).eval());
   }
   for (std::size_t p = 0; p < num_periods_; ++p) {
     const auto column = static_cast<Eigen::Index>(p);

@@ -13,9 +13,9 @@ inline double update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet
   const Scalar* tangents = arrays.tangents + std::size_t(facet) * kTangents * Dim;
   Scalar* dual = arrays.facet_dual + std::size_t(facet) * kTangents * stride;
   SquareSum<Scalar, note> change;
-  const std::int32_t slot = arrays.boundary_slot[facet];
-  if (slot >= 0) {
-    const Scalar* slope = arrays.boundary_slope + std::size_t(slot) * kTangents * stride;
+  const std::int32_t boundary = arrays.boundary_index[facet];
+  if (boundary >= 0) {
+    const Scalar* slope = arrays.boundary_slope + std::size_t(boundary) * kTangents * stride;
     for_packs<Scalar>(
         stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
           constexpr int kCount = decltype(lanes)::kCount;
@@ -79,21 +79,21 @@ template <int lanes, bool note, class Scalar, int Dim>
 
 // One facet of a cell, as the cell sees it: the dual's direction in space, signed for its side.
 template <class Scalar, int Dim>
-struct FacetPull {
+struct FacetMultiplier {
   const Scalar* dual;
   Scalar tangents[Dim - 1][Dim];
 };
 
 template <class Scalar, int Dim>
 [[gnu::always_inline]] inline void gather_facets(const Arrays<Scalar, Dim>& arrays,
-                                                 std::int32_t cell, FacetPull<Scalar, Dim>* pulls) {
+                                                 std::int32_t cell, FacetMultiplier<Scalar, Dim>* multipliers) {
   for (int k = 0; k <= Dim; ++k) {
     const std::int32_t facet = arrays.cell_facets[std::size_t(cell) * (Dim + 1) + k];
     const Scalar sign = arrays.sides[2 * facet] == cell ? Scalar(1) : Scalar(-1);
-    pulls[k].dual = arrays.facet_dual + std::size_t(facet) * (Dim - 1) * arrays.stride;
+    multipliers[k].dual = arrays.facet_dual + std::size_t(facet) * (Dim - 1) * arrays.stride;
     for (int t = 0; t < Dim - 1; ++t) {
       for (int d = 0; d < Dim; ++d) {
-        pulls[k].tangents[t][d] =
+        multipliers[k].tangents[t][d] =
             sign * arrays.tangents[(std::size_t(facet) * (Dim - 1) + t) * Dim + d];
       }
     }
@@ -104,7 +104,7 @@ template <class Scalar, int Dim>
 template <int lanes, class Scalar, int Dim>
 [[gnu::always_inline]] inline void average_candidates(const Arrays<Scalar, Dim>& arrays,
                                                       std::int32_t cell,
-                                                      const FacetPull<Scalar, Dim>* pulls,
+                                                      const FacetMultiplier<Scalar, Dim>* multipliers,
                                                       std::size_t i,
                                                       PackN<Scalar, lanes>* average) {
   using P = PackN<Scalar, lanes>;
@@ -113,8 +113,8 @@ template <int lanes, class Scalar, int Dim>
   for (int d = 0; d < Dim; ++d) average[d] = load_pack<lanes>(arrays.tv_dual + row + d * stride);
   for (int k = 0; k <= Dim; ++k) {
     for (int t = 0; t < Dim - 1; ++t) {
-      const P dual = load_pack<lanes>(pulls[k].dual + t * stride + i);
-      for (int d = 0; d < Dim; ++d) average[d] += pulls[k].tangents[t][d] * dual;
+      const P dual = load_pack<lanes>(multipliers[k].dual + t * stride + i);
+      for (int d = 0; d < Dim; ++d) average[d] += multipliers[k].tangents[t][d] * dual;
     }
   }
   for (std::size_t p = 0; p < arrays.num_periods; ++p) {
@@ -162,13 +162,13 @@ template <bool note, class Scalar, int Dim>
                                                 GradientChange<Scalar, note>& change) {
   constexpr int kWide = kWideLanes<Scalar>;
   const std::size_t stride = arrays.stride;
-  FacetPull<Scalar, Dim> pulls[Dim + 1];
-  gather_facets(arrays, cell, pulls);
+  FacetMultiplier<Scalar, Dim> multipliers[Dim + 1];
+  gather_facets(arrays, cell, multipliers);
   const auto average = [&](auto lanes, std::size_t i, auto* projection)
       __attribute__((always_inline)) {
     constexpr int kCount = decltype(lanes)::kCount;
     PackN<Scalar, kCount> r[Dim];
-    average_candidates<kCount>(arrays, cell, pulls, i, r);
+    average_candidates<kCount>(arrays, cell, multipliers, i, r);
     add_projection<Scalar, Dim, kCount>(arrays, i, r, projection);
     for (int d = 0; d < Dim; ++d) {
       Scalar* place = extrapolated + d * stride + i;

@@ -42,14 +42,14 @@ MeshState<Dim> keep_state(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcPr
   state.penalty = penalty;
   state.flux_density = flux_densities(problem, admm.flux());
   state.potential =
-      flux_potential<Dim>(problem, [&](Index facet) { return admm.facet_pull(facet); });
+      flux_potential<Dim>(problem, [&](Index facet) { return admm.facet_multiplier(facet); });
   state.periods = admm.period_factors();
   return state;
 }
 
 template <class Scalar, int Dim>
-Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
-              StateStorage* storage, Relay<Dim> relay) {
+MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+              StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
       problem, options.penalty, options.relaxation, gradient::boundary_periods(problem), storage);
@@ -57,46 +57,46 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
     // goes on from what is there
   } else if (options.method == Method::kPaper) {
     admm->start_from_least_norm();
-  } else if (relay.start) {
+  } else if (warm_start.from) {
     admm->start_from_duals(
-        relay.start->weights(), [&](Index s) { return relay.start->flux_density(s); },
-        [&](Index facet) { return relay.start->facet_pull(facet); }, relay.start->periods());
+        warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
+        [&](Index facet) { return warm_start.from->facet_multiplier(facet); }, warm_start.from->periods());
   } else {
     admm->start_from_weights(harmonic_coordinates(problem));
   }
   iterate(*admm, options, report);
-  report.numbers_per_cell = admm->numbers_per_cell();
+  report.state_scalars_per_cell = admm->state_scalars_per_cell();
   report.penalty = options.penalty;
   if (storage != nullptr) storage->keep_penalty(options.penalty);
   report.seconds.solve = watch.lap();
-  Outcome outcome;
-  outcome.weights = options.recovery == Recovery::kBreadthFirst
+  MethodResult result;
+  result.weights = options.recovery == Recovery::kBreadthFirst
                         ? integrate_breadth_first(problem, admm->gradients())
                         : integrate_least_squares(problem, admm->gradients());
   report.seconds.recover = watch.lap();
-  if (relay.finish) {
-    *relay.finish = keep_state(*admm, problem, options.penalty);
-    relay.finish->weights = outcome.weights;
+  if (warm_start.final_state) {
+    *warm_start.final_state = keep_state(*admm, problem, options.penalty);
+    warm_start.final_state->weights = result.weights;
   }
-  outcome.certify = [admm, &problem](const WeightMatrix& weights) {
+  result.certify = [admm, &problem](const WeightMatrix& weights) {
     return certify(problem, admm->flux(), weights);
   };
-  return outcome;
+  return result;
 }
 
 }  // namespace
 
 template <int Dim>
-Outcome solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   return options.precision == Precision::kSingle
-             ? solve<float>(problem, options, report, storage, relay)
-             : solve<double>(problem, options, report, storage, relay);
+             ? solve<float>(problem, options, report, storage, warm_start)
+             : solve<double>(problem, options, report, storage, warm_start);
 }
 
-template Outcome solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, Relay<2>);
-template Outcome solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, Relay<3>);
+template MethodResult solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, WarmStart<2>);
+template MethodResult solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, WarmStart<3>);
 
 }  // namespace flbc

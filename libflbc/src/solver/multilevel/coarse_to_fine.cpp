@@ -80,14 +80,14 @@ class Cascade {
     const auto transfer = transfer_to(problem_);
     SolveReport report;
     const double placing = watch.lap();
-    auto outcome = run_method(problem_, options, report, storage, {transfer.get(), nullptr});
+    auto result = run_method(problem_, options, report, storage, {transfer.get(), nullptr});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
     for (const auto& level : reports_) {
       report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
     }
     report.coarse_levels = reports_;
-    return finish(problem_, options, std::move(outcome), std::move(report));
+    return finish(problem_, options, std::move(result), std::move(report));
   }
 
  private:

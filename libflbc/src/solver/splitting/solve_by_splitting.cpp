@@ -154,8 +154,8 @@ MeshState<Dim> keep_state(Splitting<Scalar, Dim>& splitting, const LbcProblem<Di
 }
 
 template <class Scalar, int Dim>
-Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
-              StateStorage* storage, Relay<Dim> relay) {
+MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+              StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   const bool value = options.method == Method::kValue;
   const bool non_negative = options.non_negative == NonNegative::kConstraint;
@@ -166,16 +166,16 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
   const bool resumed = storage != nullptr && storage->penalty() > 0;
   const double penalty = resumed               ? storage->penalty()
                          : options.penalty > 0 ? options.penalty
-                         : relay.start         ? relay.start->penalty()
+                         : warm_start.from         ? warm_start.from->penalty()
                                                : first;
   auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
       problem, metric, penalty, options.relaxation, linear_solver_for(problem, options), storage);
   if (resumed) {
     splitting->resume();
-  } else if (relay.start) {
+  } else if (warm_start.from) {
     splitting->start_from_duals(
-        relay.start->weights(), [&](Index s) { return relay.start->flux_density(s); },
-        relay.start->vertex_dual(penalty));
+        warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
+        warm_start.from->vertex_dual(penalty));
   } else if (value) {
     constexpr int kRichardsonSteps = 8;
     splitting->start_from_harmonic(kRichardsonSteps);
@@ -184,36 +184,36 @@ Outcome solve(const LbcProblem<Dim>& problem, const SolverOptions& options, Solv
   }
   if (value) {
     iterate_value(*splitting, problem, metric.cell.sum(), options,
-                  options.penalty == 0 && !resumed && !relay.start, relay.start != nullptr, report);
+                  options.penalty == 0 && !resumed && !warm_start.from, warm_start.from != nullptr, report);
   } else {
     iterate_2014(*splitting, options, report);
   }
-  report.numbers_per_cell = splitting->numbers_per_cell();
+  report.state_scalars_per_cell = splitting->state_scalars_per_cell();
   report.penalty = splitting->penalty();
   if (storage != nullptr) storage->keep_penalty(report.penalty);
   report.seconds.solve = watch.lap();
-  if (relay.finish) *relay.finish = keep_state(*splitting, problem);
-  Outcome outcome;
-  outcome.weights = splitting->weights();
-  outcome.certify = [splitting, &problem](const WeightMatrix& weights) {
+  if (warm_start.final_state) *warm_start.final_state = keep_state(*splitting, problem);
+  MethodResult result;
+  result.weights = splitting->weights();
+  result.certify = [splitting, &problem](const WeightMatrix& weights) {
     return certify(problem, splitting->flux(), weights);
   };
-  return outcome;
+  return result;
 }
 
 }  // namespace
 
 template <int Dim>
-Outcome solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, Relay<Dim> relay) {
+MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   return options.precision == Precision::kSingle
-             ? solve<float>(problem, options, report, storage, relay)
-             : solve<double>(problem, options, report, storage, relay);
+             ? solve<float>(problem, options, report, storage, warm_start)
+             : solve<double>(problem, options, report, storage, warm_start);
 }
 
-template Outcome solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, Relay<2>);
-template Outcome solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, Relay<3>);
+template MethodResult solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, WarmStart<2>);
+template MethodResult solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                    StateStorage*, WarmStart<3>);
 
 }  // namespace flbc

@@ -23,7 +23,7 @@ Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const 
   std::vector<Index> unknown(problem.mesh.num_vertices(), -1);
   Index count = 0;
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.slot[v] < 0) unknown[v] = count++;
+    if (problem.boundary.boundary_index[v] < 0) unknown[v] = count++;
   }
   std::vector<Eigen::Triplet<double, Index>> entries;
   entries.reserve(static_cast<std::size_t>(problem.mesh.num_cells()) * (Dim + 1) * (Dim + 2) / 2);
@@ -79,7 +79,7 @@ void WeightSplitting<Scalar, Dim>::set_up_rows(StateStorage* storage) {
   vertices_.resize(boundary_row);
   Index unknown = 0;
   for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
-    if (problem_.boundary.slot[v] >= 0) continue;
+    if (problem_.boundary.boundary_index[v] >= 0) continue;
     row_of[v] = solver_.position()[unknown++];
     vertices_[row_of[v]] = v;
   }
@@ -436,7 +436,7 @@ CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux() {
 }
 
 template <class Scalar, int Dim>
-double WeightSplitting<Scalar, Dim>::numbers_per_cell() const {
+double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const {
   const std::size_t numbers =
       weights_.size() + cell_state_.size() + vertex_state_.size() + residual_.size();
   return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();

@@ -107,7 +107,7 @@ class WeightSplitting {
   CellFieldView<Scalar, Dim> flux();
 
   //! Numbers of state held per cell and control point; phi is one more.
-  double numbers_per_cell() const;
+  double state_scalars_per_cell() const;
 
  private:
   void set_up_rows(StateStorage* storage);

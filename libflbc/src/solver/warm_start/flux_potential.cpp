@@ -45,7 +45,7 @@ Vectors<3> cross_rows(const Vector<3>& a, const Vectors<3>& rows) {
   return rows * matrix.transpose();
 }
 
-// Adds the normal components that the pulls leave open.
+// Adds the normal components that the multipliers leave open.
 void complete_normals(const LbcProblem<3>& problem, Eigen::MatrixXd& potential) {
   const auto& topology = problem.topology;
   Eigen::MatrixXd normal_parts = Eigen::MatrixXd::Zero(potential.rows(), topology.num_facets());
@@ -74,7 +74,7 @@ void complete_normals(const LbcProblem<3>& problem, Eigen::MatrixXd& potential) 
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<Dim>& pulls) {
+Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<Dim>& multipliers) {
   constexpr int kSize = MeshState<Dim>::kPotentialSize;
   const Index num_facets = problem.topology.num_facets();
   Eigen::MatrixXd potential(problem.num_control_points(), kSize * num_facets);
@@ -82,10 +82,10 @@ Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<D
   for (Index f = 0; f < num_facets; ++f) {
     if constexpr (Dim == 2) {
       const Vector<2> edge = edge_vector(problem, f);
-      potential.col(f) = pulls(f) * edge / edge.squaredNorm();
+      potential.col(f) = multipliers(f) * edge / edge.squaredNorm();
     } else {
       const Vector<3> normal = area_normal(problem, f);
-      potential.middleCols<3>(3 * f) = cross_rows(-normal / normal.squaredNorm(), pulls(f));
+      potential.middleCols<3>(3 * f) = cross_rows(-normal / normal.squaredNorm(), multipliers(f));
     }
   }
   if constexpr (Dim == 3) complete_normals(problem, potential);
@@ -105,7 +105,7 @@ Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>& problem, const Eigen::
 }
 
 template <int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(const LbcProblem<Dim>& problem, Index facet,
+Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>& problem, Index facet,
                                                       const Eigen::MatrixXd& potential) {
   if constexpr (Dim == 2) {
     return potential * edge_vector(problem, facet).transpose();
@@ -118,7 +118,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(const LbcProblem<Dim>& pro
   template Eigen::MatrixXd flux_potential(const LbcProblem<Dim>&, const VectorsAt<Dim>&);       \
   template Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>&, const Eigen::MatrixXd&,   \
                                               const Location<Dim>&);                            \
-  template Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(const LbcProblem<Dim>&, Index, \
+  template Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>&, Index, \
                                                                  const Eigen::MatrixXd&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -108,8 +108,8 @@ WeightMatrix Transfer<Dim>::vertex_dual(double penalty) const {
 }
 
 template <int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::facet_pull(Index facet) const {
-  return flbc::facet_pull<Dim>(
+Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::facet_multiplier(Index facet) const {
+  return flbc::facet_multiplier<Dim>(
       fine_, facet, enlargement_ * evaluate_potential(coarse_, state_.potential, facets_[facet]));
 }
 

@@ -40,7 +40,7 @@ class Transfer {
   WeightMatrix vertex_dual(double penalty) const;
 
   //! mu u on a fine facet's first side, n x Dim.
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_pull(Index facet) const;
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(Index facet) const;
 
   //! n x P.
   Eigen::MatrixXd periods() const { return enlargement_ * state_.periods; }
