@@ -130,8 +130,8 @@ TYPED_TEST(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
   EXPECT_LT(shortened, n * fine.mesh.num_cells());
 }
 
-// Stokes' theorem: the multipliers of a linear potential add up, over the facets of any cell of any mesh,
-// to the measure times its curl.
+// Stokes' theorem: the multipliers of a linear potential add up, over the facets of any cell of any
+// mesh, to the measure times its curl.
 TYPED_TEST(CoarseToFineTest, LinearPotentialsGiveTheirCurlOnEveryMesh) {
   constexpr int kDim = TypeParam::value;
   constexpr int kSize = MeshState<kDim>::kPotentialSize;
@@ -188,7 +188,8 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
       state.flux_density.template middleCols<kDim>(kDim * s) =
           admm.flux().cell(s).transpose() / signed_measure(problem.mesh, s);
     }
-    state.potential = flux_potential<kDim>(problem, [&](Index f) { return admm.facet_multiplier(f); });
+    state.potential =
+        flux_potential<kDim>(problem, [&](Index f) { return admm.facet_multiplier(f); });
     state.periods = admm.period_factors();
     const Transfer<kDim> transfer(problem, state, problem);
 
@@ -201,7 +202,8 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
     double difference = 0;
     for (Index f = 0; f < problem.topology.num_facets(); ++f) {
       largest = std::max(largest, admm.facet_multiplier(f).norm());
-      difference = std::max(difference, (other.facet_multiplier(f) - admm.facet_multiplier(f)).norm());
+      difference =
+          std::max(difference, (other.facet_multiplier(f) - admm.facet_multiplier(f)).norm());
     }
     EXPECT_GT(largest, 0);
     EXPECT_LT(difference, 1e-10 * largest);

@@ -22,10 +22,36 @@ struct BoundaryValues {
   PointList<Dim> values;                //!< Dim x B, their weights, each column sums to 1
   std::vector<Index> control_vertices;  //!< per control point: the mesh vertex that lies on it
 
-  //! Adds the coordinates of boundary vertex `vertices[b]` to a row of n zeros.
+  //! Whether a vertex does not lie on the cage.
+  //! \param vertex  of the mesh
+  bool is_interior(Index vertex) const { return boundary_index[vertex] < 0; }
+
+  //! The vertices that do not lie on the cage, ascending.
+  std::vector<Index> interior_vertices() const {
+    std::vector<Index> interior;
+    interior.reserve(boundary_index.size() - vertices.size());
+    for (std::size_t v = 0; v < boundary_index.size(); ++v) {
+      if (is_interior(static_cast<Index>(v))) interior.push_back(static_cast<Index>(v));
+    }
+    return interior;
+  }
+
+  //! Adds the coordinates of a boundary vertex to a row of zeros.
+  //! \param b  place of the vertex in `vertices`
+  //! \param row  n zeros
   template <class Row>
   void scatter(Index b, Row&& row) const {
     for (int k = 0; k < Dim; ++k) row[control_points(k, b)] += values(k, b);
+  }
+
+  //! Replaces the columns of boundary vertices by their exact coordinates.
+  //! \param weights  n x V
+  void impose_on(WeightMatrix& weights) const {
+    for (std::size_t b = 0; b < vertices.size(); ++b) {
+      auto column = weights.col(vertices[b]);
+      column.setZero();
+      scatter(static_cast<Index>(b), column);
+    }
   }
 };
 

@@ -51,7 +51,7 @@ struct SolveReport {
   //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
   double objective = 0;
   Certificate certificate{};                 //!< if asked for, in the same units
-  double state_scalars_per_cell = 0;               //!< state of the iteration, per cell and control point
+  double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start

@@ -132,17 +132,9 @@ void check_sizes(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim
 // The weights with the known values on the boundary and feasible columns inside.
 template <int Dim>
 WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
-  std::vector<Index> interior;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    const Index b = problem.boundary.boundary_index[v];
-    if (b < 0) {
-      interior.push_back(v);
-    } else {
-      weights.col(v).setZero();
-      problem.boundary.scatter(b, weights.col(v));
-    }
-  }
-  project_non_negative(problem.cage.points, problem.mesh.points, weights, interior);
+  problem.boundary.impose_on(weights);
+  project_non_negative(problem.cage.points, problem.mesh.points, weights,
+                       problem.boundary.interior_vertices());
   return weights;
 }
 
@@ -161,7 +153,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
         Eigen::VectorXd costs(flux.n), start;
         long double block = 0;
         for (Index v = begin; v < end; ++v) {
-          if (problem.boundary.boundary_index[v] >= 0) {
+          if (!problem.boundary.is_interior(v)) {
             block += boundary_share(problem, admissible, v);
             continue;
           }

@@ -15,7 +15,7 @@ void project_interior(const LbcProblem<Dim>& problem, WeightMatrix& weights) {
   const BarycentricConstraints<Dim> constraints(problem.cage.points);
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] < 0) {
+    if (problem.boundary.is_interior(v)) {
       constraints.project_weights(problem.mesh.points.col(v), weights.col(v));
     }
   }

@@ -47,9 +47,7 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
   const auto levels = breadth_first_levels(problem, around, level_of);
 
   WeightMatrix weights = WeightMatrix::Zero(gradients.n, mesh.num_vertices());
-  for (std::size_t b = 0; b < problem.boundary.vertices.size(); ++b) {
-    problem.boundary.scatter(static_cast<Index>(b), weights.col(problem.boundary.vertices[b]));
-  }
+  problem.boundary.impose_on(weights);
   for (std::size_t level = 1; level < levels.size(); ++level) {
     const auto& vertices = levels[level];
 #pragma omp parallel for schedule(static)
@@ -80,7 +78,7 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] >= 0) continue;
+    if (!problem.boundary.is_interior(v)) continue;
     for (const Index s : around.cells_of(v)) {
       const auto geometry = cell_geometry(mesh, s);
       Index corner = 0;

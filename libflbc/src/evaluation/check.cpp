@@ -134,7 +134,8 @@ std::vector<KnownWeights<Dim>> to_known_weights(const BoundaryValues<Dim>& bound
     known.push_back({boundary.vertices[b], boundary.control_points.col(b), boundary.values.col(b)});
   }
   for (std::size_t i = 0; i < boundary.control_vertices.size(); ++i) {
-    known[boundary.boundary_index[boundary.control_vertices[i]]].coinciding_with = static_cast<Index>(i);
+    known[boundary.boundary_index[boundary.control_vertices[i]]].coinciding_with =
+        static_cast<Index>(i);
   }
   return known;
 }

@@ -88,10 +88,7 @@ Extrema<Dim> find_extrema(const DomainMesh<Dim>& mesh, const std::vector<Index>&
 template <int Dim>
 MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Dim>& domain,
                              const WeightMatrix& weights, double mean_influences) {
-  std::vector<Index> interior;
-  for (Index v = 0; v < domain.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
-  }
+  const auto interior = problem.boundary.interior_vertices();
   MeshCheck<Dim> check;
   check.interior_vertices = static_cast<Index>(interior.size());
   const auto extrema = find_extrema(domain, interior, weights);

@@ -46,12 +46,9 @@ Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n) {
 template <int Dim>
 DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
                                         const BoundaryValues<Dim>& boundary)
-    : boundary_(boundary.vertices) {
-  std::vector<Index> place(mesh.num_vertices());  // of a vertex among the interior or boundary ones
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    place[v] = boundary.boundary_index[v] >= 0 ? boundary.boundary_index[v] : static_cast<Index>(interior_.size());
-    if (boundary.boundary_index[v] < 0) interior_.push_back(v);
-  }
+    : interior_(boundary.interior_vertices()), boundary_(boundary.vertices) {
+  std::vector<Index> place = boundary.boundary_index;  // among the interior or boundary vertices
+  for (std::size_t i = 0; i < interior_.size(); ++i) place[interior_[i]] = static_cast<Index>(i);
 
   using Triplet = Eigen::Triplet<double, Index>;
   std::vector<Triplet> inner;  // lower triangle
@@ -60,7 +57,7 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
   for (const Index v : interior_) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
       const auto w = static_cast<Index>(it.row());
-      if (boundary.boundary_index[w] >= 0) {
+      if (!boundary.is_interior(w)) {
         outer.emplace_back(place[v], place[w], it.value());
       } else if (w >= v) {
         inner.emplace_back(place[w], place[v], it.value());

@@ -40,17 +40,19 @@ struct WarmStart {
 //! residuals and seconds are filled in \param storage  memory of the state, may be null
 template <int Dim>
 MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
+                                SolveReport& report, StateStorage* storage,
+                                WarmStart<Dim> warm_start);
 
 //! Method::kValue and kLbc2014. Parameters as above.
 template <int Dim>
 MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
+                                SolveReport& report, StateStorage* storage,
+                                WarmStart<Dim> warm_start);
 
 //! Any method, up to weights that may be negative. Parameters as above; the report is made anew.
 template <int Dim>
 MethodResult run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
+                        SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! What follows the iteration: non-negative rows, certificate, measures.
 template <int Dim>

@@ -16,15 +16,6 @@
 namespace flbc {
 namespace {
 
-template <int Dim>
-std::vector<Index> interior_vertices(const LbcProblem<Dim>& problem) {
-  std::vector<Index> interior;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
-  }
-  return interior;
-}
-
 // In the units of the mesh as it was given.
 template <int Dim>
 double unscaled(const LbcProblem<Dim>& problem, double objective) {
@@ -43,7 +34,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result) 
 
 template <int Dim>
 MethodResult run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+                        SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   report = {};
   report.method = options.method;
@@ -77,7 +68,7 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
   Stopwatch watch;
   if (options.non_negative != NonNegative::kOff) {
     project_non_negative(problem.cage.points, problem.mesh.points, result.weights,
-                         interior_vertices(problem));
+                         problem.boundary.interior_vertices());
   }
   report.seconds.recover += watch.lap();
   if (options.certify) report.certificate = certify(problem, result);
@@ -110,10 +101,10 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverO
   return solution;
 }
 
-template MethodResult run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&, StateStorage*,
-                            WarmStart<2>);
-template MethodResult run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&, StateStorage*,
-                            WarmStart<3>);
+template MethodResult run_method(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
+                                 StateStorage*, WarmStart<2>);
+template MethodResult run_method(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
+                                 StateStorage*, WarmStart<3>);
 template Solution finish(const LbcProblem<2>&, const SolverOptions&, MethodResult, SolveReport);
 template Solution finish(const LbcProblem<3>&, const SolverOptions&, MethodResult, SolveReport);
 template Solution solve(const LbcProblem<2>&, const SolverOptions&, StateStorage*);

@@ -55,7 +55,8 @@ void set_up_boundary_slopes(const LbcProblem<Dim>& problem, std::size_t stride,
     corner_weights.setZero();
     Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
     for (int k = 0; k < Dim; ++k) {
-      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)], corner_weights.col(k));
+      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)],
+                               corner_weights.col(k));
       if (k == 0) continue;
       edges.col(k - 1) = tangents.transpose() * (problem.mesh.points.col(facets(k, f)) -
                                                  problem.mesh.points.col(facets(0, f)));

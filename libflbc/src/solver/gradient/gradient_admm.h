@@ -49,10 +49,11 @@ class GradientAdmm {
   void start_from_weights(const WeightMatrix& weights);
 
   //! Starts from weights and duals that were found elsewhere. \param weights  n x V \param
-  //! flux_density  p / A of a cell, n x Dim, at most phi long \param facet_multiplier  see facet_multiplier()
-  //! \param period_factors  n x P
+  //! flux_density  p / A of a cell, n x Dim, at most phi long \param facet_multiplier  see
+  //! facet_multiplier() \param period_factors  n x P
   void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
-                        const VectorsAt<Dim>& facet_multiplier, const Eigen::MatrixXd& period_factors);
+                        const VectorsAt<Dim>& facet_multiplier,
+                        const Eigen::MatrixXd& period_factors);
 
   //! Iterations: X-, Y- and Z-step with their duals, then the G-step. Many at once are faster than
   //! one by one, with the same result to the bit. \param count  at least 1 \return what is needed

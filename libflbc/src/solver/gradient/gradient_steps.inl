@@ -86,7 +86,8 @@ struct FacetMultiplier {
 
 template <class Scalar, int Dim>
 [[gnu::always_inline]] inline void gather_facets(const Arrays<Scalar, Dim>& arrays,
-                                                 std::int32_t cell, FacetMultiplier<Scalar, Dim>* multipliers) {
+                                                 std::int32_t cell,
+                                                 FacetMultiplier<Scalar, Dim>* multipliers) {
   for (int k = 0; k <= Dim; ++k) {
     const std::int32_t facet = arrays.cell_facets[std::size_t(cell) * (Dim + 1) + k];
     const Scalar sign = arrays.sides[2 * facet] == cell ? Scalar(1) : Scalar(-1);
@@ -102,11 +103,9 @@ template <class Scalar, int Dim>
 
 // Average of all candidates for the cell's gradient, r_s of (11): g + (sum of its duals) / M.
 template <int lanes, class Scalar, int Dim>
-[[gnu::always_inline]] inline void average_candidates(const Arrays<Scalar, Dim>& arrays,
-                                                      std::int32_t cell,
-                                                      const FacetMultiplier<Scalar, Dim>* multipliers,
-                                                      std::size_t i,
-                                                      PackN<Scalar, lanes>* average) {
+[[gnu::always_inline]] inline void average_candidates(
+    const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
+    const FacetMultiplier<Scalar, Dim>* multipliers, std::size_t i, PackN<Scalar, lanes>* average) {
   using P = PackN<Scalar, lanes>;
   const std::size_t stride = arrays.stride;
   const std::size_t row = std::size_t(cell) * Dim * stride + i;

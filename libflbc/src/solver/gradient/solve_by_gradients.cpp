@@ -48,8 +48,8 @@ MeshState<Dim> keep_state(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcPr
 }
 
 template <class Scalar, int Dim>
-MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
-              StateStorage* storage, WarmStart<Dim> warm_start) {
+MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
       problem, options.penalty, options.relaxation, gradient::boundary_periods(problem), storage);
@@ -60,7 +60,8 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   } else if (warm_start.from) {
     admm->start_from_duals(
         warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
-        [&](Index facet) { return warm_start.from->facet_multiplier(facet); }, warm_start.from->periods());
+        [&](Index facet) { return warm_start.from->facet_multiplier(facet); },
+        warm_start.from->periods());
   } else {
     admm->start_from_weights(harmonic_coordinates(problem));
   }
@@ -71,8 +72,8 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   report.seconds.solve = watch.lap();
   MethodResult result;
   result.weights = options.recovery == Recovery::kBreadthFirst
-                        ? integrate_breadth_first(problem, admm->gradients())
-                        : integrate_least_squares(problem, admm->gradients());
+                       ? integrate_breadth_first(problem, admm->gradients())
+                       : integrate_least_squares(problem, admm->gradients());
   report.seconds.recover = watch.lap();
   if (warm_start.final_state) {
     *warm_start.final_state = keep_state(*admm, problem, options.penalty);
@@ -88,15 +89,16 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 
 template <int Dim>
 MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+                                SolveReport& report, StateStorage* storage,
+                                WarmStart<Dim> warm_start) {
   return options.precision == Precision::kSingle
              ? solve<float>(problem, options, report, storage, warm_start)
              : solve<double>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, WarmStart<2>);
+                                         StateStorage*, WarmStart<2>);
 template MethodResult solve_by_gradients(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, WarmStart<3>);
+                                         StateStorage*, WarmStart<3>);
 
 }  // namespace flbc

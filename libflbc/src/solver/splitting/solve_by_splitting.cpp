@@ -154,8 +154,8 @@ MeshState<Dim> keep_state(Splitting<Scalar, Dim>& splitting, const LbcProblem<Di
 }
 
 template <class Scalar, int Dim>
-MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
-              StateStorage* storage, WarmStart<Dim> warm_start) {
+MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   const bool value = options.method == Method::kValue;
   const bool non_negative = options.non_negative == NonNegative::kConstraint;
@@ -166,7 +166,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   const bool resumed = storage != nullptr && storage->penalty() > 0;
   const double penalty = resumed               ? storage->penalty()
                          : options.penalty > 0 ? options.penalty
-                         : warm_start.from         ? warm_start.from->penalty()
+                         : warm_start.from     ? warm_start.from->penalty()
                                                : first;
   auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
       problem, metric, penalty, options.relaxation, linear_solver_for(problem, options), storage);
@@ -184,7 +184,8 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   }
   if (value) {
     iterate_value(*splitting, problem, metric.cell.sum(), options,
-                  options.penalty == 0 && !resumed && !warm_start.from, warm_start.from != nullptr, report);
+                  options.penalty == 0 && !resumed && !warm_start.from, warm_start.from != nullptr,
+                  report);
   } else {
     iterate_2014(*splitting, options, report);
   }
@@ -205,15 +206,16 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 
 template <int Dim>
 MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+                                SolveReport& report, StateStorage* storage,
+                                WarmStart<Dim> warm_start) {
   return options.precision == Precision::kSingle
              ? solve<float>(problem, options, report, storage, warm_start)
              : solve<double>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_by_splitting(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, WarmStart<2>);
+                                         StateStorage*, WarmStart<2>);
 template MethodResult solve_by_splitting(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*, WarmStart<3>);
+                                         StateStorage*, WarmStart<3>);
 
 }  // namespace flbc

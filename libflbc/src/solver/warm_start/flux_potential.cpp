@@ -105,8 +105,9 @@ Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>& problem, const Eigen::
 }
 
 template <int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>& problem, Index facet,
-                                                      const Eigen::MatrixXd& potential) {
+Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>& problem,
+                                                            Index facet,
+                                                            const Eigen::MatrixXd& potential) {
   if constexpr (Dim == 2) {
     return potential * edge_vector(problem, facet).transpose();
   } else {
@@ -114,12 +115,12 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                   \
-  template Eigen::MatrixXd flux_potential(const LbcProblem<Dim>&, const VectorsAt<Dim>&);       \
-  template Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>&, const Eigen::MatrixXd&,   \
-                                              const Location<Dim>&);                            \
-  template Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>&, Index, \
-                                                                 const Eigen::MatrixXd&);
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template Eigen::MatrixXd flux_potential(const LbcProblem<Dim>&, const VectorsAt<Dim>&);     \
+  template Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>&, const Eigen::MatrixXd&, \
+                                              const Location<Dim>&);                          \
+  template Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(                       \
+      const LbcProblem<Dim>&, Index, const Eigen::MatrixXd&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -10,15 +10,14 @@
 
 namespace flbc {
 
-//! At an optimum the multipliers of a cell's facets balance its flux, A p = sum of mu u over its facets,
-//! where u is tangential to the facet, and equal and opposite for its two cells. This is Stokes'
-//! theorem for a potential psi, known at the middle of each facet of measure |f|. In 2D p / A is
-//! the gradient of psi, turned by 90 degrees, and mu u = |f| psi t with the tangent t that runs
-//! counter-clockwise round the first cell; in 3D p / A = curl psi and mu u = |f| N x psi with the
-//! normal N that points out of the first cell. In 3D this leaves the normal component open, which
-//! is taken from the constant vectors that fit the two cells best.
-//! \param multipliers  mu u on the facet's first side
-//! \return n x (kPotentialSize E)
+//! At an optimum the multipliers of a cell's facets balance its flux, A p = sum of mu u over its
+//! facets, where u is tangential to the facet, and equal and opposite for its two cells. This is
+//! Stokes' theorem for a potential psi, known at the middle of each facet of measure |f|. In 2D p /
+//! A is the gradient of psi, turned by 90 degrees, and mu u = |f| psi t with the tangent t that
+//! runs counter-clockwise round the first cell; in 3D p / A = curl psi and mu u = |f| N x psi with
+//! the normal N that points out of the first cell. In 3D this leaves the normal component open,
+//! which is taken from the constant vectors that fit the two cells best. \param multipliers  mu u
+//! on the facet's first side \return n x (kPotentialSize E)
 template <int Dim>
 Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<Dim>& multipliers);
 
@@ -30,7 +29,8 @@ Eigen::MatrixXd evaluate_potential(const LbcProblem<Dim>& problem, const Eigen::
 
 //! mu u on the first side of a facet in whose middle the potential is known (n x kPotentialSize).
 template <int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>& problem, Index facet,
-                                                      const Eigen::MatrixXd& potential);
+Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(const LbcProblem<Dim>& problem,
+                                                            Index facet,
+                                                            const Eigen::MatrixXd& potential);
 
 }  // namespace flbc

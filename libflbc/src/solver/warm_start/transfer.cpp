@@ -83,11 +83,7 @@ std::vector<Location<Dim>> Transfer<Dim>::locate(const PointList<Dim>& fine_poin
 template <int Dim>
 WeightMatrix Transfer<Dim>::weights() const {
   auto weights = interpolate(coarse_.mesh, state_.weights, vertices_);
-  for (std::size_t b = 0; b < fine_.boundary.vertices.size(); ++b) {
-    auto column = weights.col(fine_.boundary.vertices[b]);
-    column.setZero();
-    fine_.boundary.scatter(static_cast<Index>(b), column);
-  }
+  fine_.boundary.impose_on(weights);
   return weights;
 }
 
