@@ -30,8 +30,10 @@ install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc
   $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 if(TARGET flbc_openmesh)
-  install(DIRECTORY openmesh_bindings DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.h" PATTERN examples EXCLUDE)
+  install(DIRECTORY openmesh_bindings/include/flbc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN "*.h")
+  install(DIRECTORY openmesh_bindings/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+    FILES_MATCHING PATTERN "*.cpp")
 endif()
 
 # ---- the CMake package ---------------------------------------------------------------------------

@@ -14,7 +14,7 @@
 #include "flbc/meshing.h"
 #include "flbc/self_intersections.h"
 #ifdef FLBC_WITH_OPENMESH
-#include "openmesh_bindings/mesh_io.h"
+#include "flbc/openmesh/mesh_io.h"
 #endif
 
 namespace flbc::app {

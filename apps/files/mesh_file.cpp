@@ -8,7 +8,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #ifdef FLBC_WITH_OPENMESH
-#include "openmesh_bindings/om_file.h"
+#include "flbc/openmesh/om_file.h"
 #endif
 
 namespace flbc::app {

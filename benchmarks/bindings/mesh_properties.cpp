@@ -16,7 +16,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "flbc/meshing.h"
-#include "openmesh_bindings/lbc.h"
+#include "flbc/openmesh/lbc.h"
 
 namespace {
 
@@ -98,7 +98,7 @@ void compare(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Method method
   options.tolerance = 1e-30;
   options.max_iterations = iterations;
   options.check_interval = iterations;
-  PropertyOptions properties;
+  openmesh::PropertyOptions properties;
   properties.keep_state = true;
   properties.restart = true;
   auto mesh = to_mesh(domain);
@@ -111,7 +111,7 @@ void compare(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Method method
       if ((pair + turn) % 2 == 0) {
         arrays = solve(cage, domain, options).report.seconds.solve;
       } else {
-        on_mesh = solve(mesh, cage, options, properties).seconds.solve;
+        on_mesh = openmesh::solve(mesh, cage, options, properties).seconds.solve;
       }
     }
     ratios.push_back(on_mesh / arrays);

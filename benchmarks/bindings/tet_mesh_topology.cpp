@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "flbc/domain_mesh.h"
-#include "openmesh_bindings/domain.h"
-#include "openmesh_bindings/tet_mesh.h"
+#include "flbc/openmesh/domain.h"
+#include "flbc/openmesh/tet_mesh.h"
 
 namespace {
 

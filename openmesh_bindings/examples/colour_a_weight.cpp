@@ -7,7 +7,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
-#include <openmesh_bindings/lbc.h>
+#include <flbc/openmesh/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -32,7 +32,7 @@ int main(int argc, char** argv) try {
                   Mesh::VertexHandle(face[2]));
   }
 
-  const auto report = flbc::solve(mesh, cage);
+  const auto report = flbc::openmesh::solve(mesh, cage);
 
   OpenMesh::VProp<flbc::openmesh::Wide<double>> weights(mesh, flbc::openmesh::kWeights);
   const auto control_point = static_cast<std::size_t>(std::stoi(argv[3]));

@@ -17,7 +17,7 @@
 #include <flbc/meshing.h>
 #include <flbc/interpolate.h>
 #include <flbc/cell_locator.h>
-#include <openmesh_bindings/lbc.h>
+#include <flbc/openmesh/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;

@@ -9,7 +9,7 @@
 
 #include <flbc/io/cage_io.h>
 #include <flbc/meshing.h>
-#include <openmesh_bindings/lbc.h>
+#include <flbc/openmesh/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -32,7 +32,7 @@ int main(int argc, char** argv) try {
     meshing.embedded_points.col(v.idx()) << model.point(v)[0], model.point(v)[1], model.point(v)[2];
   }
   auto mesh = flbc::openmesh::TetMesh::from(flbc::tetrahedralize(cage, meshing));
-  const auto report = flbc::solve(mesh, cage);
+  const auto report = flbc::openmesh::solve(mesh, cage);
 
   // The mesher puts control points first, then the embedded ones.
   const auto weights = flbc::openmesh::get_weights(mesh);

@@ -6,7 +6,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "openmesh_bindings/om_file.h"
+#include "flbc/openmesh/om_file.h"
 #include "support/model_kinds.h"
 
 namespace flbc::testing {

@@ -8,8 +8,8 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "openmesh_bindings/mesh_io.h"
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/mesh_io.h"
+#include "flbc/openmesh/wide_property.h"
 #include "support/model_kinds.h"
 
 namespace flbc::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solving on meshes of OpenMesh's and on TetMesh: the same results as on plain arrays, kept in
 // properties.
-#include "openmesh_bindings/lbc.h"
+#include "flbc/openmesh/lbc.h"
 
 #include <gtest/gtest.h>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
@@ -77,7 +77,7 @@ TYPED_TEST(LbcTest, EqualsTheSolveOnArrays) {
   for (const auto& sample : samples<kDimension>()) {
     SCOPED_TRACE(sample.name);
     auto mesh = build<TypeParam>(sample.mesh);
-    const auto report = solve(mesh, sample.cage);
+    const auto report = openmesh::solve(mesh, sample.cage);
     const auto expected = solve(sample.cage, oriented(sample.mesh));
     const auto weights = openmesh::get_weights(mesh);
     EXPECT_EQ(report.vertices, sample.mesh.num_vertices());
@@ -101,14 +101,14 @@ TYPED_TEST(LbcTest, StateIsKeptOnlyIfAskedFor) {
   auto mesh = build<TypeParam>(sample.mesh);
   SolverOptions options;
   options.max_iterations = 10;
-  solve(mesh, sample.cage, options);
+  openmesh::solve(mesh, sample.cage, options);
   EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
-  PropertyOptions properties;
+  openmesh::PropertyOptions properties;
   properties.keep_state = true;
-  solve(mesh, sample.cage, options, properties);
+  openmesh::solve(mesh, sample.cage, options, properties);
   EXPECT_TRUE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
   options.method = Method::kGradient;
-  solve(mesh, sample.cage, options, properties);
+  openmesh::solve(mesh, sample.cage, options, properties);
   EXPECT_TRUE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:gradient")));
   typename openmesh::PropertyHandles<TypeParam>::template Facet<Wide<float>> facets;
   EXPECT_TRUE(mesh.get_property_handle(facets, "flbc:integrability_dual"));
@@ -128,11 +128,11 @@ TYPED_TEST(LbcTest, ResumesWhereItStopped) {
         options.precision = precision;
         options.penalty = method == Method::kGradient ? 1000 : 10;
         options.tolerance = 1e-20;
-        PropertyOptions properties;
+        openmesh::PropertyOptions properties;
         properties.keep_state = true;
         const auto run = [&](TypeParam& mesh, int iterations) {
           options.max_iterations = iterations;
-          solve(mesh, sample.cage, options, properties);
+          openmesh::solve(mesh, sample.cage, options, properties);
           return openmesh::get_weights(mesh);
         };
         auto whole = build<TypeParam>(sample.mesh);
@@ -164,9 +164,9 @@ TYPED_TEST(LbcTest, RefusesAStateThatBelongsToSomethingElse) {
   auto mesh = build<TypeParam>(sample.mesh);
   SolverOptions options;
   options.max_iterations = 10;
-  PropertyOptions properties;
+  openmesh::PropertyOptions properties;
   properties.keep_state = true;
-  solve(mesh, sample.cage, options, properties);
+  openmesh::solve(mesh, sample.cage, options, properties);
 
   Index inner = 0;
   const auto topology = build_topology(sample.mesh);
@@ -177,25 +177,26 @@ TYPED_TEST(LbcTest, RefusesAStateThatBelongsToSomethingElse) {
   auto moved = place;
   moved[0] += static_cast<std::decay_t<decltype(moved[0])>>(0.001);
   mesh.set_point(vertex, moved);
-  expect_refused("points have moved", [&] { solve(mesh, sample.cage, options, properties); });
+  expect_refused("points have moved",
+                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
   mesh.set_point(vertex, place);
 
   auto cage = sample.cage;
   cage.points(0, 0) += 1e-9;
-  expect_refused("cage has changed", [&] { solve(mesh, cage, options, properties); });
+  expect_refused("cage has changed", [&] { openmesh::solve(mesh, cage, options, properties); });
   properties.restart = true;
-  EXPECT_NO_THROW(solve(mesh, cage, options, properties));
+  EXPECT_NO_THROW(openmesh::solve(mesh, cage, options, properties));
   // Another method starts afresh.
   properties.restart = false;
   options.method = Method::kGradient;
-  EXPECT_NO_THROW(solve(mesh, sample.cage, options, properties));
+  EXPECT_NO_THROW(openmesh::solve(mesh, sample.cage, options, properties));
 }
 
 TYPED_TEST(LbcTest, OtherFormsOfTheWeights) {
   constexpr int kDimension = kDim<TypeParam>;
   const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
   auto mesh = build<TypeParam>(sample.mesh);
-  solve(mesh, sample.cage);
+  openmesh::solve(mesh, sample.cage);
   const auto weights = openmesh::get_weights(mesh);
   openmesh::write_vectors(mesh, "dense");
   openmesh::write_pairs(mesh, "sparse", 1e-4);
@@ -224,7 +225,7 @@ TYPED_TEST(LbcTest, DeformFollowsTheCage) {
   constexpr int kDimension = kDim<TypeParam>;
   const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
   auto mesh = build<TypeParam>(sample.mesh);
-  solve(mesh, sample.cage);
+  openmesh::solve(mesh, sample.cage);
   Eigen::Matrix<double, kDimension, kDimension> linear =
       Eigen::Matrix<double, kDimension, kDimension>::Identity();
   linear(0, 1) = 0.5;
@@ -256,17 +257,18 @@ TYPED_TEST(LbcTriangleTest, DeletedElementsAndLooseVerticesAreNamed) {
   mesh.request_face_status();
   mesh.request_edge_status();
   mesh.request_vertex_status();
-  EXPECT_NO_THROW(solve(mesh, sample.cage));
+  EXPECT_NO_THROW(openmesh::solve(mesh, sample.cage));
   mesh.delete_face(mesh.face_handle(5), false);
-  expect_refused("face 5; call garbage_collection()", [&] { solve(mesh, sample.cage); });
+  expect_refused("face 5; call garbage_collection()", [&] { openmesh::solve(mesh, sample.cage); });
 
   auto loose = build<TypeParam>(sample.mesh);
   const auto added = loose.add_vertex(loose.point(loose.vertex_handle(0)));
-  expect_refused("vertex " + std::to_string(added.idx()), [&] { solve(loose, sample.cage); });
+  expect_refused("vertex " + std::to_string(added.idx()),
+                 [&] { openmesh::solve(loose, sample.cage); });
 
   // The hole that is left after collection is no part of the cage.
   mesh.garbage_collection();
-  EXPECT_THROW(solve(mesh, sample.cage), InputError);
+  EXPECT_THROW(openmesh::solve(mesh, sample.cage), InputError);
 }
 
 TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
@@ -274,7 +276,7 @@ TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
   auto turned = sample.mesh;
   turned.cells.row(1).swap(turned.cells.row(2));
   auto mesh = build<TypeParam>(turned);
-  solve(mesh, sample.cage);
+  openmesh::solve(mesh, sample.cage);
   const auto judgement = judge(sample.cage, sample.mesh, openmesh::get_weights(mesh));
   EXPECT_LT(judgement.partition_error, 1e-13);
   EXPECT_GE(judgement.min_weight, 0);
@@ -290,24 +292,24 @@ TEST(LbcFile, StateAndWeightsSurvive) {
     options.tolerance = 1e-20;
     options.max_iterations = 30;
     options.penalty = method == Method::kGradient ? 1000 : 10;
-    PropertyOptions properties;
+    openmesh::PropertyOptions properties;
     properties.keep_state = true;
     properties.persistent = true;
-    solve(mesh, sample.cage, options, properties);
+    openmesh::solve(mesh, sample.cage, options, properties);
     const std::string path = ::testing::TempDir() + "lbc_state.om";
     ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
     DoubleMesh loaded;
     ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
     EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
               0);
-    solve(mesh, sample.cage, options, properties);
-    const auto report = solve(loaded, sample.cage, options, properties);
+    openmesh::solve(mesh, sample.cage, options, properties);
+    const auto report = openmesh::solve(loaded, sample.cage, options, properties);
     EXPECT_EQ(report.iterations, 30);
     EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
               0);
     properties.restart = true;
     const auto resumed = openmesh::get_weights(loaded);
-    solve(loaded, sample.cage, options, properties);
+    openmesh::solve(loaded, sample.cage, options, properties);
     EXPECT_GT((openmesh::get_weights(loaded) - resumed).cwiseAbs().maxCoeff(), 0);
   }
 }
@@ -317,7 +319,7 @@ TEST(LbcPlane, MeshesOutOfAPlaneAreNamed) {
   auto mesh = build<DoubleMesh>(sample.mesh);
   mesh.set_point(mesh.vertex_handle(3),
                  mesh.point(mesh.vertex_handle(3)) + OpenMesh::Vec3d(0, 0, 1));
-  expect_refused("vertex 3 has z", [&] { solve(mesh, sample.cage); });
+  expect_refused("vertex 3 has z", [&] { openmesh::solve(mesh, sample.cage); });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
-#include "openmesh_bindings/mesh_io.h"
+#include "flbc/openmesh/mesh_io.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/tet_mesh.h"
+#include "flbc/openmesh/tet_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <Eigen/Geometry>
 
 #include "flbc/errors.h"
-#include "openmesh_bindings/domain.h"
+#include "flbc/openmesh/domain.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"
 

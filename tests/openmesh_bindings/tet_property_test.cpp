@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "openmesh_bindings/tet_mesh.h"
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/tet_mesh.h"
+#include "flbc/openmesh/wide_property.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::openmesh {

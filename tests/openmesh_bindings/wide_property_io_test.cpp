@@ -12,7 +12,7 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 
 #include "flbc/bounding_box.h"
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/wide_property.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::openmesh {

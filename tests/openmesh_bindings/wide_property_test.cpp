@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wide properties do in memory what other properties of OpenMesh do.
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/wide_property.h"
 
 #include <set>
 #include <sstream>

@@ -11,7 +11,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/wide_property.h"
 
 namespace flbc::testing {
 

@@ -5,8 +5,8 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
-#include <openmesh_bindings/lbc.h>
-#include <openmesh_bindings/mesh_io.h>
+#include <flbc/openmesh/lbc.h>
+#include <flbc/openmesh/mesh_io.h>
 
 #include "install/consumer/judge.h"
 
@@ -35,6 +35,6 @@ int main() {
   for (int k = 0; k < 4; ++k) {
     mesh.add_face(mesh.vertex_handle(k), mesh.vertex_handle((k + 1) % 4), mesh.vertex_handle(4));
   }
-  flbc::solve(mesh, cage);
+  flbc::openmesh::solve(mesh, cage);
   return judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
 }

@@ -11,7 +11,7 @@
 #include <OpenMesh/Core/Mesh/Handles.hh>
 #include <OpenMesh/Core/Utils/PropertyContainer.hh>
 
-#include "openmesh_bindings/tet_handles.h"
+#include "flbc/openmesh/tet_handles.h"
 
 namespace flbc::openmesh {
 

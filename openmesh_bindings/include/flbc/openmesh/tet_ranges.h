@@ -8,7 +8,7 @@
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
 
-#include "openmesh_bindings/tet_handles.h"
+#include "flbc/openmesh/tet_handles.h"
 
 namespace flbc::openmesh {
 

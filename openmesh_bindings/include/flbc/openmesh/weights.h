@@ -11,7 +11,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/errors.h"
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/wide_property.h"
 
 namespace flbc::openmesh {
 

@@ -10,7 +10,7 @@
 #include <OpenMesh/Core/Mesh/Handles.hh>
 #include <OpenMesh/Core/Utils/Property.hh>
 
-#include "openmesh_bindings/tet_handles.h"
+#include "flbc/openmesh/tet_handles.h"
 
 namespace flbc::openmesh {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flbc/io/mesh_io.h"
-#include "openmesh_bindings/tet_mesh.h"
+#include "flbc/openmesh/tet_mesh.h"
 
 namespace flbc::openmesh {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/tet_mesh_io.h"
+#include "flbc/openmesh/tet_mesh_io.h"
 
 namespace flbc::openmesh {
 

@@ -6,18 +6,18 @@
 
 #include <string>
 
+#include "flbc/openmesh/domain.h"
+#include "flbc/openmesh/property_storage.h"
+#include "flbc/openmesh/state_record.h"
+#include "flbc/openmesh/weights.h"
 #include "flbc/solver.h"
-#include "openmesh_bindings/domain.h"
-#include "openmesh_bindings/property_storage.h"
-#include "openmesh_bindings/state_record.h"
-#include "openmesh_bindings/weights.h"
 
-namespace flbc {
+namespace flbc::openmesh {
 
 //! What solve() leaves on the mesh.
 struct PropertyOptions {
-  //! The weights: a row of n doubles per vertex (openmesh_bindings/wide_property.h).
-  std::string weights = openmesh::kWeights;
+  //! The weights: a row of n doubles per vertex (flbc/openmesh/wide_property.h).
+  std::string weights = kWeights;
 
   //! First part of the names of the state's properties, such as "flbc:splitting_state" and
   //! "flbc:iterate", or "flbc:gradient", "flbc:tv_dual" and "flbc:integrability_dual"; the mesh
@@ -34,9 +34,7 @@ struct PropertyOptions {
   bool persistent = false;
 };
 
-namespace openmesh {
-
-//! What the two overloads of flbc::solve() below have in common.
+//! What the two overloads of solve() below have in common.
 template <int Dim, class Mesh>
 SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& user_options,
                      const PropertyOptions& properties) {
@@ -68,7 +66,7 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& use
   snap_to_cage(cage, domain.topology, kSinglePrecision, domain.mesh);
   const auto problem =
       make_problem(cage, std::move(domain.mesh), std::move(domain.topology), options.phi);
-  auto solution = solve(problem, user_options, &storage);
+  auto solution = flbc::solve(problem, user_options, &storage);
   set_weights(mesh, solution.weights, properties.weights);
   record.penalty = properties.keep_state ? storage.penalty() : 0;
   mesh.property(record_handle) = to_json(record);
@@ -83,8 +81,6 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& use
   return solution.report;
 }
 
-}  // namespace openmesh
-
 //! Solves on a triangle mesh in the plane, a mesh of the cage's interior. Properties as in
 //! PropertyOptions; the mesh itself does not change. Boundary vertices beside the cage by no more
 //! than 1e-6 of its size count as on it. \throws InputError naming the element if mesh and cage do
@@ -93,14 +89,13 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& use
 template <class Traits>
 SolveReport solve(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, const Cage<2>& cage,
                   const SolverOptions& options = {}, const PropertyOptions& properties = {}) {
-  return openmesh::solve_on<2>(mesh, cage, options, properties);
+  return solve_on<2>(mesh, cage, options, properties);
 }
 
 //! The same on a tetrahedral mesh.
-inline SolveReport solve(openmesh::TetMesh& mesh, const Cage<3>& cage,
-                         const SolverOptions& options = {},
+inline SolveReport solve(TetMesh& mesh, const Cage<3>& cage, const SolverOptions& options = {},
                          const PropertyOptions& properties = {}) {
-  return openmesh::solve_on<3>(mesh, cage, options, properties);
+  return solve_on<3>(mesh, cage, options, properties);
 }
 
-}  // namespace flbc
+}  // namespace flbc::openmesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/om_file.h"
+#include "flbc/openmesh/om_file.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -8,7 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "openmesh_bindings/silenced.h"
+#include "silenced.h"
 
 namespace flbc::openmesh {
 namespace {

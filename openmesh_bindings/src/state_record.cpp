@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/state_record.h"
+#include "flbc/openmesh/state_record.h"
 
 #include <cstdint>
 #include <cstdio>

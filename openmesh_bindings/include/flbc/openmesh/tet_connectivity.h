@@ -9,9 +9,9 @@
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
 
-#include "openmesh_bindings/simplex_table.h"
-#include "openmesh_bindings/tet_handles.h"
-#include "openmesh_bindings/tet_ranges.h"
+#include "flbc/openmesh/simplex_table.h"
+#include "flbc/openmesh/tet_handles.h"
+#include "flbc/openmesh/tet_ranges.h"
 
 namespace flbc::openmesh {
 

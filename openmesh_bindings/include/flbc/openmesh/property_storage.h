@@ -9,9 +9,9 @@
 
 #include "flbc/errors.h"
 #include "flbc/solver_state.h"
-#include "openmesh_bindings/domain.h"
-#include "openmesh_bindings/tet_mesh.h"
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/domain.h"
+#include "flbc/openmesh/tet_mesh.h"
+#include "flbc/openmesh/wide_property.h"
 
 namespace flbc::openmesh {
 

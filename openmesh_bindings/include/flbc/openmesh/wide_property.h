@@ -14,10 +14,16 @@
 #include <string>
 #include <type_traits>
 
+#include <OpenMesh/Core/System/config.h>
 #include <OpenMesh/Core/Utils/Property.hh>
 #include <OpenMesh/Core/Utils/PropertyCreator.hh>
 
-#include "openmesh_bindings/row_block.h"
+// Specialises PropertyT, which before 9.0 had another interface.
+#if OM_VERSION < 0x90000
+#error "flbc's bindings need OpenMesh 9.0 or later"
+#endif
+
+#include "flbc/openmesh/row_block.h"
 
 namespace flbc::openmesh {
 

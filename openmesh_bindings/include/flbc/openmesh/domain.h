@@ -11,7 +11,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "openmesh_bindings/tet_mesh.h"
+#include "flbc/openmesh/tet_mesh.h"
 
 namespace flbc::openmesh {
 

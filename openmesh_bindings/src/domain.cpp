@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/domain.h"
+#include "flbc/openmesh/domain.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "openmesh_bindings/rows_view.h"
+#include "flbc/openmesh/rows_view.h"
 
 namespace flbc::openmesh {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/mesh_io.h"
+#include "flbc/openmesh/mesh_io.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/IO/importer/ImporterT.hh>
@@ -9,7 +9,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
-#include "openmesh_bindings/silenced.h"
+#include "silenced.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/tet_connectivity.h"
+#include "flbc/openmesh/tet_connectivity.h"
 
 #include <algorithm>
 #include <string>

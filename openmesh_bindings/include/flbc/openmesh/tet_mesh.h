@@ -11,9 +11,9 @@
 #include <OpenMesh/Core/Geometry/VectorT.hh>
 
 #include "flbc/domain_mesh.h"
-#include "openmesh_bindings/tet_connectivity.h"
-#include "openmesh_bindings/tet_properties.h"
-#include "openmesh_bindings/tet_property.h"
+#include "flbc/openmesh/tet_connectivity.h"
+#include "flbc/openmesh/tet_properties.h"
+#include "flbc/openmesh/tet_property.h"
 
 namespace flbc::openmesh {
 

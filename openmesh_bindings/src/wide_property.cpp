@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openmesh_bindings/wide_property.h"
+#include "flbc/openmesh/wide_property.h"
 
 #include <array>
 #include <cstdint>
