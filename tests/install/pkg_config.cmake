@@ -1,4 +1,4 @@
-# Compiles and runs a program with nothing but a compiler and pkg-config's flags.
+# Compiles and runs programs with nothing but a compiler and pkg-config's flags.
 file(GLOB_RECURSE pc ${PREFIX}/*/flbc.pc)
 cmake_path(GET pc PARENT_PATH folder)
 set(ENV{PKG_CONFIG_PATH} ${folder})
@@ -7,7 +7,10 @@ execute_process(COMMAND ${PKG_CONFIG} --cflags --libs --static flbc
 separate_arguments(options UNIX_COMMAND "${options}")
 separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 
-set(program ${PREFIX}/../use_core)
-execute_process(COMMAND ${COMPILER} -std=c++17 ${flags} ${SOURCE} ${options} -o ${program}
-  COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${program} COMMAND_ERROR_IS_FATAL ANY)
+foreach(name use_core use_io)
+  set(program ${PREFIX}/../${name})
+  execute_process(
+    COMMAND ${COMPILER} -std=c++17 ${flags} ${SOURCES}/${name}.cpp ${options} -o ${program}
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${program} WORKING_DIRECTORY ${PREFIX}/.. COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
