@@ -24,12 +24,34 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
   return json;
 }
 
+// All options used: those left to the method are given as it chose them.
+nlohmann::ordered_json options_json(const SolveSettings& settings, const SolverOptions& options) {
+  const auto& given = settings.options;
+  return {{"cage", settings.cage},
+          {"domain", settings.domain},
+          {"model", settings.model},
+          {"embed", settings.embed},
+          {"vertices", settings.vertices},
+          {"method", name_of(given.method)},
+          {"non_negative", name_of(options.non_negative)},
+          {"coarse_to_fine", name_of(settings.coarse_to_fine)},
+          {"certify", options.certify},
+          {"phi", name_of(options.phi)},
+          {"recovery", name_of(options.recovery)},
+          {"precision", options.precision == Precision::kSingle ? "single" : "double"},
+          {"tolerance", options.tolerance},
+          {"max_iterations", options.max_iterations},
+          {"penalty", options.penalty},
+          {"relaxation", options.relaxation},
+          {"threads", options.threads},
+          {"cache", settings.cache}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context) {
-  const auto& given = settings.options;
-  const auto options = resolve(given, context.dim);
+  const auto options = resolve(settings.options, context.dim);
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
   json["dim"] = context.dim;
@@ -61,24 +83,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["penalty"] = report.penalty;
   json["numbers_per_cell"] = report.state_scalars_per_cell;
   json["version"] = FLBC_VERSION;
-  json["options"] = {{"cage", settings.cage},
-                     {"domain", settings.domain},
-                     {"model", settings.model},
-                     {"embed", settings.embed},
-                     {"vertices", settings.vertices},
-                     {"method", name_of(given.method)},
-                     {"non_negative", name_of(options.non_negative)},
-                     {"coarse_to_fine", name_of(settings.coarse_to_fine)},
-                     {"certify", options.certify},
-                     {"phi", name_of(options.phi)},
-                     {"recovery", name_of(options.recovery)},
-                     {"precision", options.precision == Precision::kSingle ? "single" : "double"},
-                     {"tolerance", options.tolerance},
-                     {"max_iterations", options.max_iterations},
-                     {"penalty", options.penalty},
-                     {"relaxation", options.relaxation},
-                     {"threads", options.threads},
-                     {"cache", settings.cache}};
+  json["options"] = options_json(settings, options);
   return json;
 }
 

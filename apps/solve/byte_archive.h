@@ -10,29 +10,14 @@
 #include <string_view>
 #include <type_traits>
 
+#include "flbc/content_hash.h"
 #include "flbc/errors.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
 
-//! The hash FNV-1a with 64 bits. It tells accidents, not attacks: of two contents of the same
-//! length that differ in one byte the hashes differ for certain, because every step is a bijection
-//! of the state; of any other two with a probability of 1 - 2^-64.
-class Fnv1a {
- public:
-  void add(const char* bytes, std::size_t size) {
-    for (std::size_t k = 0; k < size; ++k) {
-      state_ = (state_ ^ static_cast<unsigned char>(bytes[k])) * 1099511628211U;
-    }
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 14695981039346656037U;
-};
-
 inline std::uint64_t hash_of(std::string_view bytes) {
-  Fnv1a hash;
+  ContentHash hash;
   hash.add(bytes.data(), bytes.size());
   return hash.value();
 }
@@ -69,7 +54,7 @@ class ByteWriter {
   }
 
   std::ostream& out_;
-  Fnv1a hash_;
+  ContentHash hash_;
 };
 
 //! Reads what a ByteWriter has written. \throws InputError if the bytes cannot be that

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "paper/references.h"
 
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
 
+#include "flbc/content_hash.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
@@ -19,43 +18,13 @@ namespace {
 
 using nlohmann::json;
 
-// FNV-1a over the bytes of matrices.
-class Hash {
- public:
-  template <class Derived>
-  void add(const Eigen::PlainObjectBase<Derived>& matrix) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(matrix.data());
-    const auto size = static_cast<std::size_t>(matrix.size()) * sizeof(typename Derived::Scalar);
-    for (std::size_t k = 0; k < size; ++k) state_ = (state_ ^ bytes[k]) * 0x100000001b3u;
-  }
-
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
-    return digits;
-  }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
-
-std::string hash_of(const WeightMatrix& weights) {
-  Hash hash;
-  hash.add(weights);
-  return hash.text();
-}
-
 // Everything the optimum depends on, and how it was computed. phi is there so that a change in how
 // the library measures distances makes old references stale.
 template <int Dim>
 json key_of(const Setting<Dim>& setting, const SolverOptions& options) {
   const auto& problem = setting.problem;
-  Hash hash;
-  hash.add(problem.cage.points);
-  hash.add(problem.cage.facets);
-  hash.add(problem.mesh.points);
-  hash.add(problem.mesh.cells);
-  hash.add(problem.phi);
+  const auto hash = content_hash(problem.cage.points, problem.cage.facets, problem.mesh.points,
+                                 problem.mesh.cells, problem.phi);
   return {{"format", 1},
           {"model", setting.model.name},
           {"control_points", problem.num_control_points()},
@@ -74,7 +43,7 @@ std::optional<Reference> load(const std::string& path, const json& key) {
     const auto entry = json::parse(io::read_file(path + ".json"));
     if (entry.at("key") != key) return std::nullopt;
     auto weights = io::read_weights(path + ".npy");
-    if (hash_of(weights) != entry.at("weights_hash").get<std::string>()) return std::nullopt;
+    if (content_hash(weights).text() != entry.at("weights_hash").get<std::string>()) return std::nullopt;
     return Reference{std::move(weights), entry.at("relative_gap").get<double>()};
   } catch (const std::exception&) {  // damaged: as if it were not there
     return std::nullopt;
@@ -108,7 +77,7 @@ Reference reference(const Context& context, const Setting<Dim>& setting) {
   const auto solution = solve(setting.problem, options);
   const auto& report = solution.report;
   const json entry{{"key", key},
-                   {"weights_hash", hash_of(solution.weights)},
+                   {"weights_hash", content_hash(solution.weights).text()},
                    {"converged", report.status == SolveStatus::kConverged},
                    {"iterations", report.iterations},
                    {"seconds", report.seconds.solve + report.seconds.recover},

@@ -1,32 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/state_record.h"
 
-#include <cstdint>
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
 
+#include "flbc/content_hash.h"
 #include "flbc/names.h"
 
 namespace flbc::openmesh {
-namespace {
-
-// FNV-1a, 64 bits: not against malice, only against forgetting.
-template <class Matrix>
-std::uint64_t hash(const Matrix& matrix, std::uint64_t seed = 0xcbf29ce484222325u) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(matrix.data());
-  const auto count = static_cast<std::size_t>(matrix.size()) * sizeof(*matrix.data());
-  for (std::size_t k = 0; k < count; ++k) seed = (seed ^ bytes[k]) * 0x100000001b3u;
-  return seed;
-}
-
-std::string to_text(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
-}  // namespace
 
 template <int Dim>
 StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
@@ -37,9 +17,9 @@ StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   record.precision = options.precision == Precision::kSingle ? "single" : "double";
   record.phi = name_of(options.phi);
   record.control_points = cage.size();
-  record.cage = to_text(hash(cage.facets, hash(cage.points)));
-  record.points = to_text(hash(mesh.points));
-  record.cells = to_text(hash(mesh.cells));
+  record.cage = content_hash(cage.points, cage.facets).text();
+  record.points = content_hash(mesh.points).text();
+  record.cells = content_hash(mesh.cells).text();
   return record;
 }
 

@@ -12,6 +12,7 @@
 #include "flbc/certificate.h"
 #include "flbc/check.h"
 #include "flbc/coarse_to_fine.h"
+#include "flbc/content_hash.h"
 #include "flbc/coordinates.h"
 #include "flbc/deform.h"
 #include "flbc/distance_weights.h"
