@@ -43,7 +43,7 @@ void check_model(CheckReport<Dim>& report) {
   report.model = ModelCheck<Dim>{std::move(points), std::move(outside)};
 }
 
-// What the files must have in common. Said here as well, because here the files have names.
+// The sizes of the files must agree; checked here as well, because here the files have names.
 template <int Dim>
 void check_sizes(const CheckReport<Dim>& report, const WeightMatrix& weights,
                  const std::string& points_file, Eigen::Index num_points) {

@@ -23,7 +23,7 @@ void add_info_command(CLI::App& app, int& exit_status);
 void add_run_command(CLI::App& app, int& exit_status);
 void add_sparsify_command(CLI::App& app, int& exit_status);
 
-//! What is wrong with a number of vertices, for CLI::Option::check(); empty if nothing is.
+//! Complaint about a number of vertices, for CLI::Option::check(); empty if it is fine.
 inline std::string refuse_vertex_count(const std::string& text) {
   Index count = 0;
   const auto* end = text.data() + text.size();

@@ -28,7 +28,7 @@ struct DrawArguments {
   draw::WeightPictureOptions options;
 };
 
-// What the three files must have in common for a picture to make sense.
+// The three files must belong together for a picture to make sense.
 template <int Dim>
 void check_sizes(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, const WeightMatrix& weights,
                  const DrawArguments& arguments) {

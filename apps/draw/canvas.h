@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What pictures are painted on.
+//! The raster image that pictures are painted on.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the user can choose about a picture.
+//! Options of a picture.
 #pragma once
 
 namespace flbc::draw {

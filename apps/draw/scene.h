@@ -14,7 +14,7 @@
 
 namespace flbc::draw {
 
-//! What all steps of painting in space have in common.
+//! View, colours and labels shared by all steps of painting in space.
 struct Scene {
   const Cage<3>& cage;
   const std::vector<Slice>& slices;  //!< at least one, parallel, ascending along their normal

@@ -34,7 +34,7 @@ std::vector<double> round_to_floats(const std::vector<double>& weights) {
   return numbers;
 }
 
-// What is missing to the unit goes to those that lost most.
+// The rest to the unit goes to those that lost most.
 std::vector<double> round_to_integers(const std::vector<double>& weights, double unit) {
   std::vector<double> numbers(weights.size());
   std::vector<std::size_t> order(weights.size());

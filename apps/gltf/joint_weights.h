@@ -16,7 +16,7 @@ enum class WeightFormat {
   kUnsignedByte    //!< 1 byte each, multiples of 1 / 255
 };
 
-//! What the stored numbers of a point add up to: 1, 65535 or 255.
+//! Sum of the stored numbers of a point: 1, 65535 or 255.
 double unit_of(WeightFormat format);
 
 //! The influences on each point, the largest first; slots that are not used have joint 0 and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What flbc check writes for programs.
+// The JSON that flbc check writes for programs.
 #include <nlohmann/json.hpp>
 
 #include "flbc/version.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What flbc check found out, as a table and as JSON.
+//! The findings of flbc check, as a table and as JSON.
 #pragma once
 
 #include <cstddef>

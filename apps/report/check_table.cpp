@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What flbc check prints.
+// The table that flbc check prints.
 #include <algorithm>
 #include <cstdio>
 #include <iomanip>

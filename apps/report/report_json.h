@@ -11,7 +11,7 @@
 
 namespace flbc::app {
 
-//! What the program did around the solver.
+//! Facts of a run that the solver does not know.
 struct RunContext {
   int dim = 0;
   double mesh_seconds = 0;

@@ -10,7 +10,7 @@
 
 namespace flbc::app {
 
-//! What a run does with the folder.
+//! The folder of results: made, refused or replaced.
 struct RunFiles {
   std::vector<std::string> inputs{};  //!< paths; they are neither replaced nor removed
   std::vector<std::string> names{};   //!< of all files that may be made

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the weights of a domain depend on.
+//! All that the weights of a domain depend on.
 #pragma once
 
 #include <string>

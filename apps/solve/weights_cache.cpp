@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // The number is the format's.
 constexpr std::string_view kMagic = "flbc weights, format 1\n";
 
-// What is in a file, for reading and writing alike. All members are named: one that is added to a
+// Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
 
 template <class Archive, class Level>

@@ -11,7 +11,7 @@
 
 namespace flbc::app {
 
-//! What a solve gave.
+//! Result of a solve with the domain it belongs to.
 template <int Dim>
 struct SolvedDomain {
   DomainMesh<Dim> domain{};
@@ -19,7 +19,7 @@ struct SolvedDomain {
   double mesh_seconds = 0;  //!< for making or reading the domain
 };
 
-//! What there is for a key.
+//! Answer of the cache for a key.
 template <int Dim>
 struct CacheAnswer {
   std::optional<SolvedDomain<Dim>> solved{};

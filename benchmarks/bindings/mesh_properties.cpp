@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What it costs to iterate on a mesh's properties instead of plain arrays:
+// Cost of iterating on a mesh's properties instead of plain arrays:
 //
 //   flbc_bench_properties [PAIRS]
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What all experiments share.
+//! Settings shared by all experiments.
 #pragma once
 
 #include <string>

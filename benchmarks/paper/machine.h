@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What numbers were measured on, and the memory of this process.
+//! The machine, and the memory of this process.
 #pragma once
 
 #include <string>

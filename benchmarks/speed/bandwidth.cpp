@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What share of the memory's bandwidth an iteration and a deformation reach, counted by the fewest
+// Share of the memory's bandwidth that an iteration and a deformation reach, counted by the fewest
 // bytes they have to move.
 #include <algorithm>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What one iteration takes, without anything before and after.
+//! Time of one iteration, without anything before and after.
 #pragma once
 
 #include <algorithm>

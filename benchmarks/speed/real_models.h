@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the benchmark programs do with real cages.
+//! Loading and meshing real cages for the benchmark programs.
 #pragma once
 
 #include <cstdio>

@@ -66,7 +66,7 @@ double distance(const GlbFile& file, const Eigen::MatrixXd& joints, const PointL
   return (file.skinned(joints) - expected).colwise().norm().maxCoeff();
 }
 
-// What the specification demands of influences.
+// The demands of the specification on influences.
 void expect_sound_influences(const GlbFile& file, double unit) {
   const Eigen::MatrixXd joints = file.influences("JOINTS_");
   const Eigen::MatrixXd numbers = file.influences("WEIGHTS_", true);

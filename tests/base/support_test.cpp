@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What judges the library has to be right itself: sample meshes and judge.
+// The judges of the library have to be right themselves: sample meshes and judge.
 #include <cmath>
 #include <limits>
 #include <map>

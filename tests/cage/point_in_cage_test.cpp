@@ -19,7 +19,7 @@ class InsideTest : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(InsideTest, Dimensions);
 
-// What a nest of boxes around the origin with the given half sides must answer.
+// The true answer for a nest of boxes around the origin with the given half sides.
 template <int Dim>
 Side expected(const Vector<Dim>& point, const std::vector<double>& halves) {
   const double radius = point.template lpNorm<Eigen::Infinity>();

@@ -190,7 +190,7 @@ TYPED_TEST(PanelCholeskyTest, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-// What a slice does not hold it leaves alone.
+// Columns outside a slice stay as they are.
 TYPED_TEST(PanelCholeskyTest, SlicesTouchNothingElse) {
   const PanelCholesky<TypeParam> cholesky(matrices()[6].matrix);
   const auto before = random_rows<TypeParam>(cholesky.size(), 56);

@@ -59,7 +59,7 @@ TYPED_TEST(BoundaryValuesTest, PointsOnCageEdgesHaveExactZerosElsewhere) {
   EXPECT_EQ(on_edges, kDim == 2 ? 8 : 24);
 }
 
-// What single precision does to coordinates is made good, what is farther away is not touched.
+// Rounding of coordinates to single precision is made good; vertices farther away stay.
 TYPED_TEST(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {

@@ -170,7 +170,7 @@ TYPED_TEST(CoarseToFineTest, LinearPotentialsGiveTheirCurlOnEveryMesh) {
   }
 }
 
-// What is asked of a mesh's own state is the state itself.
+// Transferred to the same mesh, a state is the state itself.
 TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : {make_sample<kDim>(Shape::kRing, 3, 0.2), make_hollow_sample<kDim>()}) {

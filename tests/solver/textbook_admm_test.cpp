@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What judges the library has to be right itself: the textbook solver.
+// The judge of the library has to be right itself: the textbook solver.
 #include <cmath>
 #include <stdexcept>
 #include <type_traits>

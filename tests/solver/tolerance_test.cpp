@@ -33,7 +33,7 @@ DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
   return tetrahedralize(cage, {vertices});
 }
 
-// What errors are measured against, and proven to be good enough for that.
+// The optimum that errors are measured against, proven to be good enough for that.
 template <int Dim>
 WeightMatrix optimum(const LbcProblem<Dim>& problem, int iterations, bool prove = true) {
   SolverOptions options;

@@ -16,7 +16,7 @@
 
 namespace flbc::testing {
 
-//! What is left of a run.
+//! Exit status and output of a run.
 struct Ended {
   int status;
   std::string output;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What has to hold for any mesh of a cage's interior.
+//! Properties of any mesh of a cage's interior.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -69,7 +69,7 @@ class ModelFileTest : public FolderTest {
     return io::ModelFile(make(name, content));
   }
 
-  //! What a file becomes with its vertices elsewhere.
+  //! The content of a file with its vertices elsewhere.
   template <int Dim>
   std::string rewritten(const io::ModelFile& file, const PointList<Dim>& points) const {
     std::ostringstream out;

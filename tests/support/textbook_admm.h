@@ -18,7 +18,7 @@
 
 namespace flbc::testing {
 
-//! What the textbook solver starts from. The points are taken as they are, without scaling.
+//! Data of the textbook solver. The points are taken as they are, without scaling.
 template <int Dim>
 struct TextbookInput {
   PointList<Dim> control_points;                  //!< Dim x n, not all in one hyperplane

@@ -13,7 +13,7 @@
 
 namespace flbc::testing {
 
-//! What the solver starts from. The points are taken as they are, without scaling.
+//! Data of the solver. The points are taken as they are, without scaling.
 template <int Dim>
 struct Lbc2014Input {
   PointList<Dim> control_points;     //!< Dim x n

@@ -45,7 +45,7 @@ void found_groups(const StrongCouplings& couplings, std::vector<Index>& group, I
   }
 }
 
-// What is left joins the group it is coupled to most.
+// The rest joins the aggregate with the strongest coupling.
 void join_groups(const StrongCouplings& couplings, std::vector<Index>& group) {
   const std::vector<Index> founded = group;
   for (Index row = 0; row < static_cast<Index>(group.size()); ++row) {
