@@ -24,8 +24,15 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
   return json;
 }
 
+// As published: what was given, or what the method always takes; 0 = chosen from the mesh.
+double penalty_asked_for(const SolveReport& report, const SolveSettings& settings) {
+  const bool is_fixed = report.method == Method::kGradient || report.method == Method::kPaper;
+  return is_fixed && settings.penalty == 0 ? report.published_penalty : settings.penalty;
+}
+
 // All options used: those left to the method are given as it chose them.
-nlohmann::ordered_json options_json(const SolveSettings& settings, const SolverOptions& options) {
+nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettings& settings,
+                                    const SolverOptions& options) {
   const auto& given = settings.options;
   return {{"cage", settings.cage},
           {"domain", settings.domain},
@@ -34,14 +41,14 @@ nlohmann::ordered_json options_json(const SolveSettings& settings, const SolverO
           {"vertices", settings.vertices},
           {"method", name_of(given.method)},
           {"non_negative", name_of(options.non_negative)},
-          {"coarse_to_fine", name_of(settings.coarse_to_fine)},
+          {"coarse_to_fine", name_of(options.coarse_to_fine)},
           {"certify", options.certify},
           {"phi", name_of(options.phi)},
           {"recovery", name_of(options.recovery)},
-          {"precision", options.precision == Precision::kSingle ? "single" : "double"},
+          {"precision", name_of(options.precision)},
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},
-          {"penalty", options.penalty},
+          {"penalty", penalty_asked_for(report, settings)},
           {"relaxation", options.relaxation},
           {"threads", options.threads},
           {"cache", settings.cache}};
@@ -51,7 +58,7 @@ nlohmann::ordered_json options_json(const SolveSettings& settings, const SolverO
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context) {
-  const auto options = resolve(settings.options, context.dim);
+  const auto options = resolve(settings.options);
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
   json["dim"] = context.dim;
@@ -80,10 +87,10 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["max_partition_error"] = context.delivered.max_partition_error;
   json["max_reproduction_error"] = context.delivered.max_reproduction_error;
   json["mean_influences"] = context.delivered.mean_influences;
-  json["penalty"] = report.penalty;
+  json["penalty"] = report.published_penalty;
   json["numbers_per_cell"] = report.state_scalars_per_cell;
   json["version"] = FLBC_VERSION;
-  json["options"] = options_json(settings, options);
+  json["options"] = options_json(report, settings, options);
   return json;
 }
 

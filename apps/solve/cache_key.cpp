@@ -14,14 +14,17 @@ void add_options(std::ostream& key, const SolverOptions& options) {
   // depend on it. They do not on these: results are the same bits for any number of threads, and a
   // run that was stopped has not converged.
   [[maybe_unused]] const auto& [method, phi, precision, recovery, non_negative, linear_solver,
-                                tolerance, max_iterations, penalty, relaxation, check_interval,
-                                certify, threads, progress] = options;
+                                coarse_to_fine, coarse_levels, tolerance, max_iterations, penalty,
+                                relaxation, check_interval, certify, threads, progress] = options;
+  const auto& [coarsest, factor, looseness] = coarse_levels;
   key << "method " << name_of(method) << '\n'
       << "phi " << name_of(phi) << '\n'
-      << "precision " << (precision == Precision::kSingle ? "single" : "double") << '\n'
+      << "precision " << name_of(precision) << '\n'
       << "recovery " << name_of(recovery) << '\n'
       << "non_negative " << name_of(non_negative) << '\n'
-      << "linear_solver " << static_cast<int>(linear_solver) << '\n'
+      << "linear_solver " << name_of(linear_solver) << '\n'
+      << "coarse_to_fine " << name_of(coarse_to_fine) << '\n'
+      << "coarse_levels " << coarsest << ' ' << factor << ' ' << looseness << '\n'
       << "tolerance " << tolerance << '\n'
       << "max_iterations " << max_iterations << '\n'
       << "penalty " << penalty << '\n'
@@ -46,9 +49,9 @@ std::string key_of(const WeightOrigin<Dim>& origin) {
   key << std::hexfloat;  // all bits of a number
   key << "version " << FLBC_VERSION << '\n'
       << "dim " << Dim << '\n'
-      << "coarse_to_fine " << origin.coarse_to_fine << '\n'
+      << "published_penalty " << origin.penalty << '\n'
       << "can_mesh " << origin.can_mesh << '\n';
-  add_options(key, resolve(origin.options, Dim));
+  add_options(key, resolve(origin.options));
   add_numbers(key, "control_points", origin.cage.points);
   add_numbers(key, "facets", origin.cage.facets);
   if (origin.domain) {

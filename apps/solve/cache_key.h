@@ -18,9 +18,9 @@ struct WeightOrigin {
   const DomainMesh<Dim>* domain = nullptr;   //!< given; null: made from what follows
   const PointList<Dim>* embedded = nullptr;  //!< become vertices of the mesh; null for none
   Index vertices = 0;                        //!< wanted, 0 = as many as the program chooses
-  std::string coarse_to_fine;                //!< what was asked for
   bool can_mesh = true;                      //!< whether there is a mesher for coarser meshes
-  SolverOptions options{};
+  double penalty = 0;                        //!< as published, 0 = by method
+  SolverOptions options{};                   //!< but for the penalty
 };
 
 //! Lines that can be read, then the bytes of all numbers of cage, domain and embedded points. Keys

@@ -8,10 +8,11 @@
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/cell_locator.h"
-#include "flbc/coarse_to_fine.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/published_penalty.h"
+#include "flbc/solver.h"
 #include "report/report_json.h"
 #include "solve/cache_key.h"
 #include "solve/make_domain.h"
@@ -22,20 +23,15 @@ namespace {
 
 // Starts from coarser meshes where that pays and a mesher was built in.
 template <int Dim>
-Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                      const SolverOptions& options, CoarseToFine coarse_to_fine) {
+Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
+                      double penalty) {
   const auto mesher = coarse_mesher<Dim>();
-  CoarseLevels levels;
-  if (coarse_to_fine == CoarseToFine::kOn) {
-    constexpr Index kCoarsest = 500;
-    levels.coarsest = kCoarsest;
-    if (!mesher) {
-      throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
-                        std::to_string(Dim) + "D");
-    }
+  if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
+    throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
+                      std::to_string(Dim) + "D");
   }
-  if (coarse_to_fine == CoarseToFine::kOff || !mesher) return solve(cage, domain, options);
-  return solve_coarse_to_fine(cage, domain, mesher, options, levels);
+  options.penalty = published_penalty(cage, domain, options.method, penalty);
+  return solve(cage, domain, options, mesher);
 }
 
 // Weights that cannot be kept are delivered nevertheless.
@@ -64,8 +60,7 @@ bool CageSolver<Dim>::find_in_cache() {
   const bool has_domain = !settings_.domain.empty();
   key_ = key_of<Dim>({cage_, has_domain ? &solved_.domain : nullptr,
                       settings_.embed ? &model_ : nullptr, settings_.vertices,
-                      name_of(settings_.coarse_to_fine), bool(coarse_mesher<Dim>()),
-                      settings_.options});
+                      bool(coarse_mesher<Dim>()), settings_.penalty, settings_.options});
   auto answer = cache_->find<Dim>(key_);
   if (!answer.complaint.empty()) {
     std::cerr << "flbc: " << answer.complaint << "; the weights are computed anew\n";
@@ -104,7 +99,7 @@ void CageSolver<Dim>::solve(bool quiet) {
       return true;
     };
     solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-      return solve_domain(cage_, solved_.domain, options, settings_.coarse_to_fine);
+      return solve_domain(cage_, solved_.domain, options, settings_.penalty);
     });
   }
   if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);

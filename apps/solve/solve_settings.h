@@ -10,12 +10,6 @@
 
 namespace flbc::app {
 
-//! Whether to start from coarser meshes.
-enum class CoarseToFine { kAuto, kOn, kOff };
-
-//! "auto", "on" or "off".
-const char* name_of(CoarseToFine choice);
-
 //! Where the weights are wanted and how they are computed. Files may be empty for none.
 struct SolveSettings {
   std::string cage;
@@ -24,8 +18,8 @@ struct SolveSettings {
   bool embed = false;  //!< the model's vertices become vertices of the mesh
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
   std::string cache;   //!< folder of weights computed before
-  CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
-  SolverOptions options{};
+  double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method
+  SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };
 
 //! Adds all options about the solver, and --cache, to a command. \param settings  outlives it

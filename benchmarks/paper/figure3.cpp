@@ -29,7 +29,7 @@ std::vector<Index> resolutions(const Context& context, int dim) {
 template <int Dim>
 Row measure(const Context& context, const Setting<Dim>& setting, const NamedMethod& method) {
   constexpr int kQuickIterations = 200;
-  auto options = method.options(context.threads);
+  auto options = method.options(setting.problem, context.threads);
   if (context.quick) options.max_iterations = kQuickIterations;
 
   const double problem_memory = resident_mebibytes();

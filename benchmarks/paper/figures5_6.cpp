@@ -34,7 +34,7 @@ std::string curve(const Context& context, const ResultTable& table, const Curves
   int last =
       in_gradient_domain(method.method) ? curves.last_of_gradients : curves.last_of_splitting;
   if (context.quick) last = std::min(last, kQuickIterations);
-  auto options = method.options(context.threads);
+  auto options = method.options(setting.problem, context.threads);
   options.tolerance = 1e-30;  // never met: the number of iterations decides
   std::string lines;
   for (int iterations = curves.first; iterations <= last; iterations *= curves.factor) {

@@ -5,20 +5,23 @@
 
 #include <vector>
 
+#include "flbc/lbc_problem.h"
 #include "flbc/options.h"
+#include "flbc/published_penalty.h"
 
 namespace flbc::bench {
 
 struct NamedMethod {
   const char* name;
   Method method;
-  double penalty;  //!< 0 = by method
+  double penalty;  //!< as published, 0 = by method
 
   //! The method's defaults otherwise.
-  SolverOptions options(int threads) const {
+  template <int Dim>
+  SolverOptions options(const LbcProblem<Dim>& problem, int threads) const {
     SolverOptions options;
     options.method = method;
-    options.penalty = penalty;
+    options.penalty = published_penalty(problem.cage, problem.mesh, method, penalty);
     options.threads = threads;
     return options;
   }

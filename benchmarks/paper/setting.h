@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/solver.h"
 #include "paper/child.h"
 #include "paper/context.h"
 #include "paper/models.h"
@@ -26,11 +26,10 @@ std::string domain_path(const Context& context, const Model& model, Index vertic
 //! \return false after a message on stderr if that failed
 bool prepare_domain(const Context& context, const Model& model, Index vertices);
 
-//! Solves as flbc solve does, from a coarser mesh where that pays.
+//! Makes the coarser meshes that solve() may start from.
 template <int Dim>
-Solution solve_as_program(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  const auto mesher = [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices); };
-  return solve_coarse_to_fine<Dim>(problem, mesher, options);
+CoarseMesher<Dim> coarse_mesher() {
+  return [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices); };
 }
 
 //! A model on a mesh.

@@ -28,7 +28,7 @@ template <int Dim>
 Row measure(const Context& context, const Setting<Dim>& setting, const NamedMethod& method) {
   constexpr int kMostIterations = 5000;
   constexpr int kQuickIterations = 300;
-  auto options = method.options(context.threads);
+  auto options = method.options(setting.problem, context.threads);
   options.max_iterations = context.quick ? kQuickIterations : kMostIterations;
   options.certify = true;
   const auto [weights, report] = solve(setting.problem, options);
@@ -36,7 +36,7 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
 
   auto row = mesh_row(setting);
   add_run(row, method.name, setting.setup_seconds, report);
-  row["penalty"] = number(report.penalty);
+  row["penalty"] = number(report.published_penalty);
   row["error"] = number(squared_error(setting.problem, weights, optimum.weights));
   row["min_weight"] = number(report.quality.min_weight);
   row["mean_influences"] = number(report.quality.mean_influences);

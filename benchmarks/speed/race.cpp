@@ -32,7 +32,7 @@ class Runner {
     options.progress = [iterations](const Progress& progress) {
       return progress.finer_levels > 0 || progress.iteration < iterations;
     };
-    return solve_as_program(setting_.problem, options);
+    return solve(setting_.problem, options, coarse_mesher<Dim>());
   }
 
   double error_after(int iterations) const {
@@ -77,7 +77,7 @@ template <int Dim>
 Row measure(const Context& context, const Setting<Dim>& setting, const NamedMethod& method) {
   const int most = context.quick ? kQuickIterations : kMostIterations;
   const auto optimum = reference(context, setting);
-  auto options = method.options(context.threads);
+  auto options = method.options(setting.problem, context.threads);
   options.max_iterations = 2 * most;
   // No method shall stop before. That of the gradient method also serves its coarser meshes.
   if (method.method == Method::kValue) options.tolerance = kWanted;

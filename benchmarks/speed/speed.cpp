@@ -71,7 +71,7 @@ Row measure(const Context& context, const Setting<Dim>& setting) {
     const auto problem =
         make_problem(setting.problem.cage, setting.problem.mesh, DistanceScheme::kSquare);
     const double setup = watch.seconds();
-    solution = solve_as_program(problem, options);
+    solution = solve(problem, options, coarse_mesher<Dim>());
     value.take(setup, solution.report.seconds.solve + solution.report.seconds.recover);
 
     const Stopwatch harmonic_watch;

@@ -61,15 +61,12 @@ struct Arguments {
 };
 
 template <int Dim>
-Solution solve_from(bool warm, const LbcProblem<Dim>& problem, const SolverOptions& options) {
+Solution solve_from(bool warm, const LbcProblem<Dim>& problem, SolverOptions options) {
   if (!warm) return solve(problem, options);
-  CoarseLevels levels;
-  levels.factor = 3;
-  levels.coarsest = problem.mesh.num_vertices() / 4;  // one level
-  const CoarseMesher<Dim> mesher = [](const Cage<Dim>& cage, Index vertices) {
-    return mesh_of(cage, vertices);
-  };
-  return solve_coarse_to_fine(problem, mesher, options, levels);
+  options.coarse_levels.factor = 3;
+  options.coarse_levels.coarsest = problem.mesh.num_vertices() / 4;  // one level
+  return solve(problem, options,
+               [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices); });
 }
 
 template <int Dim>

@@ -14,7 +14,7 @@ StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   StateRecord record;
   record.method = name_of(options.method);
   if (options.non_negative == NonNegative::kConstraint) record.method += ", non-negative";
-  record.precision = options.precision == Precision::kSingle ? "single" : "double";
+  record.precision = name_of(options.precision);
   record.phi = name_of(options.phi);
   record.control_points = cage.size();
   record.cage = content_hash(cage.points, cage.facets).text();

@@ -34,14 +34,14 @@ struct Origin {
   PointList<Dim> embedded{};
   bool has_domain = false;
   Index vertices = 0;
-  std::string coarse_to_fine = "auto";
   bool can_mesh = true;
+  double penalty = 0;
   SolverOptions options{};
 
   std::string key() const {
     return key_of<Dim>({sample.cage, has_domain ? &sample.mesh : nullptr,
-                        embedded.cols() > 0 ? &embedded : nullptr, vertices, coarse_to_fine,
-                        can_mesh, options});
+                        embedded.cols() > 0 ? &embedded : nullptr, vertices, can_mesh, penalty,
+                        options});
   }
 };
 
@@ -246,7 +246,10 @@ TYPED_TEST(WeightsCacheOf, EverythingThatWeightsDependOnIsInTheKey) {
       [](auto& o) { o.embedded.setZero(kDim, 1); },
       [](auto& o) { o.embedded.setZero(kDim, 2); },
       [](auto& o) { o.embedded.setOnes(kDim, 1); },
-      [](auto& o) { o.coarse_to_fine = "off"; },
+      [](auto& o) { o.options.coarse_to_fine = CoarseToFine::kOff; },
+      [](auto& o) { o.options.coarse_levels.coarsest = 7; },
+      [](auto& o) { o.options.coarse_levels.factor = 7; },
+      [](auto& o) { o.options.coarse_levels.looseness = 7; },
       [](auto& o) { o.can_mesh = false; },
       [](auto& o) { o.options.method = Method::kGradient; },
       [](auto& o) { o.options.phi = DistanceScheme::kLinear; },
@@ -258,6 +261,7 @@ TYPED_TEST(WeightsCacheOf, EverythingThatWeightsDependOnIsInTheKey) {
       [](auto& o) { o.options.tolerance = std::nextafter(1e-3, 1); },
       [](auto& o) { o.options.max_iterations = 7; },
       [](auto& o) { o.options.penalty = 8; },
+      [](auto& o) { o.penalty = 8; },
       [](auto& o) { o.options.relaxation = 1.5; },
       [](auto& o) { o.options.check_interval = 3; },
       [](auto& o) { o.options.certify = true; },

@@ -34,7 +34,7 @@ const std::map<std::string, std::string> kRoomsOfTypes{
     {"types", "base"},          {"errors", "base"},        {"content_hash", "base"},
     {"version", "base"},
     {"linear_solver", "linear"}, {"cell_field", "mesh"},    {"meshing_options", "meshing"},
-    {"report", "solver"},       {"solver_state", "solver"}, {"meshing", "meshing"},
+    {"report", "solver"},       {"solver_state", "solver"}, {"coarse_to_fine", "solver"}, {"meshing", "meshing"},
     {"coordinates", "coordinates"}, {"flbc", "evaluation"}};
 
 std::vector<fs::path> files_in(const fs::path& folder, const std::set<std::string>& extensions) {

@@ -126,7 +126,7 @@ TYPED_TEST(LbcTest, ResumesWhereItStopped) {
         SolverOptions options;
         options.method = method;
         options.precision = precision;
-        options.penalty = method == Method::kGradient ? 1000 : 10;
+        options.penalty = method == Method::kGradient ? 1e-6 : 0.02;
         options.tolerance = 1e-20;
         openmesh::PropertyOptions properties;
         properties.keep_state = true;
@@ -291,7 +291,7 @@ TEST(LbcFile, StateAndWeightsSurvive) {
     options.method = method;
     options.tolerance = 1e-20;
     options.max_iterations = 30;
-    options.penalty = method == Method::kGradient ? 1000 : 10;
+    options.penalty = method == Method::kGradient ? 1e-6 : 0.02;
     openmesh::PropertyOptions properties;
     properties.keep_state = true;
     properties.persistent = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The start from a coarser mesh: what carries over exactly, and that the answer stays the same.
-#include "flbc/coarse_to_fine.h"
+#include "flbc/solver.h"
 
 #include <type_traits>
 
@@ -301,8 +301,8 @@ TYPED_TEST(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
     options.certify = true;
     options.tolerance = method == Method::kValue ? 1e-6 : 0;
     const auto cold = solve(problem, options);
-    const auto warm = solve_coarse_to_fine(problem, sample_mesher<kDim>(Shape::kCorner), options,
-                                           test_levels<kDim>());
+    options.coarse_levels = test_levels<kDim>();
+    const auto warm = solve(problem, options, sample_mesher<kDim>(Shape::kCorner));
     ASSERT_EQ(cold.report.status, SolveStatus::kConverged);
     ASSERT_EQ(warm.report.status, SolveStatus::kConverged);
     EXPECT_FALSE(warm.report.coarse_levels.empty());
@@ -333,15 +333,15 @@ TYPED_TEST(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
   SolverOptions options;
   options.tolerance = 1e-5;
   options.check_interval = 1;
-  auto levels = test_levels<kDim>();
-  levels.factor = 3;
+  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels.factor = 3;
   std::vector<int> seen;
   options.progress = [&](const Progress& progress) {
     if (seen.empty() || seen.back() != progress.finer_levels) seen.push_back(progress.finer_levels);
     return true;
   };
-  const auto solution = solve_coarse_to_fine(sample.cage, sample.mesh,
-                                             sample_mesher<kDim>(Shape::kCorner), options, levels);
+  const auto solution =
+      solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner));
   const auto& report = solution.report;
   EXPECT_EQ(report.vertices, sample.mesh.num_vertices());
   ASSERT_GE(report.coarse_levels.size(), 2U);
@@ -370,6 +370,7 @@ TYPED_TEST(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
   const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);
   SolverOptions options;
   options.tolerance = 1e-5;
+  options.coarse_levels = test_levels<kDim>();
   const auto cold = solve(sample.cage, sample.mesh, options);
   const CoarseMesher<kDim> meshers[] = {
       [](const Cage<kDim>&, Index) -> DomainMesh<kDim> { throw OptionError("too fine a cage"); },
@@ -379,8 +380,7 @@ TYPED_TEST(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
         return sample_mesher<kDim>(Shape::kCorner)(cage, sample.mesh.num_vertices());
       }};
   for (const auto& mesher : meshers) {
-    const auto warm =
-        solve_coarse_to_fine(sample.cage, sample.mesh, mesher, options, test_levels<kDim>());
+    const auto warm = solve(sample.cage, sample.mesh, options, mesher);
     EXPECT_TRUE(warm.report.coarse_levels.empty());
     EXPECT_TRUE((warm.weights.array() == cold.weights.array()).all());
   }
@@ -394,14 +394,13 @@ TYPED_TEST(CoarseToFineTest, OtherMethodsStartAsEver) {
     ++calls;
     return sample_mesher<kDim>(Shape::kCorner)(cage, vertices);
   };
-  auto levels = test_levels<kDim>();
-  levels.coarsest = 10;
   for (const auto method : {Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
     SolverOptions options;
     options.method = method;
     options.max_iterations = 30;
+    options.coarse_levels.coarsest = 10;
     const auto plain = solve(sample.cage, sample.mesh, options);
-    const auto same = solve_coarse_to_fine(sample.cage, sample.mesh, mesher, options, levels);
+    const auto same = solve(sample.cage, sample.mesh, options, mesher);
     EXPECT_TRUE((same.weights.array() == plain.weights.array()).all());
   }
   EXPECT_EQ(calls, 0);
@@ -411,13 +410,14 @@ TYPED_TEST(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
   constexpr int kDim = TypeParam::value;
   const auto sample = fine_sample<kDim>();
   SolverOptions options;
+  options.coarse_levels = test_levels<kDim>();
   int calls = 0;
   options.progress = [&](const Progress& progress) {
     EXPECT_GT(progress.finer_levels, 0);
     return ++calls < 2;
   };
-  const auto solution = solve_coarse_to_fine(
-      sample.cage, sample.mesh, sample_mesher<kDim>(Shape::kCorner), options, test_levels<kDim>());
+  const auto solution =
+      solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner));
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(solution.report.status, SolveStatus::kStopped);
   EXPECT_EQ(solution.report.iterations, 1);
@@ -431,10 +431,10 @@ TYPED_TEST(CoarseToFineTest, ThreadsDoNotChangeABit) {
     SolverOptions options;
     options.method = method;
     options.tolerance = method == Method::kValue ? 1e-5 : 1e-3;
+    options.coarse_levels = test_levels<kDim>();
     const auto run = [&](int threads) {
       options.threads = threads;
-      return solve_coarse_to_fine(sample.cage, sample.mesh, sample_mesher<kDim>(Shape::kCorner),
-                                  options, test_levels<kDim>());
+      return solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner));
     };
     const auto one = run(1);
     const auto two = run(2);
@@ -444,33 +444,34 @@ TYPED_TEST(CoarseToFineTest, ThreadsDoNotChangeABit) {
   }
 }
 
-TYPED_TEST(CoarseToFineTest, RefusesBadInputByName) {
+TYPED_TEST(CoarseToFineTest, RefusesAMeshOfSomethingElse) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);
-  const auto refused = [&](const char* field, const CoarseMesher<kDim>& mesher, auto change) {
-    CoarseLevels levels;
-    SolverOptions options;
-    change(levels, options);
-    try {
-      solve_coarse_to_fine(sample.cage, sample.mesh, mesher, options, levels);
-      ADD_FAILURE() << field << " was accepted";
-    } catch (const OptionError& error) {
-      EXPECT_EQ(std::string(error.what()).find(field), 0U) << error.what();
-    }
-  };
-  const auto mesher = sample_mesher<kDim>(Shape::kCorner);
-  refused("mesher", {}, [](auto&, auto&) {});
-  refused("coarsest", mesher, [](auto& l, auto&) { l.coarsest = -1; });
-  refused("factor", mesher, [](auto& l, auto&) { l.factor = 1.5; });
-  refused("factor", mesher, [](auto& l, auto&) { l.factor = std::nan(""); });
-  refused("looseness", mesher, [](auto& l, auto&) { l.looseness = 0; });
-  refused("tolerance", mesher, [](auto&, auto& o) { o.tolerance = -1; });
-  // A mesh of something else.
-  const CoarseMesher<kDim> wrong = [](const Cage<kDim>&, Index) {
+  SolverOptions options;
+  options.coarse_levels = test_levels<kDim>();
+  const auto wrong = [](const Cage<kDim>&, Index) {
     return make_sample<kDim>(Shape::kStar, 3).mesh;
   };
-  EXPECT_THROW(solve_coarse_to_fine(sample.cage, sample.mesh, wrong, {}, test_levels<kDim>()),
-               InputError);
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options, wrong), InputError);
+}
+
+// Asked for or not: on uses the mesher where it does not pay, off never does.
+TYPED_TEST(CoarseToFineTest, IsOnOrOffAsAskedFor) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 60 : 13, 0.2);
+  ASSERT_GT(sample.mesh.num_vertices(), kDim == 2 ? 5000 : 2500);
+  SolverOptions options;
+  options.max_iterations = 20;
+  const auto levels = [&](CoarseToFine choice) {
+    options.coarse_to_fine = choice;
+    return solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner))
+        .report.coarse_levels.size();
+  };
+  EXPECT_GT(levels(CoarseToFine::kOn), 0U);
+  EXPECT_EQ(levels(CoarseToFine::kAuto), 0U);
+  EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
+  options.coarse_levels = test_levels<kDim>();
+  EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
 }
 
 TEST(LevelSizes, NoneWhereTheyDoNotPay) {

@@ -9,6 +9,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "flbc/coordinates.h"
+#include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "solver/splitting/weight_splitting.h"
@@ -34,22 +35,23 @@ LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
 // The penalties suit these small meshes and the long way to an accurate optimum; the automatic ones
 // suit larger meshes and fewer digits.
 template <int Dim>
-SolverOptions accurate(Method method, NonNegative non_negative) {
+SolverOptions accurate(const LbcProblem<Dim>& problem, Method method, NonNegative non_negative) {
   SolverOptions options;
   options.method = method;
   options.non_negative = non_negative;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-30;  // never: run to the end
   options.max_iterations = 4000;
-  options.penalty = 300;
+  double penalty = 300;
   if (method == Method::kGradient) {
     options.max_iterations = 30000;
-    options.penalty = Dim == 2 ? 1e5 : 1e6;
+    penalty = Dim == 2 ? 1e5 : 1e6;
   }
   if (method == Method::kLbc2014) {
     options.max_iterations = 8000;
-    options.penalty = Dim == 2 ? 3 : 0.03;
+    penalty = Dim == 2 ? 3 : 0.03;
   }
+  options.penalty = published_penalty(problem.cage, problem.mesh, method, penalty);
   return options;
 }
 
@@ -66,14 +68,12 @@ TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
+    expect_optimal(problem,
+                   solve(problem, accurate(problem, Method::kValue, NonNegative::kOff)).weights,
+                   reference.unconstrained);
     expect_optimal(
         problem,
-        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kOff)).weights,
-        reference.unconstrained);
-    expect_optimal(
-        problem,
-        solve(problem, accurate<TypeParam::value>(Method::kValue, NonNegative::kConstraint))
-            .weights,
+        solve(problem, accurate(problem, Method::kValue, NonNegative::kConstraint)).weights,
         reference.non_negative);
   }
 }
@@ -81,10 +81,9 @@ TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
 TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
-    expect_optimal(problem_of(reference),
-                   solve(problem_of(reference),
-                         accurate<TypeParam::value>(Method::kLbc2014, NonNegative::kOff))
-                       .weights,
+    const auto problem = problem_of(reference);
+    expect_optimal(problem,
+                   solve(problem, accurate(problem, Method::kLbc2014, NonNegative::kOff)).weights,
                    reference.unconstrained);
   }
 }
@@ -116,10 +115,9 @@ TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
 TYPED_TEST(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<TypeParam::value>()) {
     SCOPED_TRACE(reference.name);
-    expect_optimal(problem_of(reference),
-                   solve(problem_of(reference),
-                         accurate<TypeParam::value>(Method::kGradient, NonNegative::kOff))
-                       .weights,
+    const auto problem = problem_of(reference);
+    expect_optimal(problem,
+                   solve(problem, accurate(problem, Method::kGradient, NonNegative::kOff)).weights,
                    reference.unconstrained);
   }
 }

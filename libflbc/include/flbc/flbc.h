@@ -33,6 +33,7 @@
 #include "flbc/options.h"
 #include "flbc/poisson_reduction.h"
 #include "flbc/poses.h"
+#include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
 #include "flbc/report.h"

@@ -1,22 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Options and status in words, as the command line and the reports have them.
+//! Options and status in words, as the command line and the reports have them. Each enumeration has
+//! one table, read in both directions.
 #pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "flbc/options.h"
 #include "flbc/report.h"
 
 namespace flbc {
 
-//! "value", "gradient", "paper", "lbc2014", "harmonic", "meanvalue" or "auto".
+//! "auto", "value", "gradient", "paper", "lbc2014", "harmonic" or "meanvalue".
+//! \param method  to be named
 const char* name_of(Method method);
-//! "constraint", "project", "off" or "auto".
+//! "auto", "constraint", "project" or "off".
+//! \param non_negative  to be named
 const char* name_of(NonNegative non_negative);
 //! "square", "linear", "sqrt" or "constant".
+//! \param scheme  to be named
 const char* name_of(DistanceScheme scheme);
-//! "breadth-first", "least-squares" or "auto".
+//! "auto", "breadth-first" or "least-squares".
+//! \param recovery  to be named
 const char* name_of(Recovery recovery);
+//! "single" or "double".
+//! \param precision  to be named
+const char* name_of(Precision precision);
+//! "auto", "on" or "off".
+//! \param choice  to be named
+const char* name_of(CoarseToFine choice);
+//! "auto", "direct" or "multigrid".
+//! \param solver  to be named
+const char* name_of(LinearSolver solver);
 //! "converged", "iteration limit" or "stopped".
+//! \param status  to be named
 const char* name_of(SolveStatus status);
+
+//! All names of an enumeration, the default first.
+//! \tparam Enum  one of those that name_of() takes
+template <class Enum>
+std::vector<std::string> names_of();
+
+//! The value that has a name, the inverse of name_of().
+//! \tparam Enum  one of those that name_of() takes
+//! \param name  as name_of() gives it
+//! \return nothing if no value has this name
+template <class Enum>
+std::optional<Enum> value_named(const std::string& name);
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "flbc/coarse_to_fine.h"
 #include "flbc/distance_weights.h"
 #include "flbc/linear_solver.h"
 
@@ -44,17 +45,37 @@ struct Progress {
   int iteration;           //!< counted from 1
   double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
   double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
-  int finer_levels = 0;    //!< meshes still to come after this one (coarse_to_fine.h)
+  int finer_levels = 0;    //!< meshes still to come after this one, if coarser ones go before
 };
 
-//! Options of solve(). The defaults suit every cage.
+//! Options of solve(). The defaults suit every cage. Where a method does not read a field, its
+//! value changes nothing.
 struct SolverOptions {
-  Method method = Method::kAuto;                  //!< how the coordinates are computed
-  DistanceScheme phi = DistanceScheme::kSquare;   //!< growth of the weight functions phi
-  Precision precision = Precision::kSingle;       //!< of the iteration
-  Recovery recovery = Recovery::kAuto;            //!< for the methods whose unknowns are gradients
-  NonNegative non_negative = NonNegative::kAuto;  //!< what becomes of w >= 0
-  LinearSolver linear_solver = LinearSolver::kAuto;  //!< for the methods that split on the weights
+  //! How the coordinates are computed.
+  Method method = Method::kAuto;
+
+  //! Growth of the weight functions phi. Read by all methods but kHarmonic and kMeanValue, whose
+  //! reports alone depend on it.
+  DistanceScheme phi = DistanceScheme::kSquare;
+
+  //! Of the iteration. Read by kValue, kLbc2014, kGradient and kPaper.
+  Precision precision = Precision::kSingle;
+
+  //! How weights follow from gradients. Read by kGradient and kPaper.
+  Recovery recovery = Recovery::kAuto;
+
+  //! What becomes of w >= 0. Read by all methods; kConstraint is one of kValue and kLbc2014 only.
+  NonNegative non_negative = NonNegative::kAuto;
+
+  //! For the linear system of each iteration. Read by kValue and kLbc2014.
+  LinearSolver linear_solver = LinearSolver::kAuto;
+
+  //! Whether to start from coarser meshes, for which solve() takes a mesher. Read by kValue and
+  //! kGradient; other methods start as ever.
+  CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
+
+  //! Which coarser meshes. Read by kValue and kGradient.
+  CoarseLevels coarse_levels{};
 
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
@@ -63,35 +84,48 @@ struct SolverOptions {
   //!   much); 2.5e-5 by default.
   //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
   //!   tolerance; by default the paper's 1e-7, and 5e-8 for kLbc2014.
+  //! - kHarmonic, kMeanValue do not read it.
   double tolerance = 0;
 
-  //! Largest number of iterations, >= 1; reaching it is reported, not an error.
+  //! Largest number of iterations, >= 1; reaching it is reported, not an error. Read by kValue,
+  //! kLbc2014, kGradient and kPaper.
   int max_iterations = 20000;
 
-  //! Penalty of the augmented Lagrangian, for a domain scaled to radius 250; 0 = by method, which
-  //! for kValue and kLbc2014 means chosen from the mesh.
+  //! Penalty of the augmented Lagrangian, > 0, with the cage's size (bounding_box_diagonal) as the
+  //! unit of length; 0 = by method, which for kValue and kLbc2014 means chosen from the mesh.
+  //! published_penalty() converts from the scale of the literature. Read by kValue, kLbc2014,
+  //! kGradient and kPaper.
   double penalty = 0;
 
-  //! Over-relaxation in (0, 2), 1 = none; 0 = by method.
+  //! Over-relaxation in (0, 2), 1 = none; 0 = by method. Read by kValue, kLbc2014, kGradient and
+  //! kPaper.
   double relaxation = 0;
 
-  //! Iterations between two evaluations of the residuals, >= 1.
+  //! Iterations between two evaluations of the residuals, >= 1. Read by kValue, kLbc2014, kGradient
+  //! and kPaper.
   int check_interval = 10;
 
-  //! Whether to compute a lower bound of the optimal objective as well; needs an iterative method.
+  //! Whether to compute a lower bound of the optimal objective as well. Read by kValue, kLbc2014,
+  //! kGradient and kPaper; refused for the others.
   bool certify = false;
 
-  //! Number of threads; 0 = as many as OpenMP offers.
+  //! Number of threads, at most 1024; 0 = as many as OpenMP offers. Read by all methods.
   int threads = 0;
 
-  //! Called whenever residuals are evaluated; returning false stops the run.
+  //! Called whenever residuals are evaluated; returning false stops the run. Read by kValue,
+  //! kLbc2014, kGradient and kPaper.
   std::function<bool(const Progress&)> progress{};
 };
 
+//! Refuses impossible options. solve() and the classes that solve do this themselves, before
+//! anything else.
+//! \param options  as a caller gives them
 //! \throws OptionError naming the field and its valid range
 void validate(const SolverOptions& options);
 
-//! The options with every "by method" filled in for dimension `dim`.
-SolverOptions resolve(SolverOptions options, int dim);
+//! The options with every "by method" filled in, but for what depends on the problem: the penalty
+//! and, for CoarseToFine::kAuto, the coarse levels.
+//! \param options  valid
+SolverOptions resolve(SolverOptions options);
 
 }  // namespace flbc

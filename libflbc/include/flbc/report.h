@@ -47,7 +47,8 @@ struct SolveReport {
   int iterations = 0;                            //!< 0 for methods that do not iterate
   double primal_residual = 0;  //!< |r_p|, or estimated error, divided by its threshold
   double dual_residual = 0;    //!< |r_d| divided by its threshold
-  double penalty = 0;          //!< used last, for a domain scaled to radius 250
+  double penalty = 0;          //!< used last, in the unit of SolverOptions::penalty
+  double published_penalty = 0;  //!< the same on the scale of the literature (published_penalty())
   //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
   double objective = 0;
   Certificate certificate{};                 //!< if asked for, in the same units

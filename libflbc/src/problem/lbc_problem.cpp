@@ -3,22 +3,9 @@
 
 #include <utility>
 
+#include "problem/domain_scale.h"
+
 namespace flbc {
-namespace {
-
-constexpr double kRadius = 250;
-
-template <int Dim>
-double scale_to_radius(Cage<Dim>& cage, DomainMesh<Dim>& mesh) {
-  const Vector<Dim> center =
-      (mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2;
-  const double scale = kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
-  mesh.points = scale * (mesh.points.colwise() - center);
-  cage.points = scale * (cage.points.colwise() - center);
-  return scale;
-}
-
-}  // namespace
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
@@ -38,9 +25,11 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              BoundaryValues<Dim> boundary, DistanceScheme scheme) {
-  const double scale = scale_to_radius(cage, mesh);
+  const DomainScale<Dim> scale(mesh);
+  mesh.points = scale(mesh.points);
+  cage.points = scale(cage.points);
   LbcProblem<Dim> problem{
-      std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale};
+      std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale.factor};
   Eigen::MatrixXd distances;
   if (scheme != DistanceScheme::kConstant) {
     distances =

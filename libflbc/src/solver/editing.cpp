@@ -98,7 +98,7 @@ template <int Dim>
 class EditableCoordinates<Dim>::State {
  public:
   State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
-      : options_(resolve(options, Dim)) {
+      : options_(resolve(options)) {
     const ThreadScope threads(options_.threads);
     normalize_and_validate(mesh);
     Stopwatch watch;

@@ -2,23 +2,56 @@
 #include "solver/iterative_method.h"
 
 #include <cmath>
+#include <string>
 
-#include "base/messages.h"
+#include "base/stopwatch.h"
+#include "flbc/bounding_box.h"
+#include "flbc/certificate.h"
 #include "flbc/errors.h"
+#include "flbc/harmonic.h"
+#include "flbc/mean_value.h"
+#include "flbc/non_negative.h"
+#include "flbc/quality.h"
+#include "solver/penalty_unit.h"
 
 namespace flbc {
+namespace {
 
-void require_finite(bool finite, const SolverOptions& options, const SolveReport& report) {
+// In the units of the mesh as it was given.
+template <int Dim>
+double unscaled(const LbcProblem<Dim>& problem, double objective) {
+  return objective / std::pow(problem.scale, Dim - 1);
+}
+
+template <int Dim>
+Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result) {
+  auto certificate = result.certify(result.weights);
+  certificate.objective = unscaled(problem, certificate.objective);
+  certificate.lower_bound = unscaled(problem, certificate.lower_bound);
+  return certificate;
+}
+
+// The penalty on the problem's scale; 0 where it is chosen from the mesh.
+double scaled_penalty(const SolverOptions& options, int dim, double unit) {
+  if (options.penalty > 0) return unit * options.penalty;
+  // The paper's (section 5), and those that served best on all models in docs/results.md.
+  if (options.method == Method::kPaper) return dim == 2 ? 100 : 10000;
+  if (options.method == Method::kGradient) return dim == 2 ? 1000 : 3000;
+  return 0;
+}
+
+}  // namespace
+
+void require_finite(bool finite, const SolveReport& report) {
   if (finite) return;
   throw SolverError("the computation broke down within " + std::to_string(report.iterations) +
-                    " iterations: its numbers are not finite; with penalty " +
-                    format_number(options.penalty) + " and relaxation " +
-                    format_number(options.relaxation) + ", try the defaults or double precision");
+                    " iterations: its numbers are not finite; try the default penalty and "
+                    "relaxation, or double precision");
 }
 
 bool finished(int iteration, const SolverOptions& options, SolveReport& report) {
   require_finite(std::isfinite(report.primal_residual) && std::isfinite(report.dual_residual),
-                 options, report);
+                 report);
   report.status = SolveStatus::kConverged;
   if (report.primal_residual <= 1 && report.dual_residual <= 1) return true;
   report.status = SolveStatus::kIterationLimit;
@@ -27,5 +60,64 @@ bool finished(int iteration, const SolverOptions& options, SolveReport& report) 
   return options.progress &&
          !options.progress({iteration, report.primal_residual, report.dual_residual});
 }
+
+template <int Dim>
+MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, SolveReport& report,
+                        StateStorage* storage, WarmStart<Dim> warm_start) {
+  Stopwatch watch;
+  report = {};
+  report.method = options.method;
+  report.control_points = problem.num_control_points();
+  report.vertices = problem.mesh.num_vertices();
+  report.cells = problem.mesh.num_cells();
+  const double unit = penalty_unit(options.method, Dim, bounding_box_diagonal(problem.cage.points));
+  options.penalty = scaled_penalty(options, Dim, unit);
+  require_finite(std::isfinite(options.penalty), report);
+  MethodResult result;
+  switch (options.method) {
+    case Method::kHarmonic:
+      result.weights = harmonic_coordinates(problem);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kMeanValue:
+      result.weights = mean_value_coordinates(problem.cage, problem.mesh.points);
+      report.seconds.solve = watch.lap();
+      break;
+    case Method::kValue:
+    case Method::kLbc2014:
+      result = solve_by_splitting(problem, options, report, storage, warm_start);
+      break;
+    default:
+      result = solve_by_gradients(problem, options, report, storage, warm_start);
+  }
+  require_finite(result.weights.allFinite(), report);
+  report.published_penalty = report.penalty;
+  report.penalty /= unit;
+  return result;
+}
+
+template <int Dim>
+Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
+                SolveReport report) {
+  Stopwatch watch;
+  if (options.non_negative != NonNegative::kOff) {
+    project_non_negative(problem.cage.points, problem.mesh.points, result.weights,
+                         problem.boundary.interior_vertices());
+  }
+  report.seconds.recover += watch.lap();
+  if (options.certify) report.certificate = certify(problem, result);
+  report.seconds.certify = watch.lap();
+  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, result.weights));
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, result.weights);
+  return {std::move(result.weights), std::move(report)};
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                           \
+  template MethodResult run_method(const LbcProblem<Dim>&, SolverOptions, SolveReport&, \
+                                   StateStorage*, WarmStart<Dim>);                      \
+  template Solution finish(const LbcProblem<Dim>&, const SolverOptions&, MethodResult, SolveReport);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

@@ -36,8 +36,10 @@ struct WarmStart {
   MeshState<Dim>* final_state = nullptr;  //!< where to leave the last state
 };
 
-//! Method::kGradient and kPaper. \param options  resolved \param report  iterations, status,
-//! residuals and seconds are filled in \param storage  memory of the state, may be null
+//! Method::kGradient and kPaper.
+//! \param options  resolved, with the penalty on the problem's scale
+//! \param report  iterations, status, residuals, penalty and seconds are filled in
+//! \param storage  memory of the state, may be null
 template <int Dim>
 MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
                                 SolveReport& report, StateStorage* storage,
@@ -49,12 +51,13 @@ MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOpti
                                 SolveReport& report, StateStorage* storage,
                                 WarmStart<Dim> warm_start);
 
-//! Any method, up to weights that may be negative. Parameters as above; the report is made anew.
+//! Any method, up to weights that may be negative. Parameters as above, but the penalty is in the
+//! user's unit and the report is made anew.
 template <int Dim>
-MethodResult run_method(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                        SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
+MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, SolveReport& report,
+                        StateStorage* storage, WarmStart<Dim> warm_start);
 
-//! What follows the iteration: non-negative rows, certificate, measures.
+//! Everything after the iteration: non-negative rows, certificate, measures.
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
                 SolveReport report);
@@ -73,7 +76,7 @@ Eigen::MatrixXd flux_densities(const LbcProblem<Dim>& problem,
 
 //! Penalties and relaxations without measure take the numbers out of their range, which must never
 //! pass for a result. \throws SolverError unless `finite`
-void require_finite(bool finite, const SolverOptions& options, const SolveReport& report);
+void require_finite(bool finite, const SolveReport& report);
 
 //! Ends the run or tells the caller, after an evaluation of the residuals that `report` holds.
 //! Sets the status. \return whether to stop

@@ -14,6 +14,15 @@ void require(bool valid, const char* field, double value, const char* range) {
   throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
 }
 
+void validate(const CoarseLevels& levels) {
+  require(levels.coarsest >= 0, "coarse_levels.coarsest", levels.coarsest,
+          "a number of vertices, or 0 for where it pays");
+  require(levels.factor == 0 || (std::isfinite(levels.factor) && levels.factor >= 2),
+          "coarse_levels.factor", levels.factor, "at least 2, or 0 for the one that pays");
+  require(std::isfinite(levels.looseness) && levels.looseness > 0, "coarse_levels.looseness",
+          levels.looseness, "positive");
+}
+
 }  // namespace
 
 void validate(const SolverOptions& options) {
@@ -39,9 +48,10 @@ void validate(const SolverOptions& options) {
   }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
+  validate(options.coarse_levels);
 }
 
-SolverOptions resolve(SolverOptions options, int dim) {
+SolverOptions resolve(SolverOptions options) {
   if (options.method == Method::kAuto) options.method = Method::kValue;
   const bool gradient = options.method == Method::kGradient;
   const bool paper = options.method == Method::kPaper;
@@ -55,9 +65,10 @@ SolverOptions resolve(SolverOptions options, int dim) {
                            : gradient       ? NonNegative::kProject
                                             : NonNegative::kOff;
   }
-  // The paper's penalties (section 5), and those that served best on all models in docs/results.md.
-  if (options.penalty == 0 && paper) options.penalty = dim == 2 ? 100 : 10000;
-  if (options.penalty == 0 && gradient) options.penalty = dim == 2 ? 1000 : 3000;
+  constexpr Index kCoarsest = 500;
+  if (options.coarse_to_fine == CoarseToFine::kOn && options.coarse_levels.coarsest == 0) {
+    options.coarse_levels.coarsest = kCoarsest;
+  }
   if (options.tolerance == 0)
     options.tolerance = value ? 1e-7 : gradient ? 2.5e-5 : lbc2014 ? 5e-8 : 1e-7;
   if (options.relaxation == 0) {

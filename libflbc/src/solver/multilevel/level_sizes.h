@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "flbc/coarse_to_fine.h"
+#include "flbc/options.h"
 
 namespace flbc {
 

@@ -39,7 +39,7 @@ template <int Dim, class Mesh>
 SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& user_options,
                      const PropertyOptions& properties) {
   validate(user_options);
-  const auto options = resolve(user_options, Dim);
+  const auto options = resolve(user_options);
   auto domain = make_domain(mesh);
   auto record = describe(cage, domain.mesh, options);
 
@@ -66,7 +66,7 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& use
   snap_to_cage(cage, domain.topology, kSinglePrecision, domain.mesh);
   const auto problem =
       make_problem(cage, std::move(domain.mesh), std::move(domain.topology), options.phi);
-  auto solution = flbc::solve(problem, user_options, &storage);
+  auto solution = flbc::solve(problem, user_options, {}, &storage);
   set_weights(mesh, solution.weights, properties.weights);
   record.penalty = properties.keep_state ? storage.penalty() : 0;
   mesh.property(record_handle) = to_json(record);

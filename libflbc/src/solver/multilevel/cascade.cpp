@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/coarse_to_fine.h"
+#include "solver/multilevel/cascade.h"
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "base/messages.h"
-#include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "flbc/errors.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/level_sizes.h"
 #include "solver/warm_start/transfer.h"
@@ -23,22 +19,6 @@ struct Level {
   LbcProblem<Dim> problem;
   MeshState<Dim> state;
 };
-
-template <int Dim>
-void validate(const CoarseMesher<Dim>& mesher, const CoarseLevels& levels) {
-  if (!mesher) throw OptionError("mesher is empty; a coarse-to-fine start needs one");
-  if (levels.coarsest < 0) {
-    throw OptionError("coarsest must be a number of vertices, or 0 for the default, not " +
-                      std::to_string(levels.coarsest));
-  }
-  if (levels.factor != 0 && !(levels.factor >= 2)) {
-    throw OptionError("factor must be at least 2, or 0 for the default, not " +
-                      format_number(levels.factor));
-  }
-  if (!(levels.looseness > 0)) {
-    throw OptionError("looseness must be positive, not " + format_number(levels.looseness));
-  }
-}
 
 // A mesh worth a level of its own between the one below (0 vertices = none) and the finest.
 template <int Dim>
@@ -61,13 +41,13 @@ template <int Dim>
 class Cascade {
  public:
   Cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
-          const SolverOptions& options, const CoarseLevels& levels)
-      : problem_(problem), mesher_(mesher), options_(options), levels_(levels) {}
+          const SolverOptions& options)
+      : problem_(problem), mesher_(mesher), options_(options) {}
 
   //! Solves the coarse levels, coarsest first.
   void climb() {
     const auto sizes = level_sizes<Dim>(problem_.mesh.num_vertices(), problem_.num_control_points(),
-                                        options_.method, levels_);
+                                        options_.method, options_.coarse_levels);
     for (std::size_t k = 0; k < sizes.size() && !stopped_; ++k) {
       solve_level(sizes[k], static_cast<int>(sizes.size() - k));
     }
@@ -104,7 +84,7 @@ class Cascade {
     level_report.setup_seconds = watch.lap();
 
     auto options = options_;
-    options.tolerance *= levels_.looseness;
+    options.tolerance *= options_.coarse_levels.looseness;
     options.progress = [&](Progress progress) {
       progress.finer_levels = finer_levels;
       stopped_ = options_.progress && !options_.progress(progress);
@@ -129,7 +109,6 @@ class Cascade {
   const LbcProblem<Dim>& problem_;
   const CoarseMesher<Dim>& mesher_;
   const SolverOptions& options_;
-  const CoarseLevels& levels_;
   std::unique_ptr<Level<Dim>> below_;  // the finest solved so far
   std::vector<LevelReport> reports_;
   bool stopped_ = false;
@@ -138,42 +117,16 @@ class Cascade {
 }  // namespace
 
 template <int Dim>
-Solution solve_coarse_to_fine(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
-                              const SolverOptions& user_options, const CoarseLevels& levels,
-                              StateStorage* storage) {
-  validate(user_options);
-  validate(mesher, levels);
-  const auto options = resolve(user_options, Dim);
-  const bool resumed = storage != nullptr && storage->penalty() > 0;
-  if (!inherits(options.method) || resumed) return solve(problem, user_options, storage);
-  const ThreadScope threads(options.threads);
-  Cascade<Dim> cascade(problem, mesher, options, levels);
+Solution solve_in_cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+                          const SolverOptions& options, StateStorage* storage) {
+  Cascade<Dim> cascade(problem, mesher, options);
   cascade.climb();
   return cascade.solve_finest(storage);
 }
 
-template <int Dim>
-Solution solve_coarse_to_fine(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                              const CoarseMesher<Dim>& mesher, const SolverOptions& options,
-                              const CoarseLevels& levels) {
-  validate(options);
-  validate(mesher, levels);
-  const ThreadScope threads(options.threads);
-  Stopwatch watch;
-  const auto problem = make_problem(cage, mesh, options.phi);
-  const double setup = watch.lap();
-  auto solution = solve_coarse_to_fine(problem, mesher, options, levels);
-  solution.report.seconds.setup = setup;
-  return solution;
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                              \
-  template Solution solve_coarse_to_fine(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
-                                         const SolverOptions&, const CoarseLevels&,        \
-                                         StateStorage*);                                   \
-  template Solution solve_coarse_to_fine(const Cage<Dim>&, const DomainMesh<Dim>&,         \
-                                         const CoarseMesher<Dim>&, const SolverOptions&,   \
-                                         const CoarseLevels&);
+#define FLBC_INSTANTIATE(Dim)                                                          \
+  template Solution solve_in_cascade(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
+                                     const SolverOptions&, StateStorage*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A solver that goes on from where it stopped, and penalties in units of the cage.
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "flbc/published_penalty.h"
+#include "flbc/solver.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class LbcSolverTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(LbcSolverTest, Dimensions);
+
+bool same_bits(const Solution& a, const Solution& b) {
+  return (a.weights.array() == b.weights.array()).all();
+}
+
+TYPED_TEST(LbcSolverTest, TheFirstSolveIsTheOneOffFunction) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014,
+                            Method::kHarmonic, Method::kMeanValue}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    SolverOptions options;
+    options.method = method;
+    options.max_iterations = 40;
+    const auto expected = solve(sample.cage, sample.mesh, options);
+    LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+    EXPECT_EQ(solver.solution().weights.size(), 0);
+    const auto& solution = solver.solve();
+    EXPECT_TRUE(same_bits(solution, expected));
+    EXPECT_EQ(solution.report.iterations, expected.report.iterations);
+    EXPECT_EQ(solution.report.penalty, expected.report.penalty);
+    EXPECT_EQ(solution.report.objective, expected.report.objective);
+    EXPECT_GT(solution.report.seconds.setup, 0);
+    solver.restart();
+    EXPECT_TRUE(same_bits(solver.solve(), expected));
+    EXPECT_EQ(solver.solution().report.seconds.setup, 0);
+  }
+}
+
+TYPED_TEST(LbcSolverTest, ARunInPartsIsOneInOnePiece) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 3, 0.2);
+  for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
+    for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
+      SCOPED_TRACE(static_cast<int>(method));
+      SolverOptions options;
+      options.method = method;
+      options.precision = precision;
+      options.penalty = published_penalty(sample.cage, sample.mesh, method, 100);
+      options.tolerance = 1e-20;
+      options.max_iterations = 40;
+      const auto whole = solve(sample.cage, sample.mesh, options);
+      options.max_iterations = 25;
+      LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+      EXPECT_FALSE(same_bits(solver.solve(), whole));
+      options.max_iterations = 15;
+      solver.set_options(options);
+      EXPECT_TRUE(same_bits(solver.solve(), whole));
+      EXPECT_EQ(solver.solution().report.iterations, 15);
+    }
+  }
+}
+
+TYPED_TEST(LbcSolverTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+  SolverOptions options;
+  options.tolerance = 1e-4;
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
+  options.tolerance = 1e-6;
+  solver.set_options(options);
+  const auto& fine = solver.solve();
+  const auto cold = solve(sample.cage, sample.mesh, options);
+  EXPECT_EQ(fine.report.status, SolveStatus::kConverged);
+  EXPECT_LT(fine.report.iterations, cold.report.iterations);
+  EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights, cold.weights), 4e-6);
+}
+
+TYPED_TEST(LbcSolverTest, AnotherMethodOrPenaltyStartsAfresh) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  SolverOptions options;
+  options.max_iterations = 20;
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  solver.solve();
+  const auto afresh = [&](auto change) {
+    change(options);
+    solver.set_options(options);
+    EXPECT_TRUE(same_bits(solver.solve(), solve(sample.cage, sample.mesh, options)));
+  };
+  afresh([](auto& o) { o.precision = Precision::kDouble; });
+  afresh([](auto& o) { o.non_negative = NonNegative::kOff; });
+  afresh([](auto& o) { o.penalty = 0.01; });
+  afresh([](auto& o) { o.method = Method::kGradient; });
+  afresh([](auto& o) { o.penalty = 0; });
+  afresh([](auto& o) { o.method = Method::kHarmonic; });
+}
+
+TYPED_TEST(LbcSolverTest, RefusedOptionsChangeNothing) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  SolverOptions options;
+  options.penalty = 0.02;
+  options.tolerance = 1e-20;
+  options.max_iterations = 20;
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  solver.solve();
+  auto refused = options;
+  refused.phi = DistanceScheme::kLinear;
+  EXPECT_THROW(solver.set_options(refused), OptionError);
+  refused = options;
+  refused.coarse_to_fine = CoarseToFine::kOn;
+  EXPECT_THROW(solver.set_options(refused), OptionError);
+  EXPECT_EQ(solver.options().phi, options.phi);
+  EXPECT_EQ(solver.options().coarse_to_fine, options.coarse_to_fine);
+  solver.solve();
+  options.max_iterations = 40;
+  EXPECT_TRUE(same_bits(solver.solution(), solve(sample.cage, sample.mesh, options)));
+}
+
+// A cage in metres and one in millimetres are solved alike by the same options.
+TYPED_TEST(LbcSolverTest, PenaltiesDoNotDependOnTheUnitOfLength) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  auto scaled = sample;
+  scaled.cage.points *= 1024;
+  scaled.mesh.points *= 1024;
+  for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    SolverOptions options;
+    options.method = method;
+    options.max_iterations = 30;
+    options.penalty = published_penalty(sample.cage, sample.mesh, method, 10);
+    EXPECT_NEAR(published_penalty(scaled.cage, scaled.mesh, method, 10), options.penalty,
+                1e-12 * options.penalty);
+    const auto one = solve(sample.cage, sample.mesh, options);
+    const auto other = solve(scaled.cage, scaled.mesh, options);
+    EXPECT_LT((one.weights - other.weights).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_NEAR(one.report.penalty, options.penalty, 1e-12 * options.penalty);
+    EXPECT_NEAR(one.report.published_penalty, 10, 1e-11);
+    EXPECT_NEAR(other.report.published_penalty, 10, 1e-11);
+  }
+}
+
+// What a run reports can be asked for.
+TYPED_TEST(LbcSolverTest, TheDefaultPenaltyCanBeGiven) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  for (const auto method : {Method::kGradient, Method::kPaper}) {
+    SolverOptions options;
+    options.method = method;
+    options.precision = Precision::kDouble;
+    options.max_iterations = 30;
+    const auto by_method = solve(sample.cage, sample.mesh, options);
+    options.penalty = by_method.report.penalty;
+    const auto given = solve(sample.cage, sample.mesh, options);
+    EXPECT_LT((by_method.weights - given.weights).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/names.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace flbc::testing {
+namespace {
+
+template <class Enum>
+class NamesTest : public ::testing::Test {};
+using Enumerations = ::testing::Types<Method, NonNegative, DistanceScheme, Recovery, Precision,
+                                      CoarseToFine, LinearSolver, SolveStatus>;
+TYPED_TEST_SUITE(NamesTest, Enumerations);
+
+TYPED_TEST(NamesTest, GoBothWays) {
+  const auto names = names_of<TypeParam>();
+  std::set<TypeParam> values;
+  for (const auto& name : names) {
+    const auto value = value_named<TypeParam>(name);
+    ASSERT_TRUE(value.has_value()) << name;
+    EXPECT_EQ(name_of(*value), name);
+    values.insert(*value);
+  }
+  EXPECT_EQ(values.size(), names.size());
+  // Enumerations count from 0, so that none is left out if the largest is as many.
+  EXPECT_EQ(static_cast<std::size_t>(*values.rbegin()) + 1, names.size());
+  EXPECT_EQ(value_named<TypeParam>(names.front()), TypeParam{});
+}
+
+TYPED_TEST(NamesTest, OtherWordsNameNothing) {
+  for (const char* word : {"", "Value", "value ", "magic"}) {
+    EXPECT_FALSE(value_named<TypeParam>(word).has_value()) << word;
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing
