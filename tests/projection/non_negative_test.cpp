@@ -293,7 +293,7 @@ TYPED_TEST(NonNegativeTest, NearestPointOfTheHull) {
       const Vector<kDim> query =
           control_points.rowwise().mean() +
           Vector<kDim>(numbers.matrix(kDim, 1, -size, size) * (k % 2 == 0 ? 1 : 0.2));
-      const auto nearest = nearest_in_hull<kDim>(control_points, query);
+      const auto nearest = nearest_point_in_hull<kDim>(control_points, query);
       const Vector<kDim> normal = query - nearest.point;
       EXPECT_NEAR(normal.norm(), nearest.distance, 1e-12 * size);
       const PointList<kDim> offsets = control_points.colwise() - nearest.point;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What reduce_by_poisson() minimises, and how near the minimum it comes, by trying all supports.
+// The energy of reduce_by_poisson() and how near its minimum it comes, by trying all supports.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,9 +11,8 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/poses.h"
-#include "sparsify/active_set_qp.h"
-#include "sparsify/metric_search.h"
 #include "sparsify/pose_metric.h"
+#include "sparsify/support_selection.h"
 #include "support/poisson_problem.h"
 
 namespace flbc::testing {
@@ -103,44 +102,81 @@ Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>&
   return best;
 }
 
-TYPED_TEST(PoissonOptimalityTest, OneRowOnAllControlPointsIsTheNearest) {
-  constexpr int Dim = TypeParam::value;
-  constexpr int kControls = 8;
-  Numbers numbers(33);
-  const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
-  const std::vector<PointList<Dim>> poses{numbers.matrix(Dim, kControls, -2, 2)};
-  const auto metric = pose_metric<Dim>(control_points, poses);
-  MetricRow<Dim> row(metric, control_points, 2);
-  MetricSearch<Dim> search(row, metric);
+// Judges the search of supports in a metric by trying all of them.
+template <int Dim>
+void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixXd& metric,
+                          const PointList<Dim>& control_points) {
+  constexpr double kNoBound = std::numeric_limits<double>::infinity();
+  constexpr int kPoints = 40;
+  const auto n = static_cast<Index>(control_points.cols());
+  Numbers numbers(35);
   std::vector<Index> everyone;
-  for (Index i = 0; i < kControls; ++i) everyone.push_back(i);
+  for (Index i = 0; i < n; ++i) everyone.push_back(i);
   int best = 0;
-  constexpr int kRows = 40;
-  for (int k = 0; k < kRows; ++k) {
-    const Vector<Dim> point = control_points * numbers.convex(kControls);
-    const Eigen::VectorXd target = numbers.matrix(kControls, 1, -0.3, 0.6);
-    row.aim_at(point) = metric * target;
+  for (int k = 0; k < kPoints; ++k) {
+    const Vector<Dim> point = control_points * numbers.convex(n);
+    const Eigen::VectorXd target = numbers.matrix(n, 1, -0.3, 0.6);
+    selection.qp().aim_at(point) = metric * target;
     const double shift = target.dot(metric * target);
     const auto cost_of = [&](const Eigen::VectorXd& weights) {
       return (weights - target).dot(metric * (weights - target)) - shift;
     };
     // Without a limit the problem is convex: two ways to its minimum.
-    const double least =
-        cost_of(nearest_row<Dim>(metric, control_points, point, target, kControls));
-    SparseRow solved;
-    ASSERT_TRUE(row.solve(everyone, std::numeric_limits<double>::infinity(), solved));
-    EXPECT_NEAR(solved.cost, least, 1e-9);
+    const double least = cost_of(nearest_row<Dim>(metric, control_points, point, target, n));
+    PointWeights weights;
+    ASSERT_TRUE(selection.qp().solve(everyone, kNoBound, weights));
+    EXPECT_NEAR(weights.cost, least, 1e-9);
     // With a limit, removing and exchanging come near it.
     const Index most = Dim + 2;
     const double limited = cost_of(nearest_row<Dim>(metric, control_points, point, target, most));
-    SparseRow sparse = solved;
-    ASSERT_TRUE(search.reduce(most, std::numeric_limits<double>::infinity(), sparse));
-    search.exchange(most, 0, std::vector<bool>(kControls, true), sparse);
-    EXPECT_LE(static_cast<Index>(sparse.support.size()), most);
-    EXPECT_GE(sparse.cost, limited - 1e-9);
-    best += sparse.cost <= limited + 1e-7;
+    ASSERT_TRUE(selection.reduce(most, kNoBound, weights));
+    selection.exchange(most, 0, std::vector<bool>(n, true), weights);
+    EXPECT_LE(static_cast<Index>(weights.support.size()), most);
+    EXPECT_GE(weights.cost, limited - 1e-9);
+    best += weights.cost <= limited + 1e-7;
   }
-  EXPECT_GE(best, 3 * kRows / 4);
+  EXPECT_GE(best, 3 * kPoints / 4);
+}
+
+TYPED_TEST(PoissonOptimalityTest, OnePointsWeightsAreNearTheBestInAnyMetric) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int kControls = 8;
+  Numbers numbers(33);
+  const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
+  const std::vector<PointList<Dim>> poses{numbers.matrix(Dim, kControls, -2, 2)};
+  const auto matrix = pose_metric<Dim>(control_points, poses);
+  SupportSelection<Dim> in_poses(Metric(matrix), control_points);
+  expect_near_the_best<Dim>(in_poses, matrix, control_points);
+  SupportSelection<Dim> euclidean(Metric(), control_points);
+  expect_near_the_best<Dim>(euclidean, Eigen::MatrixXd::Identity(kControls, kControls),
+                            control_points);
+}
+
+// The same problem in the identity as a special case and as a matrix.
+TYPED_TEST(PoissonOptimalityTest, TheIdentityIsAMetricLikeAnyOther) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int kControls = 20;
+  Numbers numbers(36);
+  const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kControls, kControls);
+  SupportSelection<Dim> special(Metric(), control_points), general(Metric(identity), control_points);
+  std::vector<Index> everyone;
+  for (Index i = 0; i < kControls; ++i) everyone.push_back(i);
+  for (int k = 0; k < 40; ++k) {
+    const Vector<Dim> point = control_points * numbers.convex(kControls);
+    const Eigen::VectorXd target = numbers.matrix(kControls, 1, -0.2, 0.3);
+    PointWeights found[2];
+    for (auto* selection : {&special, &general}) {
+      auto& weights = found[selection == &general];
+      selection->qp().aim_at(point) = target;
+      constexpr double kNoBound = std::numeric_limits<double>::infinity();
+      ASSERT_TRUE(selection->qp().solve(everyone, kNoBound, weights));
+      ASSERT_TRUE(selection->reduce(Dim + 3, kNoBound, weights));
+      selection->exchange(Dim + 3, 1e-9, std::vector<bool>(kControls, true), weights);
+    }
+    EXPECT_EQ(found[0].support, found[1].support);
+    EXPECT_NEAR(found[0].cost, found[1].cost, 1e-9);
+  }
 }
 
 // Rows that another support would make better while all other rows stay as they are, and by how

@@ -37,7 +37,7 @@ double VertexLinearProgram<Dim>::lower_bound(const Vector<Dim>& point, const Eig
   best_multipliers_.setZero();
   bool started = start_from(start, costs);
   if (!started) {
-    const auto nearest = nearest_in_hull(points_, point);
+    const auto nearest = nearest_point_in_hull(points_, point);
     Eigen::VectorXd feasible = Eigen::VectorXd::Zero(costs.size());
     for (int k = 0; k < nearest.size; ++k) feasible[nearest.support[k]] = nearest.weights[k];
     started = start_from(feasible, costs);

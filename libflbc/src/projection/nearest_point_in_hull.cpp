@@ -99,7 +99,7 @@ class Corral {
 }  // namespace
 
 template <int Dim>
-HullPoint<Dim> nearest_in_hull(const PointList<Dim>& points, const Vector<Dim>& query) {
+HullPoint<Dim> nearest_point_in_hull(const PointList<Dim>& points, const Vector<Dim>& query) {
   const PointList<Dim> offsets = points.colwise() - query;
   const double reach = offsets.colwise().norm().maxCoeff();
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * reach;
@@ -132,7 +132,7 @@ HullPoint<Dim> nearest_in_hull(const PointList<Dim>& points, const Vector<Dim>& 
   return result;
 }
 
-template HullPoint<2> nearest_in_hull(const PointList<2>&, const Vector<2>&);
-template HullPoint<3> nearest_in_hull(const PointList<3>&, const Vector<3>&);
+template HullPoint<2> nearest_point_in_hull(const PointList<2>&, const Vector<2>&);
+template HullPoint<3> nearest_point_in_hull(const PointList<3>&, const Vector<3>&);
 
 }  // namespace flbc

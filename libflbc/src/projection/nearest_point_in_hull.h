@@ -23,6 +23,6 @@ struct HullPoint {
 //! hull and does not mind points that coincide or lie in lines and planes.
 //! \param points  Dim x n, n >= 1
 template <int Dim>
-HullPoint<Dim> nearest_in_hull(const PointList<Dim>& points, const Vector<Dim>& query);
+HullPoint<Dim> nearest_point_in_hull(const PointList<Dim>& points, const Vector<Dim>& query);
 
 }  // namespace flbc

@@ -58,12 +58,12 @@ template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights, const std::vector<Index>& columns) {
   check_input(control_points, points, weights, columns);
-  const RowProjection<Dim> projection(control_points);
+  const WeightProjection<Dim> projection(control_points);
   const auto count = static_cast<Index>(columns.size());
   std::atomic<Index> outside{static_cast<Index>(points.cols())};
 #pragma omp parallel if (count >= 256)
   {
-    typename RowProjection<Dim>::Workspace work(projection);
+    typename WeightProjection<Dim>::Workspace work(projection);
     Eigen::VectorXd column(control_points.cols());
 #pragma omp for schedule(dynamic, 64)
     for (Index k = 0; k < count; ++k) {
@@ -82,7 +82,7 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
   if (point == points.cols()) return;
   throw InputError("point " + std::to_string(point) + " at " + format_point(points.col(point)) +
                    " lies outside the convex hull of the control points by " +
-                   format_number(nearest_in_hull<Dim>(control_points, points.col(point)).distance) +
+                   format_number(nearest_point_in_hull<Dim>(control_points, points.col(point)).distance) +
                    ": no weights >= 0 reproduce it");
 }
 

@@ -25,7 +25,7 @@ constexpr double kNewtonDelta = 1e-12;
 }  // namespace
 
 template <int Dim>
-RowProjection<Dim>::RowProjection(const PointList<Dim>& control_points)
+WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
     : points_(control_points),
       size_(std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
       center_(control_points.rowwise().mean()) {
@@ -42,7 +42,7 @@ RowProjection<Dim>::RowProjection(const PointList<Dim>& control_points)
 
 // b = Q^T w of every feasible w.
 template <int Dim>
-typename RowProjection<Dim>::Sums RowProjection<Dim>::sums_of(const Vector<Dim>& point) const {
+typename WeightProjection<Dim>::Sums WeightProjection<Dim>::sums_of(const Vector<Dim>& point) const {
   Sums sums;
   sums[0] = basis_(0, 0);
   sums.template tail<Dim>() =
@@ -53,20 +53,20 @@ typename RowProjection<Dim>::Sums RowProjection<Dim>::sums_of(const Vector<Dim>&
 // How far a row with Q^T w = b + residual is from sum 1 and from reproduction, relative to the
 // size.
 template <int Dim>
-double RowProjection<Dim>::violation(const Sums& residual) const {
+double WeightProjection<Dim>::violation(const Sums& residual) const {
   return std::max(std::abs(residual[0]) / basis_(0, 0),
                   residual.template tail<Dim>().cwiseProduct(lengths_).norm());
 }
 
 template <int Dim>
-bool RowProjection<Dim>::is_feasible(const Vector<Dim>& point,
+bool WeightProjection<Dim>::is_feasible(const Vector<Dim>& point,
                                      const Eigen::VectorXd& weights) const {
   return weights.minCoeff() >= 0 &&
          violation(basis_.transpose() * weights - sums_of(point)) <= kExact;
 }
 
 template <int Dim>
-double RowProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& weights,
+double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& weights,
                                    Workspace& work) const {
   if (is_feasible(point, weights)) {
     weights = (weights.array() > 0).select(weights, 0);  // -0 becomes 0
@@ -74,7 +74,7 @@ double RowProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& we
   }
   work.row = weights;
   if (!newton_round(sums_of(point), kNewtonDelta, work)) {
-    const auto nearest = nearest_in_hull(points_, point);
+    const auto nearest = nearest_point_in_hull(points_, point);
     if (nearest.distance > kOutside * size_) return nearest.distance;
     work.row = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
@@ -90,7 +90,7 @@ double RowProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& we
 
 // Replaces the row by one with the same projection, nearer to it. \return true if done
 template <int Dim>
-bool RowProjection<Dim>::newton_round(const Sums& sums, double delta, Workspace& work) const {
+bool WeightProjection<Dim>::newton_round(const Sums& sums, double delta, Workspace& work) const {
   // In units of the largest number the row is at most 1, however wild it was.
   const double unit = std::max(1.0, work.row.maxCoeff());
   work.scaled = work.row / unit;
@@ -104,7 +104,7 @@ bool RowProjection<Dim>::newton_round(const Sums& sums, double delta, Workspace&
 // One round is not enough for numbers that leave no digits for the constraints, and for supports
 // that are nearly degenerate, which make multipliers large.
 template <int Dim>
-bool RowProjection<Dim>::many_rounds(const Sums& sums, Workspace& work) const {
+bool WeightProjection<Dim>::many_rounds(const Sums& sums, Workspace& work) const {
   constexpr int kRounds = 40;
   constexpr double kFirstDelta = 1e-8, kLastDelta = 1e-22;
   double delta = kFirstDelta;
@@ -118,7 +118,7 @@ bool RowProjection<Dim>::many_rounds(const Sums& sums, Workspace& work) const {
 // Moves the positive weights by the least that makes sum and reproduction exact. What turns
 // negative becomes zero, and the rest is moved again.
 template <int Dim>
-bool RowProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) const {
+bool WeightProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) const {
   constexpr int kRounds = 20, kQuickRounds = 4;
   // Weights below this do not change any sum.
   constexpr double kZero = 4 * std::numeric_limits<double>::epsilon();
@@ -136,7 +136,7 @@ bool RowProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) cons
 }
 
 template <int Dim>
-void RowProjection<Dim>::correct(const Sums& residual, bool careful,
+void WeightProjection<Dim>::correct(const Sums& residual, bool careful,
                                  Eigen::VectorXd& weights) const {
   std::vector<Index> support;
   for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
@@ -158,7 +158,7 @@ void RowProjection<Dim>::correct(const Sums& residual, bool careful,
   }
 }
 
-template class RowProjection<2>;
-template class RowProjection<3>;
+template class WeightProjection<2>;
+template class WeightProjection<3>;
 
 }  // namespace flbc

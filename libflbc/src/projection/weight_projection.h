@@ -11,19 +11,19 @@ namespace flbc {
 //! Projects rows of weights for one set of control points. Shared by threads, each with a workspace
 //! of its own.
 template <int Dim>
-class RowProjection {
+class WeightProjection {
  public:
   using Sums = typename DualNewton<Dim>::Sums;
 
   //! \param control_points  Dim x n, n >= 1, finite
-  explicit RowProjection(const PointList<Dim>& control_points);
+  explicit WeightProjection(const PointList<Dim>& control_points);
 
   class Workspace {
    public:
-    explicit Workspace(const RowProjection& projection) : newton(projection.basis_) {}
+    explicit Workspace(const WeightProjection& projection) : newton(projection.basis_) {}
 
    private:
-    friend class RowProjection;
+    friend class WeightProjection;
     DualNewton<Dim> newton;
     Eigen::VectorXd row, scaled, candidate;
   };

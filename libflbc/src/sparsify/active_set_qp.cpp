@@ -2,15 +2,16 @@
 #include "sparsify/active_set_qp.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+
+#include "projection/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {
 
-// Errors of sum and reproduction that are none for the purpose of a choice.
+// Feasibility tolerance on partition of unity and reproduction.
 constexpr double kFeasible = 1e-8;
-// Weights below this are none.
+// Weights up to this count as 0.
 constexpr double kZero = 1e-12;
 // Slopes that rounding explains.
 constexpr double kFlat = 1e-10;
@@ -23,61 +24,89 @@ void erase_at(List& list, std::size_t position) {
 }  // namespace
 
 template <int Dim>
-double MetricRow<Dim>::cost_of(const SparseRow& row) const {
+Eigen::VectorXd& ActiveSetQp<Dim>::aim_at(const Vector<Dim>& point) {
+  point_ = point;
+  return free_.aim_at(point);
+}
+
+template <int Dim>
+double ActiveSetQp<Dim>::cost_of(const PointWeights& weights) const {
   double cost = 0;
-  for (std::size_t k = 0; k < row.support.size(); ++k) {
-    double slope = -2 * free_.pull()[row.support[k]];
-    for (std::size_t l = 0; l < row.support.size(); ++l) {
-      slope += free_.metric()(row.support[l], row.support[k]) * row.weights[l];
+  for (std::size_t k = 0; k < weights.support.size(); ++k) {
+    double slope = -2 * free_.pull()[weights.support[k]];
+    if (metric().is_identity()) {
+      slope += weights.values[k];
+    } else {
+      for (std::size_t l = 0; l < weights.support.size(); ++l) {
+        slope += metric()(weights.support[l], weights.support[k]) * weights.values[l];
+      }
     }
-    cost += slope * row.weights[k];
+    cost += slope * weights.values[k];
   }
   return cost;
 }
 
 template <int Dim>
-bool MetricRow<Dim>::solve(const std::vector<Index>& support, double bound, SparseRow& row) {
-  if (!drop_negative(support, bound) || !is_feasible()) return false;
+bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
+                             PointWeights& weights) {
+  // Without w >= 0 the cost is least, which bounds it from below.
+  if (!free_.minimize(support) || free_.cost() >= bound) return false;
+  if (!start_without_negative(support)) {
+    // As many control points as there are sums leave no choice.
+    if (support.size() <= Dim + 1 || !start_in_hull(support)) return false;
+  }
   if (!left_.empty()) descend_to_minimum();
-  return finish(row);
+  return finish(weights);
 }
 
-// The quickest way to feasible weights: to leave out what would be negative. Without w >= 0 the
-// cost is least, which bounds it from below.
+// The quickest way to feasible weights: the most negative one of the free minimum leaves, until none
+// is left. It may miss them.
 template <int Dim>
-bool MetricRow<Dim>::drop_negative(const std::vector<Index>& support, double bound) {
+bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support) {
   members_ = support;
   left_.clear();
-  while (!members_.empty() && free_.minimize(members_)) {
-    if (left_.empty() && free_.cost() >= bound) return false;
+  for (;;) {
     weights_ = free_.weights();
     const auto lowest = std::min_element(weights_.begin(), weights_.end());
-    if (*lowest > kZero) return true;
+    if (*lowest > kZero) return is_feasible();
     const auto position = static_cast<std::size_t>(lowest - weights_.begin());
     left_.push_back(members_[position]);
     erase_at(members_, position);
+    if (members_.empty() || !free_.minimize(members_)) return false;
   }
-  return false;
+}
+
+// A way that never misses them: Caratheodory's few control points around the point.
+template <int Dim>
+bool ActiveSetQp<Dim>::start_in_hull(const std::vector<Index>& support) {
+  const PointList<Dim> carriers = control_points_(Eigen::all, support);
+  const auto nearest = nearest_point_in_hull<Dim>(carriers, point_);
+  left_ = support;
+  members_.clear();
+  weights_.clear();
+  for (int k = 0; k < nearest.size; ++k) {
+    const Index member = support[nearest.support[k]];
+    enter(member, nearest.weights[k]);
+    left_.erase(std::find(left_.begin(), left_.end(), member));
+  }
+  return is_feasible();
 }
 
 template <int Dim>
-void MetricRow<Dim>::descend(SparseRow& row, Index newcomer) {
-  members_ = row.support;
-  weights_ = row.weights;
+void ActiveSetQp<Dim>::descend(PointWeights& weights, Index newcomer) {
+  members_ = weights.support;
+  weights_ = weights.values;
   left_.clear();
-  if (newcomer >= 0) {
-    members_.push_back(newcomer);
-    weights_.push_back(0);
-  }
+  if (newcomer >= 0) enter(newcomer, 0);
   descend_to_minimum();
-  row.cost = cost_of(row);
-  if (finish(lower_) && lower_.cost < row.cost) std::swap(row, lower_);
+  weights.cost = cost_of(weights);
+  if (finish(lower_) && lower_.cost < weights.cost) std::swap(weights, lower_);
 }
 
-// Primal active set method: towards the free minimum; whose weight reaches zero on the way leaves,
-// and at the minimum those come back whose weights would grow.
+// Towards the free minimum; the control point whose weight reaches zero on the way leaves, and at
+// the minimum those come back whose weights would grow.
 template <int Dim>
-void MetricRow<Dim>::descend_to_minimum() {
+void ActiveSetQp<Dim>::descend_to_minimum() {
   // Far more rounds than it takes: with rounding it might turn in circles.
   const std::size_t rounds = 4 * (members_.size() + left_.size()) + 8;
   for (std::size_t round = 0; round < rounds; ++round) {
@@ -91,15 +120,21 @@ void MetricRow<Dim>::descend_to_minimum() {
     }
     const std::size_t back = most_wanted();
     if (back == left_.size()) return;
-    members_.push_back(left_[back]);
-    weights_.push_back(0);
+    enter(left_[back], 0);
     erase_at(left_, back);
   }
 }
 
+template <int Dim>
+void ActiveSetQp<Dim>::enter(Index control_point, double weight) {
+  const auto place = std::upper_bound(members_.begin(), members_.end(), control_point);
+  weights_.insert(weights_.begin() + (place - members_.begin()), weight);
+  members_.insert(place, control_point);
+}
+
 // \return who reached zero first, or the number of members
 template <int Dim>
-std::size_t MetricRow<Dim>::step_to_free_minimum() {
+std::size_t ActiveSetQp<Dim>::step_to_free_minimum() {
   const auto& wanted = free_.weights();
   double step = 1;
   std::size_t first = members_.size();
@@ -119,14 +154,16 @@ std::size_t MetricRow<Dim>::step_to_free_minimum() {
 
 // \return whose weight would grow most, of those who left, or their number
 template <int Dim>
-std::size_t MetricRow<Dim>::most_wanted() const {
+std::size_t ActiveSetQp<Dim>::most_wanted() const {
   double steepest = -kFlat;
   std::size_t best = left_.size();
   for (std::size_t k = 0; k < left_.size(); ++k) {
     const Index i = left_[k];
     double slope = -free_.pull()[i] - free_.constraint(i).dot(free_.multipliers());
-    for (std::size_t l = 0; l < members_.size(); ++l) {
-      slope += free_.metric()(members_[l], i) * weights_[l];
+    if (!metric().is_identity()) {
+      for (std::size_t l = 0; l < members_.size(); ++l) {
+        slope += metric()(members_[l], i) * weights_[l];
+      }
     }
     if (slope < steepest) {
       steepest = slope;
@@ -137,7 +174,7 @@ std::size_t MetricRow<Dim>::most_wanted() const {
 }
 
 template <int Dim>
-bool MetricRow<Dim>::is_feasible() const {
+bool ActiveSetQp<Dim>::is_feasible() const {
   Sums sums = -Sums::Unit(0);
   for (std::size_t k = 0; k < members_.size(); ++k) {
     sums += weights_[k] * free_.constraint(members_[k]);
@@ -145,51 +182,47 @@ bool MetricRow<Dim>::is_feasible() const {
   return sums.norm() <= kFeasible;
 }
 
-// Members and weights as a row. \return false if they are not feasible
+// \return false if the members' weights are not feasible
 template <int Dim>
-bool MetricRow<Dim>::finish(SparseRow& row) {
+bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
   if (!is_feasible()) return false;
-  order_.resize(members_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::sort(order_.begin(), order_.end(),
-            [&](std::size_t a, std::size_t b) { return members_[a] < members_[b]; });
-  row.support.clear();
-  row.weights.clear();
-  for (const std::size_t k : order_) {
+  weights.support.clear();
+  weights.values.clear();
+  for (std::size_t k = 0; k < members_.size(); ++k) {
     if (weights_[k] <= kZero) continue;
-    row.support.push_back(members_[k]);
-    row.weights.push_back(weights_[k]);
+    weights.support.push_back(members_[k]);
+    weights.values.push_back(weights_[k]);
   }
-  row.cost = cost_of(row);
+  weights.cost = cost_of(weights);
   return true;
 }
 
 template <int Dim>
-const Eigen::VectorXd& MetricRow<Dim>::slopes(const SparseRow& row) {
-  if (!free_.minimize(row.support)) {
-    return slopes_ = Eigen::VectorXd::Zero(free_.metric().rows());
+const Eigen::VectorXd& ActiveSetQp<Dim>::slopes(const PointWeights& weights) {
+  if (!free_.minimize(weights.support)) {
+    return slopes_ = Eigen::VectorXd::Zero(free_.pull().size());
   }
-  slopes_ = -free_.pull() - free_.absorbed();
-  for (std::size_t k = 0; k < row.support.size(); ++k) {
-    slopes_ += row.weights[k] * free_.metric().col(row.support[k]);
+  slopes_ = -free_.pull() - free_.constraint_forces();
+  for (std::size_t k = 0; k < weights.support.size(); ++k) {
+    metric().add_column(weights.support[k], weights.values[k], slopes_);
   }
   return slopes_;
 }
 
 template <int Dim>
-const std::vector<double>& MetricRow<Dim>::removal_costs(const SparseRow& row) {
-  if (!free_.minimize(row.support)) {
-    removal_costs_.assign(row.support.size(), 0);
+const std::vector<double>& ActiveSetQp<Dim>::removal_costs(const PointWeights& weights) {
+  if (!free_.minimize(weights.support)) {
+    removal_costs_.assign(weights.support.size(), 0);
     return removal_costs_;
   }
   free_.removal_costs(removal_costs_);
   for (std::size_t k = 0; k < removal_costs_.size(); ++k) {
-    removal_costs_[k] *= row.weights[k] * row.weights[k];
+    removal_costs_[k] *= weights.values[k] * weights.values[k];
   }
   return removal_costs_;
 }
 
-template class MetricRow<2>;
-template class MetricRow<3>;
+template class ActiveSetQp<2>;
+template class ActiveSetQp<3>;
 
 }  // namespace flbc

@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The nearest weights on few control points, in any metric, if they may be negative.
+//! The equality-constrained quadratic program of one point's weights.
 #pragma once
 
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "flbc/types.h"
+#include "sparsify/metric.h"
 
 namespace flbc {
 
 //! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
 //! support, for one point x and target t at a time. Keeps its buffers: one per thread.
 template <int Dim>
-class FreeRow {
+class EqualityQp {
  public:
   using Sums = Eigen::Matrix<double, Dim + 1, 1>;
 
-  //! \param metric  H, n x n, positive definite, kept by reference
-  //! \param control_points  Dim x n, kept by reference \param size  a length to measure them by
-  FreeRow(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points, double size);
+  //! \param metric  H, n x n
+  //! \param control_points  Dim x n, kept by reference
+  EqualityQp(Metric metric, const PointList<Dim>& control_points);
 
-  //! From here on for this point. \return H t, n, to be filled in
+  //! From here on for this point.
+  //! \return H t, n, to be filled in
   Eigen::VectorXd& aim_at(const Vector<Dim>& point);
 
-  const Eigen::MatrixXd& metric() const { return metric_; }
+  const Metric& metric() const { return metric_; }
+
+  //! H t, n.
   const Eigen::VectorXd& pull() const { return pull_; }
 
-  //! (1, (c - x) / size): what a weight of 1 adds to the sums, which must become (1, 0, ..).
-  Sums constraint(Index control_point) const;
+  //! (1, (c - x) / size): the contribution of a weight of 1 to the sums, which must become
+  //! (1, 0, ..). Measured by the size of the control points.
+  Sums constraint(Index control_point) const { return constraints_.col(control_point); }
 
+  //! At once if the support is that of the last time.
   //! \return false if rounding hides the minimum. Where the sums cannot be met they are not: this
   //! is for the caller to check
   bool minimize(const std::vector<Index>& support);
@@ -45,28 +49,36 @@ class FreeRow {
   const Sums& multipliers() const { return multipliers_; }
 
   //! A m for all control points, n.
-  Eigen::VectorXd absorbed() const;
+  Eigen::VectorXd constraint_forces() const { return constraints_.transpose() * multipliers_; }
+
+  //! The second derivative, halved, of the least cost by the weight of a control point outside of
+  //! the support.
+  double curvature(Index newcomer);
 
   //! By how much the least cost rises when a weight must be 0, divided by its square.
   //! \param costs  replaced, in the order of the support
   void removal_costs(std::vector<double>& costs);
 
  private:
-  using Sides = Eigen::Matrix<double, Dim + 2, 1>;
   using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
 
-  bool factor(const std::vector<Index>& support);
+  bool factor_metric();
+  void factor_gram();
+  void orthonormalize(Sums& constraint) const;
 
-  const Eigen::MatrixXd& metric_;
+  Metric metric_;
   const PointList<Dim>& control_points_;
   double size_;
-  Vector<Dim> point_;
-  Eigen::VectorXd pull_;  // H t
+  Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> constraints_;  // A^T
+  Eigen::VectorXd pull_;                                        // H t
 
   // With H = L L^T on the support,
-  std::vector<double> factor_;  // L, row by row
-  std::vector<Sides> sides_;    // L^-1 [A, H t]
-  Eigen::LLT<Square> gram_;     // A^T H^-1 A
+  std::vector<Index> support_;
+  bool minimized_ = false;       // is all of this of that support?
+  std::vector<double> factor_;   // L, row by row; unused if H is the identity
+  std::vector<Sums> rows_;       // L^-1 A G^-T
+  std::vector<double> targets_;  // L^-1 H t
+  Square gram_;                  // G, lower triangular, with G G^T = A^T H^-1 A
   Sums multipliers_;
   std::vector<double> weights_;
   double cost_ = 0;

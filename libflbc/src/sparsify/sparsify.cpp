@@ -5,42 +5,46 @@
 #include <string>
 
 #include "base/messages.h"
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "projection/nearest_point_in_hull.h"
-#include "projection/weight_projection.h"
+#include "sparsify/support_projection.h"
 #include "sparsify/support_selection.h"
 
 namespace flbc {
 namespace {
 
-// Makes columns sparse, one at a time. Shared by threads.
-template <int Dim>
-class RowSparsifier {
- public:
-  using Search = SupportSearch<Dim>;
-  using Choice = typename Search::Choice;
+// Costs that rounding explains: by more than that an exchange must lower |w - given|^2.
+constexpr double kLeastGain = 1e-9;
 
-  RowSparsifier(const PointList<Dim>& control_points, const SparsifyOptions& options)
-      : points_(control_points),
-        size_(bounding_box_diagonal<Dim>(control_points)),
-        options_(options),
-        all_(control_points) {}
+// Leaves few influences of one point's weights. Shared by threads.
+template <int Dim>
+class PointSparsifier {
+ public:
+  // The search for supports, one per thread.
+  struct Workspace {
+    explicit Workspace(const PointList<Dim>& control_points)
+        : selection(Metric(), control_points), may_enter(control_points.cols()) {}
+    SupportSelection<Dim> selection;
+    std::vector<bool> may_enter;
+    PointWeights best;
+  };
+
+  PointSparsifier(const PointList<Dim>& control_points, const SparsifyOptions& options)
+      : control_points_(control_points), options_(options), projection_(control_points) {}
 
   // \param given  the weights as they came \param projected  the nearest feasible ones
   Eigen::VectorXd sparsify(const Vector<Dim>& point, const Eigen::VectorXd& given,
-                           const Eigen::VectorXd& projected) const {
+                           const Eigen::VectorXd& projected, Workspace& work) const {
     auto support = by_size(projected);
     const auto keep = above_threshold(projected, support);
     if (keep == support.size() && count(support) <= options_.max_influences) return projected;
 
     const Vector<Dim> target = target_of(point, projected);
-    Choice choice;
-    if (choose(Search(points_, size_, target, given), support, keep, choice)) {
+    work.selection.qp().aim_at(target) = given;
+    if (choose(given, support, keep, work)) {
       Eigen::VectorXd weights;
-      if (weights_on(choice.support, target, given, weights)) return weights;
+      if (projection_.project(target, work.best.support, given, weights)) return weights;
     }
     return on_few_points(target, given, support);
   }
@@ -70,55 +74,44 @@ class RowSparsifier {
 
   // A point beside the hull within the tolerance counts as the nearest one of the hull.
   Vector<Dim> target_of(const Vector<Dim>& point, const Eigen::VectorXd& projected) const {
-    if (all_.is_feasible(point, projected)) return point;
-    return nearest_in_hull(points_, point).point;
+    if (projection_.is_feasible(point, projected)) return point;
+    return nearest_point_in_hull(control_points_, point).point;
   }
 
   // \param support  by size \param keep  how many of them the threshold leaves
-  bool choose(const Search& search, const std::vector<Index>& support, std::size_t keep,
-              Choice& choice) const {
+  bool choose(const Eigen::VectorXd& given, const std::vector<Index>& support, std::size_t keep,
+              Workspace& work) const {
     const auto largest = [&](std::size_t number) {
       std::vector<Index> some(support.begin(), support.begin() + number);
       std::sort(some.begin(), some.end());
       return some;
     };
-    const bool limited = count(support) > options_.max_influences;
+    constexpr double kNoBound = std::numeric_limits<double>::infinity();
+    const Index most = options_.max_influences;
+    const bool limited = count(support) > most;
     // Many small weights seldom matter, and removing them one by one would take long.
     constexpr std::size_t kPool = 16;
     std::size_t number = std::max<std::size_t>(keep, 1);
-    if (limited) {
-      const auto most = static_cast<std::size_t>(options_.max_influences);
-      number = std::min(number, std::max(kPool, 2 * most));
-    }
-    // Until the point is in the hull of what is kept.
-    while (!search.solve(largest(number), choice)) {
+    if (limited) number = std::min(number, std::max(kPool, 2 * static_cast<std::size_t>(most)));
+    // Until the point is in the hull of those kept.
+    while (!work.selection.qp().solve(largest(number), kNoBound, work.best)) {
       if (number == support.size()) return false;
       number = std::min(support.size(), number + 1 + number / 8);
     }
-    if (!search.reduce(options_.max_influences, choice)) return false;
+    if (!work.selection.reduce(most, kNoBound, work.best)) return false;
     // With a threshold newcomers would be among those just dropped.
-    if (limited && options_.threshold == 0) search.exchange(options_.max_influences, choice);
+    if (!limited || options_.threshold > 0) return true;
+    for (Eigen::Index i = 0; i < given.size(); ++i) work.may_enter[i] = given[i] >= kLeastInfluence;
+    work.selection.exchange(most, kLeastGain, work.may_enter, work.best);
     return true;
-  }
-
-  // The nearest weights on few control points, exactly. \return false if there are none
-  bool weights_on(const std::vector<Index>& support, const Vector<Dim>& target,
-                  const Eigen::VectorXd& given, Eigen::VectorXd& weights) const {
-    const RowProjection<Dim> projection(points_(Eigen::all, support));
-    typename RowProjection<Dim>::Workspace work(projection);
-    Eigen::VectorXd few = given(support);
-    if (projection.project(target, few, work) > 0) return false;
-    weights.setZero(given.size());
-    weights(support) = few;
-    return all_.is_feasible(target, weights);
   }
 
   // Where rounding hides the best choice: Caratheodory's few control points, which always do, with
   // the largest others.
   Eigen::VectorXd on_few_points(const Vector<Dim>& target, const Eigen::VectorXd& given,
                                 const std::vector<Index>& support) const {
-    const PointList<Dim> carriers = points_(Eigen::all, support);
-    auto nearest = nearest_in_hull<Dim>(carriers, target);
+    const PointList<Dim> carriers = control_points_(Eigen::all, support);
+    const auto nearest = nearest_point_in_hull<Dim>(carriers, target);
     std::vector<Index> chosen;
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(given.size());
     for (int k = 0; k < nearest.size; ++k) {
@@ -130,13 +123,12 @@ class RowSparsifier {
       if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
     }
     Eigen::VectorXd nearer;
-    return weights_on(chosen, target, given, nearer) ? nearer : weights;
+    return projection_.project(target, chosen, given, nearer) ? nearer : weights;
   }
 
-  PointList<Dim> points_;
-  double size_;
+  const PointList<Dim>& control_points_;
   SparsifyOptions options_;
-  RowProjection<Dim> all_;
+  SupportProjection<Dim> projection_;
 };
 
 }  // namespace
@@ -161,10 +153,14 @@ WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>
   validate<Dim>(options);
   WeightMatrix sparse = weights;
   project_non_negative(control_points, points, sparse);  // checks the input, too
-  const RowSparsifier<Dim> sparsifier(control_points, options);
-#pragma omp parallel for schedule(dynamic, 64) if (points.cols() >= 256)
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    sparse.col(v) = sparsifier.sparsify(points.col(v), weights.col(v), sparse.col(v));
+  const PointSparsifier<Dim> sparsifier(control_points, options);
+#pragma omp parallel if (points.cols() >= 256)
+  {
+    typename PointSparsifier<Dim>::Workspace work(control_points);
+#pragma omp for schedule(dynamic, 64)
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+      sparse.col(v) = sparsifier.sparsify(points.col(v), weights.col(v), sparse.col(v), work);
+    }
   }
   return sparse;
 }

@@ -1,63 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which few control points carry a point best.
+//! Which few control points carry a point best, in any metric.
 #pragma once
 
 #include <vector>
 
-#include "flbc/types.h"
-#include "projection/dual_newton.h"
+#include "sparsify/active_set_qp.h"
 
 namespace flbc {
 
-//! Looks for K control points S that make the least of
-//!
-//!     |w - y|^2   over   w >= 0,  sum w = 1,  sum w c = x,  w = 0 outside S.
-//!
-//! Works to about 1e-9: the weights on the chosen control points are to be computed anew.
+//! Newcomers to a support must have had this weight: a control point with next to no influence is
+//! far away as a rule, and bends of the cage move it otherwise than those nearby.
+constexpr double kLeastInfluence = 1e-3;
+
+//! Improves the support of one point's weights by moves that are tried one after the other. Keeps
+//! its buffers: one per thread.
 template <int Dim>
-class SupportSearch {
+class SupportSelection {
  public:
-  //! Some control points and the nearest weights on them, all of them > 0.
-  struct Choice {
-    std::vector<Index> support;
-    Eigen::VectorXd weights;  // in the order of the support
-    double cost = 0;          // |w - y|^2 - |y|^2
-  };
+  //! \param metric  H, n x n
+  //! \param control_points  Dim x n, kept by reference
+  SupportSelection(Metric metric, const PointList<Dim>& control_points)
+      : qp_(metric, control_points) {}
 
-  //! \param control_points  Dim x n \param size  a length to measure them by
-  //! \param point  x \param row  y, n, kept by reference
-  SupportSearch(const PointList<Dim>& control_points, double size, const Vector<Dim>& point,
-                const Eigen::VectorXd& row);
-
-  //! The nearest weights on the given control points. \return false if x is not in their hull
-  bool solve(const std::vector<Index>& support, Choice& choice) const;
+  //! Computes the weights on a support; it has to be aimed at the point first.
+  ActiveSetQp<Dim>& qp() { return qp_; }
 
   //! Removes influences, each time the one whose removal costs least, until `count` are left.
-  //! \return false if rounding hides which of them are needed
-  bool reduce(Index count, Choice& choice) const;
+  //! \param weights  as the active-set QP gave them; of no use any more if the result is false
+  //! \return false if no weights were found that cost less than `bound`
+  bool reduce(Index count, double bound, PointWeights& weights);
 
-  //! Exchanges single influences as long as the cost falls.
-  void exchange(Index count, Choice& choice) const;
+  //! Takes the weights on another support, ascending, if they cost less by more than `least_gain`.
+  void adopt(const std::vector<Index>& support, double least_gain, PointWeights& weights);
+
+  //! Lets single influences in, for others if there are more than `count`, as long as the cost
+  //! falls by more than `least_gain`.
+  //! \param may_enter  n
+  void exchange(Index count, double least_gain, const std::vector<bool>& may_enter,
+                PointWeights& weights);
 
  private:
-  using Basis = typename DualNewton<Dim>::Basis;
-  using Sums = typename DualNewton<Dim>::Sums;
-  using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
-
-  struct Removal {
+  struct Candidate {
     double cost;
-    Index position;
+    Index number;
+    bool operator<(const Candidate& other) const {
+      return cost != other.cost ? cost < other.cost : number < other.number;
+    }
   };
 
-  Square inverse_gram(const Choice& choice) const;
-  bool remove_cheapest(Choice& choice) const;
-  bool remove_plainly(const Choice& choice, const Square& inverse, const Removal& removal,
-                      Choice& result) const;
-  std::vector<Index> most_promising(const Choice& choice) const;
+  bool remove_cheapest(double bound, PointWeights& weights);
+  bool exchange_one(Index count, double least_gain, PointWeights& weights);
+  void find_newcomers(const std::vector<bool>& may_enter, const PointWeights& weights);
 
-  Basis rows_;  // [1, (c - x) / size]
-  const Eigen::VectorXd& row_;
+  ActiveSetQp<Dim> qp_;
+  std::vector<Candidate> newcomers_, removals_;
+  std::vector<Index> support_;
+  PointWeights trial_, least_, exchanged_;
 };
 
 }  // namespace flbc

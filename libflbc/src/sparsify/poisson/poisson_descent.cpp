@@ -4,51 +4,45 @@
 #include <algorithm>
 #include <limits>
 
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-
 namespace flbc {
 namespace {
 
-// Steps go beyond the minimum of a row by this factor, as in successive over-relaxation. Below 2
+// Steps go beyond the minimum of a point by this factor, as in successive over-relaxation. Below 2
 // the energy never rises by that.
 constexpr double kOvershoot = 1.5;
-// Newcomers must have had this weight: what has next to no influence is far away as a rule, and
-// bends of the cage move it otherwise than what is near.
-constexpr double kInfluence = 1e-3;
 // Supports of neighbours that are tried at a point.
 constexpr std::size_t kSupports = 16;
 // Gains in squared distance, in units of a tenth of the cage's size, that nobody can see.
 constexpr double kInvisible = 1e-11;
 
-void gather(const Eigen::Ref<const Eigen::VectorXd>& weights, SparseRow& row) {
-  row.support.clear();
-  row.weights.clear();
-  for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
-    if (!(weights[i] > 0)) continue;
-    row.support.push_back(i);
-    row.weights.push_back(weights[i]);
+void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weights) {
+  weights.support.clear();
+  weights.values.clear();
+  for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
+    if (!(column[i] > 0)) continue;
+    weights.support.push_back(i);
+    weights.values.push_back(column[i]);
   }
 }
 
 // Beyond the minimum, too, if no control point left: but not more than half the way to zero, so
 // that none leaves here.
-void overshoot(const SparseRow& before, SparseRow& row) {
-  if (!std::includes(row.support.begin(), row.support.end(), before.support.begin(),
+void overshoot(const PointWeights& before, PointWeights& after) {
+  if (!std::includes(after.support.begin(), after.support.end(), before.support.begin(),
                      before.support.end())) {
     return;
   }
-  std::vector<double> from(row.support.size(), 0);
+  std::vector<double> from(after.support.size(), 0);
   for (std::size_t k = 0, l = 0; l < before.support.size(); ++k) {
-    if (row.support[k] == before.support[l]) from[k] = before.weights[l++];
+    if (after.support[k] == before.support[l]) from[k] = before.values[l++];
   }
   double factor = kOvershoot;
   for (std::size_t k = 0; k < from.size(); ++k) {
-    const double loss = from[k] - row.weights[k];
-    if (loss > 0) factor = std::min(factor, 1 + row.weights[k] / (2 * loss));
+    const double loss = from[k] - after.values[k];
+    if (loss > 0) factor = std::min(factor, 1 + after.values[k] / (2 * loss));
   }
   for (std::size_t k = 0; k < from.size(); ++k) {
-    row.weights[k] = from[k] + factor * (row.weights[k] - from[k]);
+    after.values[k] = from[k] + factor * (after.values[k] - from[k]);
   }
 }
 
@@ -68,7 +62,7 @@ PoissonDescent<Dim>::PoissonDescent(const PoissonEnergy& energy, const EdgeGraph
       options_(options),
       stiffness_(points.cols()),
       fixed_(points.cols()),
-      rows_(points.cols()),
+      weights_(points.cols()),
       potential_(given.rows(), given.cols()),
       open_(points.cols()) {
   for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
@@ -84,13 +78,13 @@ void PoissonDescent<Dim>::start(const WeightMatrix& weights) {
   const auto num_points = static_cast<Index>(points_.cols());
 #pragma omp parallel for schedule(static) if (num_points >= 256)
   for (Index a = 0; a < num_points; ++a) {
-    gather(weights.col(a), rows_[a]);
+    gather(weights.col(a), weights_[a]);
     potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
   }
   // Where all differences are 0 there is nothing to gain, but maybe something to remove.
   std::fill(open_.begin(), open_.end(), 0);
   for (Index a = 0; a < num_points; ++a) {
-    if (static_cast<Index>(rows_[a].support.size()) > options_.max_influences) open_[a] = 1;
+    if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = 1;
     if (weights.col(a) == given_.col(a)) continue;
     open_[a] = 1;
     for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = 1;
@@ -108,11 +102,10 @@ void PoissonDescent<Dim>::run(int sweeps, double least_gain) {
 // do not matter.
 template <int Dim>
 bool PoissonDescent<Dim>::sweep(double least_gain) {
-  const double size = std::max(bounding_box_diagonal<Dim>(control_points_), std::numeric_limits<double>::min());
   Index changes = 0;
 #pragma omp parallel reduction(+ : changes) if (points_.cols() >= 256)
   {
-    Workspace work(energy_.metric, control_points_, size);
+    Workspace work(energy_.metric, control_points_);
     for (const auto& color : graph_.colors()) {
       const auto count = static_cast<Index>(color.size());
 #pragma omp for schedule(dynamic, 16)
@@ -132,26 +125,26 @@ bool PoissonDescent<Dim>::sweep(double least_gain) {
   return changes > 0;
 }
 
-// \return whether the row has changed
+// \return whether the weights have changed
 template <int Dim>
 bool PoissonDescent<Dim>::improve(Index point, double least_gain, Workspace& work) {
   const double least = std::max(kInvisible, least_gain / stiffness_[point]);
   const Index most = options_.max_influences;
   aim(point, work);
-  const SparseRow& before = rows_[point];
+  const PointWeights& before = weights_[point];
   const bool too_many = static_cast<Index>(before.support.size()) > most;
-  const double cost = work.row.cost_of(before);
-  SparseRow& best = work.best;
+  const double cost = work.selection.qp().cost_of(before);
+  PointWeights& best = work.best;
   best = before;
-  work.row.descend(best);
-  if (!work.search.reduce(most, std::numeric_limits<double>::infinity(), best)) {
+  work.selection.qp().descend(best);
+  if (!work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
     gather(plain_.col(point), best);
-    best.cost = work.row.cost_of(best);
+    best.cost = work.selection.qp().cost_of(best);
   }
   find_allowed(point, work.may_enter);
   find_supports_around(point, work);
-  for (const auto* support : work.supports) work.search.adopt(*support, least, best);
-  work.search.exchange(most, least, work.may_enter, best);
+  for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
+  work.selection.exchange(most, least, work.may_enter, best);
   if (!too_many) {
     if (!(best.cost < cost - least)) return false;
     overshoot(before, best);
@@ -164,11 +157,11 @@ bool PoissonDescent<Dim>::improve(Index point, double least_gain, Workspace& wor
 // s = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
 template <int Dim>
 void PoissonDescent<Dim>::aim(Index point, Workspace& work) const {
-  Eigen::VectorXd& pull = work.row.aim_at(points_.col(point));
+  Eigen::VectorXd& pull = work.selection.qp().aim_at(points_.col(point));
   pull = -potential_.col(point);
-  const SparseRow& row = rows_[point];
-  for (std::size_t k = 0; k < row.support.size(); ++k) {
-    pull += row.weights[k] * energy_.metric.col(row.support[k]);
+  const PointWeights& weights = weights_[point];
+  for (std::size_t k = 0; k < weights.support.size(); ++k) {
+    pull += weights.values[k] * energy_.metric.col(weights.support[k]);
   }
   for (const auto& [neighbour, weight] : graph_.neighbours_of(point)) {
     pull += weight / stiffness_[point] * potential_.col(neighbour);
@@ -177,21 +170,21 @@ void PoissonDescent<Dim>::aim(Index point, Workspace& work) const {
 
 template <int Dim>
 void PoissonDescent<Dim>::find_allowed(Index point, std::vector<bool>& may_enter) const {
-  const double least = std::max(options_.threshold, kInfluence);
+  const double least = std::max(options_.threshold, kLeastInfluence);
   may_enter.resize(given_.rows());
   for (Index i = 0; i < static_cast<Index>(given_.rows()); ++i) {
     may_enter[i] = given_(i, point) >= least || plain_(i, point) > 0;
   }
 }
 
-// What suits a neighbour often suits here, too, and then there is no seam between them.
+// A support that suits a neighbour often suits here, too, and then there is no seam between them.
 template <int Dim>
 void PoissonDescent<Dim>::find_supports_around(Index point, Workspace& work) const {
   auto& supports = work.supports;
   supports.clear();
   for (const auto& neighbour : graph_.neighbours_of(point)) {
     if (supports.size() == kSupports) return;
-    const auto& support = rows_[neighbour.point].support;
+    const auto& support = weights_[neighbour.point].support;
     if (static_cast<Index>(support.size()) > options_.max_influences) continue;
     const auto may_enter = [&](Index i) { return work.may_enter[i]; };
     if (options_.threshold > 0 && !std::all_of(support.begin(), support.end(), may_enter)) continue;
@@ -201,22 +194,22 @@ void PoissonDescent<Dim>::find_supports_around(Index point, Workspace& work) con
 }
 
 template <int Dim>
-void PoissonDescent<Dim>::update(Index point, const SparseRow& row) {
-  const auto add = [&](const SparseRow& any, double sign) {
+void PoissonDescent<Dim>::update(Index point, const PointWeights& weights) {
+  const auto add = [&](const PointWeights& any, double sign) {
     for (std::size_t k = 0; k < any.support.size(); ++k) {
-      potential_.col(point) += sign * any.weights[k] * energy_.metric.col(any.support[k]);
+      potential_.col(point) += sign * any.values[k] * energy_.metric.col(any.support[k]);
     }
   };
-  add(rows_[point], -1);
-  add(row, 1);
-  rows_[point] = row;
+  add(weights_[point], -1);
+  add(weights, 1);
+  weights_[point] = weights;
 }
 
 template <int Dim>
 Eigen::VectorXd PoissonDescent<Dim>::weights_of(Index point) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
-  const SparseRow& row = rows_[point];
-  for (std::size_t k = 0; k < row.support.size(); ++k) weights[row.support[k]] = row.weights[k];
+  const PointWeights& few = weights_[point];
+  for (std::size_t k = 0; k < few.support.size(); ++k) weights[few.support[k]] = few.values[k];
   return weights;
 }
 

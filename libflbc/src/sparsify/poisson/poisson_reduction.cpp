@@ -4,51 +4,33 @@
 #include <algorithm>
 
 #include "base/shape_checks.h"
-#include "projection/weight_projection.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_descent.h"
 #include "sparsify/poisson/poisson_energy.h"
+#include "sparsify/support_projection.h"
 
 namespace flbc {
 namespace {
 
 constexpr int kSweeps = 20;
-// What a row must gain to be worth a change, as a part of the mean energy of a point.
+// Least gain of a change of one point's weights, as a part of the mean energy of a point.
 constexpr double kLeastGain = 1e-3;
 
-// Makes sum and reproduction exact. Shared by threads.
-template <int Dim>
-class RowPolish {
- public:
-  RowPolish(const PointList<Dim>& control_points, const PointList<Dim>& points)
-      : control_points_(control_points), points_(points), all_(control_points) {}
-
-  // \param weights  n, moved on their support by the least possible
-  // \return false if rounding hides feasible weights
-  bool polish(Index point, Eigen::VectorXd& weights) const {
-    std::vector<Index> support;
-    for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
-      if (weights[i] > 0) support.push_back(i);
-    }
-    const RowProjection<Dim> projection(control_points_(Eigen::all, support));
-    typename RowProjection<Dim>::Workspace work(projection);
-    Eigen::VectorXd few = weights(support);
-    if (projection.project(points_.col(point), few, work) > 0) return false;
-    weights(support) = few;
-    return all_.is_feasible(points_.col(point), weights);
+// The control points with a weight, ascending.
+std::vector<Index> support_of(const Eigen::VectorXd& weights) {
+  std::vector<Index> support;
+  for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
+    if (weights[i] > 0) support.push_back(i);
   }
+  return support;
+}
 
- private:
-  const PointList<Dim>& control_points_;
-  const PointList<Dim>& points_;
-  RowProjection<Dim> all_;
-};
-
-// What the descent ends with; where rounding is in the way, or nothing is connected, the plain
-// weights.
+// The weights of the descent with exact sum and reproduction; where rounding is in the way, or
+// nothing is connected, the plain weights.
 template <int Dim>
 WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph,
-                      const RowPolish<Dim>& polish, const WeightMatrix& plain) {
+                      const SupportProjection<Dim>& projection, const PointList<Dim>& points,
+                      const WeightMatrix& plain) {
   WeightMatrix result = plain;
   const auto num_points = static_cast<Index>(plain.cols());
 #pragma omp parallel for schedule(dynamic, 64) if (num_points >= 256)
@@ -56,8 +38,12 @@ WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph
     const Index representative = graph.representative(a);
     const auto neighbours = graph.neighbours_of(representative);
     if (neighbours.begin() == neighbours.end()) continue;
-    Eigen::VectorXd row = descent.weights_of(representative);
-    if (row != plain.col(a) && polish.polish(a, row)) result.col(a) = row;
+    const Eigen::VectorXd weights = descent.weights_of(representative);
+    if (weights == plain.col(a)) continue;
+    Eigen::VectorXd exact;
+    if (projection.project(points.col(a), support_of(weights), weights, exact)) {
+      result.col(a) = exact;
+    }
   }
   return result;
 }
@@ -84,12 +70,12 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   if (!(plain_cost > 0)) return plain;
 
   const EdgeGraph graph(points, weights, edges);
-  const RowPolish<Dim> polish(control_points, points);
+  const SupportProjection<Dim> projection(control_points);
   PoissonDescent<Dim> descent(energy, graph, control_points, points, weights, plain, options);
   const auto descend_from = [&](const WeightMatrix& start) {
     descent.start(start);
     descent.run(kSweeps, kLeastGain * plain_cost / static_cast<double>(points.cols()));
-    return polished(descent, graph, polish, plain);
+    return polished(descent, graph, projection, points, plain);
   };
   const auto is_better = [&](const WeightMatrix& result) {
     return evaluate<Dim>(energy, points, edges, weights, result) < plain_cost;
