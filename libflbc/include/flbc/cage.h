@@ -35,10 +35,14 @@ struct Defect {
 //! the size, facet indices, duplicate and unreferenced points, edges of length zero and
 //! degenerate triangles, open or non-manifold edges and vertices, inconsistent orientation (3D).
 //! In 2D the orientation of the polyline's edges is free.
+//! \param cage  any
+//! \param limit  largest number of defects to look for
 //! \return at most `limit` defects, the most fundamental first; empty for a sound cage.
 template <int Dim>
 std::vector<Defect> find_defects(const Cage<Dim>& cage, std::size_t limit = 16);
 
+//! Checks that a cage is sound.
+//! \param cage  any
 //! \throws InputError with the first defect found by find_defects().
 template <int Dim>
 void validate(const Cage<Dim>& cage);

@@ -9,7 +9,7 @@
 
 namespace flbc {
 
-//! What is worth knowing about a sound cage.
+//! Parts, sizes and lengths of a sound cage.
 template <int Dim>
 struct CageFacts {
   Index parts = 0;              //!< outer loops (2D) or shells (3D)
@@ -20,12 +20,14 @@ struct CageFacts {
   Index shortest_ends[2] = {};  //!< the control points between which it runs
 };
 
+//! Measures a cage, in its own units.
 //! \param cage  has passed validate() and does not intersect itself
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
 //! Points outside a cage by more than 1e-6 of its size; those inside holes are outside.
-//! \param cage  has passed validate() \param points  Dim x P
+//! \param cage  has passed validate()
+//! \param points  Dim x P, in the units of the cage
 //! \return their indices, ascending
 template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);

@@ -22,12 +22,14 @@ struct Location {
 template <int Dim>
 class CellLocator {
  public:
-  //! Builds the grid. \param mesh  valid (normalize_and_validate), outlives the locator
+  //! Builds the grid.
+  //! \param mesh  valid (normalize_and_validate), outlives the locator
   explicit CellLocator(const DomainMesh<Dim>& mesh);
   ~CellLocator();
 
   //! The cell that contains the point or, if none does, the nearest one by its barycentric
   //! coordinates among those whose bounding box holds the point.
+  //! \param point  in the units of the mesh
   //! \param tolerance  how far outside, in units of the mesh, a point may lie
   //! \return cell -1 if the point is outside
   Location<Dim> locate(const Vector<Dim>& point, double tolerance) const;
@@ -38,7 +40,10 @@ class CellLocator {
   std::unique_ptr<Grid> grid_;
 };
 
-//! Locates points inside the cage. \param points  Dim x P
+//! Locates points inside the cage.
+//! \param mesh  valid
+//! \param points  Dim x P, in the units of the mesh
+//! \return P places; points beside the mesh are in the nearest cell
 //! \throws InputError naming the first point that lies outside the mesh by more than 1e-6 of its
 //! size, and how many do
 template <int Dim>

@@ -25,6 +25,7 @@ struct Certificate {
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
 //! Valid whatever the arguments are, rounding included; good if the flux is the dual of a solver
 //! that has nearly converged.
+//! \param problem  mesh, phi and boundary values
 //! \param flux  p, a vector per cell and control point, shortened to phi A where it is longer;
 //! vectors that are not finite count as 0
 //! \param weights  n x V, a guess at the optimum that saves time
@@ -36,6 +37,10 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
 
 //! The bound together with the objective of the weights, made feasible if they are not: known
 //! values on the boundary, interior columns by project_non_negative().
+//! \param problem  mesh, phi and boundary values
+//! \param flux  p, as for lower_bound()
+//! \param weights  n x V, finite
+//! \return objective and bound in the units of phi times the mesh^(Dim - 1), and their relative gap
 //! \throws InputError if sizes do not fit or weights are not finite
 template <class Scalar, int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,

@@ -22,7 +22,7 @@ struct Extreme {
   Vector<Dim> place = Vector<Dim>::Zero();  //!< coordinates of the point
 };
 
-//! What only shows on the mesh of the cage's interior.
+//! Measures that need the mesh of the cage's interior: local extrema, variation and locality.
 template <int Dim>
 struct MeshCheck {
   Index interior_vertices = 0;  //!< number of vertices off the boundary
@@ -66,7 +66,9 @@ struct WeightCheck {
 
 //! Measures weights at any points. Those that lie on the cage, or coincide with a control point, up
 //! to 1e-10 of the cage's size are found by geometry.
-//! \param cage  has passed validate() \param points  Dim x P \param weights  n x P
+//! \param cage  has passed validate()
+//! \param points  Dim x P, in the units of the cage
+//! \param weights  n x P
 //! \throws InputError if the sizes do not belong together
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
@@ -74,9 +76,11 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 
 //! Measures weights at the vertices of a mesh of the cage's interior; the boundary of the mesh is
 //! on the cage.
+//! \param cage  has passed validate()
+//! \param domain  mesh of the cage's interior, valid
 //! \param weights  n x V
 //! \throws InputError if sizes do not belong together or the mesh is none of the cage's interior
-//!     (see boundary_values), SolverError
+//!     (see boundary_values), SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights);

@@ -11,7 +11,8 @@
 namespace flbc {
 
 //! Where points go when the control points move.
-//! \param weights  n x P \param control_points  Dim x n, in any units
+//! \param weights  n x P
+//! \param control_points  Dim x n, in any units
 //! \return Dim x P, in the units of the control points
 //! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
@@ -26,7 +27,9 @@ class SparseWeights {
 
   //! Keeps weights with |w| > threshold as they are; nothing is scaled, so that with threshold 0
   //! nothing is lost, and with a larger one the sum of the weights falls short of 1 by what was
-  //! dropped. \param weights  n x P
+  //! dropped.
+  //! \param weights  n x P
+  //! \param threshold  >= 0
   //! \throws OptionError if the threshold is negative or no number
   explicit SparseWeights(const WeightMatrix& weights, double threshold = 0);
 
@@ -53,10 +56,17 @@ class SparseWeights {
 };
 
 //! The same for weights without zeros.
+//! \param weights  of P points
+//! \param control_points  Dim x n, in any units
+//! \return Dim x P, in the units of the control points
+//! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points);
 
-//! How far each point moved. \param before, after  Dim x P \return P lengths
+//! How far each point moved.
+//! \param before  Dim x P
+//! \param after  Dim x P, in the same units
+//! \return P lengths
 //! \throws InputError if the numbers of points differ
 template <int Dim>
 Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>& after);

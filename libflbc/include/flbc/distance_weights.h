@@ -19,7 +19,10 @@ enum class DistanceScheme {
 
 //! Divides by the largest distance over all control points, averages over each cell's vertices and
 //! applies the scheme.
-//! \param distances  n x V, or empty for kConstant
+//! \param scheme  growth with the distance
+//! \param distances  n x V in any unit, or empty for kConstant
+//! \param mesh  F cells, V vertices
+//! \param num_control_points  n
 //! \return n x F, phi_i on each cell, in [0, 1]
 template <int Dim>
 Eigen::MatrixXd distance_weights(DistanceScheme scheme, const Eigen::MatrixXd& distances,

@@ -42,19 +42,27 @@ struct MeshTopology {
 };
 
 //! Enumerates facets in the order in which the cells first meet them.
-//! \throws InputError if a facet belongs to more than two cells.
+//! \param mesh  with indices in range
+//! \throws InputError if a facet belongs to more than two cells
 template <int Dim>
 MeshTopology<Dim> build_topology(const DomainMesh<Dim>& mesh);
 
-//! For each vertex, true if it lies on a boundary facet.
+//! Which vertices lie on boundary facets.
+//! \param topology  of a mesh
+//! \param num_vertices  V of that mesh
+//! \return V entries
 template <int Dim>
 std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num_vertices);
 
 //! Signed area (2D) or volume (3D) of a cell, positive for the orientation demanded here.
+//! \param mesh  with indices in range
+//! \param cell  in [0, F)
+//! \return in units of the mesh^Dim
 template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 
-//! Turns cells with negative measure round.
+//! Turns cells with negative measure round, and checks the mesh.
+//! \param mesh  any
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
 //! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
 //! cells or to two on the same side of it, or the mesh is not connected through facets.

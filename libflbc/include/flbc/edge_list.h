@@ -21,6 +21,9 @@ struct EdgeList {
   std::vector<double> weights{};
 };
 
+//! Checks edges.
+//! \param edges  any
+//! \param num_points  P
 //! \throws InputError if an edge has an end that is none of `num_points` points, or a weight that
 //! is not positive and finite, or if there is not one weight per edge
 void validate(const EdgeList& edges, Eigen::Index num_points);
@@ -33,12 +36,14 @@ void validate(const EdgeList& edges, Eigen::Index num_points);
 //! of its area or volume, times its dimension, and k_ab is what an edge got in all, divided by its
 //! squared length. On regular cells these are the weights of linear finite elements (cotangents),
 //! but they are positive on all others, too, which minimising edge by edge needs.
+//! \param mesh  any cells and points
 //! \throws InputError if a vertex of a cell is none of the points
 template <int Dim>
 EdgeList edges_of_cells(const DomainMesh<Dim>& mesh);
 
 //! The same for polygons, whose area is that of the fan around their first vertex, and for
-//! polylines. \param points  Dim x P
+//! polylines.
+//! \param points  Dim x P
 //! \param polygons  the vertices of each in order, the first not repeated
 //! \param polylines  the vertices of each in order; closed if the last is the first
 //! \throws InputError if a vertex of a polygon or polyline is none of the points

@@ -9,11 +9,13 @@
 
 namespace flbc {
 
-//! Geodesic distances inside the domain, by fast marching over the cells (Kimmel and Sethian 1998),
-//! which see the source as a point: exact to single precision where the way is straight, of first
-//! order in the size of the cells where it bends round the boundary. Time and memory grow with the
-//! mesh as its number of cells.
-//! \param topology  of the mesh \param sources  vertices of the mesh, one per control point
+//! Geodesic distances inside the domain, by fast marching (Sethian 1996) over the cells (Kimmel and
+//! Sethian 1998), which see the source as a point: exact to single precision where the way is
+//! straight, of first order in the size of the cells where it bends round the boundary. Time and
+//! memory grow with the mesh as its number of cells.
+//! \param mesh  valid, V vertices
+//! \param topology  of the mesh
+//! \param sources  vertices of the mesh, one per control point
 //! \return #sources x V, in the units of the mesh, >= 0
 template <int Dim>
 Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,

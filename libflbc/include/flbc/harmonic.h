@@ -7,7 +7,10 @@
 
 namespace flbc {
 
-//! Harmonic coordinates (Joshi et al. 2007) on the same mesh. \return n x V \throws SolverError
+//! Harmonic coordinates (Joshi et al. 2007) on the same mesh.
+//! \param problem  mesh and boundary values
+//! \return n x V
+//! \throws SolverError if the Laplace equation cannot be solved
 template <int Dim>
 WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem);
 

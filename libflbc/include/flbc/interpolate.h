@@ -12,7 +12,9 @@ namespace flbc {
 
 //! Weights at located points, by linear interpolation in the containing cell. Reproduction and
 //! partition of unity carry over exactly.
+//! \param mesh  the mesh of the weights, V vertices
 //! \param weights  n x V
+//! \param places  cells and barycentric coordinates, as locate_points() gives them
 //! \return n x #places
 template <int Dim>
 WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the mesh of a cage's interior has to be like.
+//! Demands on the mesh of a cage's interior.
 #pragma once
 
 #include "flbc/domain_mesh.h"
 
 namespace flbc {
 
-//! What the mesh of a cage's interior has to be like.
+//! Demands on the mesh of a cage's interior.
 template <int Dim>
 struct MeshingOptions {
   //! Number of vertices wanted, met within 5 % in 2D and about 10 % in 3D; 0 = as few as quality

@@ -16,7 +16,10 @@ namespace flbc {
 //! size counts as the nearest point of the hull. Where rounding hides the nearest weights (points
 //! on the hull's boundary where control points lie in a facet but for 1e-8 of the size or less)
 //! the weights may be other feasible ones.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! The projection is computed in its dual by a semismooth Newton method (Qi and Sun 1993).
+//! \param control_points  Dim x n, n >= 1, finite
+//! \param points  Dim x P, finite, in the units of the control points
+//! \param weights  n x P, finite; replaced
 //! \throws InputError if sizes do not fit, if a number is not finite or if a point lies outside the
 //! convex hull, naming the first such point; the weights of other points may be projected then
 template <int Dim>
@@ -24,7 +27,11 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
                           WeightMatrix& weights);
 
 //! The same for some columns; the others are neither read nor written.
+//! \param control_points  Dim x n, n >= 1, finite
+//! \param points  Dim x P, in the units of the control points
+//! \param weights  n x P; the columns are replaced
 //! \param columns  numbers of points, each at most once
+//! \throws InputError as above, and for a column that is not there
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights, const std::vector<Index>& columns);

@@ -30,8 +30,12 @@ namespace flbc {
 //! sparsify() gives. Points without edges get the weights of sparsify(), points given with at most
 //! Dim influences keep them, since these lie on the cage and follow its facet; points that coincide
 //! and have the same weights are given the same. The same result for any number of threads.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P, as for sparsify()
+//! \param control_points  Dim x n, finite
+//! \param points  Dim x P, inside the convex hull of the control points, in their units
+//! \param edges  between the points, weights of any unit
+//! \param weights  n x P, as for sparsify()
 //! \param poses  Dim x n each, displaced control points, may be empty
+//! \param options  as for sparsify()
 //! \return n x P
 //! \throws OptionError and InputError as sparsify(), InputError also for edges and poses that do
 //! not fit
@@ -41,8 +45,16 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
                                const std::vector<PointList<Dim>>& poses,
                                const SparsifyOptions& options);
 
-//! What reduce_by_poisson() minimises, for any weights, in units of a tenth of the cage's size.
-//! \param before, after  n x P
+//! The energy that reduce_by_poisson() minimises, for any weights, with displacements in units of a
+//! tenth of the cage's size.
+//! \param control_points  Dim x n, finite
+//! \param points  Dim x P
+//! \param edges  between the points
+//! \param before  n x P, the weights given
+//! \param after  n x P, the weights to judge
+//! \param poses  Dim x n each, may be empty
+//! \return >= 0
+//! \throws InputError if weights, edges or poses do not fit
 template <int Dim>
 double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& points,
                     const EdgeList& edges, const WeightMatrix& before, const WeightMatrix& after,

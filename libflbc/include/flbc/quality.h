@@ -19,19 +19,27 @@ struct Quality {
 };
 
 //! Measures weights from nothing but points and control points.
-//! \param points  Dim x P \param weights  n x P
+//! \param control_points  Dim x n
+//! \param points  Dim x P, in the units of the control points
+//! \param weights  n x P
 //! \throws InputError if the sizes do not belong together
 template <int Dim>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const WeightMatrix& weights);
 
-//! The paper's objective (7), sum_s sum_i phi_s^i A_s |grad w_i|_s, of weights n x V.
+//! The paper's objective (7), sum_s sum_i phi_s^i A_s |grad w_i|_s.
+//! \param mesh  valid, F cells, V vertices
+//! \param phi  n x F
+//! \param weights  n x V
+//! \return in units of phi times the mesh^(Dim - 1)
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
                  const WeightMatrix& weights);
 
-//! The total variation sum_s sum_i A_s |grad w_i|_s of weights n x V, in units of the
-//! mesh^(Dim - 1).
+//! The total variation sum_s sum_i A_s |grad w_i|_s.
+//! \param mesh  valid, V vertices
+//! \param weights  n x V
+//! \return in units of the mesh^(Dim - 1)
 template <int Dim>
 double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights);
 

@@ -10,7 +10,9 @@
 namespace flbc {
 
 //! Pairs of facets that meet elsewhere than in common vertices or edges. Component `cgal`.
-//! The cage must have passed validate(). \return at most `limit` defects.
+//! \param cage  has passed validate()
+//! \param limit  largest number of defects to look for
+//! \return at most `limit` defects
 template <int Dim>
 std::vector<Defect> find_self_intersections(const Cage<Dim>& cage, std::size_t limit = 16);
 

@@ -9,7 +9,7 @@
 
 namespace flbc {
 
-//! What to leave of every point's weights.
+//! Limits on the number and size of a point's weights.
 struct SparsifyOptions {
   //! Most influences per point, Dim + 1 or more: fewer cannot reproduce a point inside the hull.
   Index max_influences = std::numeric_limits<Index>::max();
@@ -18,6 +18,8 @@ struct SparsifyOptions {
   double threshold = 0;
 };
 
+//! Checks options.
+//! \param options  any
 //! \throws OptionError naming the option that is out of range
 template <int Dim>
 void validate(const SparsifyOptions& options);
@@ -30,7 +32,10 @@ void validate(const SparsifyOptions& options);
 //! with others that were given 1e-3 or more; mostly, though not always, that is the best choice of
 //! all. Columns that are like that already stay; without options the result is that of
 //! project_non_negative. The given weights may be negative and need not reproduce.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! \param control_points  Dim x n, finite
+//! \param points  Dim x P, inside the convex hull of the control points, in their units
+//! \param weights  n x P, finite
+//! \param options  as validate() demands
 //! \return n x P
 //! \throws OptionError as validate(), InputError if sizes do not fit, if a number is not finite or
 //! if a point lies outside the convex hull of the control points, naming the first such point

@@ -9,11 +9,14 @@
 
 namespace flbc {
 
-//! Weights other than 0 per point.
+//! Numbers of weights other than 0 per point.
 struct Influences {
   double mean = 0;
   Index max = 0;
 };
+
+//! Counts weights other than 0.
+//! \param weights  n x P
 Influences count_influences(const WeightMatrix& weights);
 
 //! Root of the mean square, and largest.
@@ -22,11 +25,18 @@ struct ErrorNorms {
   double max = 0;
 };
 
-//! Of the differences of all single weights, both n x P. \throws InputError if sizes differ
+//! The norms of the differences of single weights.
+//! \param before  n x P
+//! \param after  n x P
+//! \throws InputError if sizes differ
 ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
 
-//! Of the distances between points deformed with either weights, over all points and poses, in
-//! units of the poses. \param poses  Dim x n each, the displaced control points
+//! The norms of the distances between points deformed with either weights, over all points and
+//! poses.
+//! \param poses  Dim x n each, the displaced control points
+//! \param before  n x P
+//! \param after  n x P
+//! \return lengths in the units of the poses
 //! \throws InputError if sizes do not fit
 template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
