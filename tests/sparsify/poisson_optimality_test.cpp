@@ -159,7 +159,8 @@ TYPED_TEST(PoissonOptimalityTest, TheIdentityIsAMetricLikeAnyOther) {
   Numbers numbers(36);
   const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kControls, kControls);
-  SupportSelection<Dim> special(Metric(), control_points), general(Metric(identity), control_points);
+  SupportSelection<Dim> special(Metric(), control_points),
+      general(Metric(identity), control_points);
   std::vector<Index> everyone;
   for (Index i = 0; i < kControls; ++i) everyone.push_back(i);
   for (int k = 0; k < 40; ++k) {

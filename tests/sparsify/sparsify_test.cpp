@@ -282,7 +282,8 @@ TEST(ForeignWeights, OfTheArm) {
   for (const Index most : {4, 8}) {
     const auto sparse = sparsify<3>(control_points, points, given, at_most(most));
     expect_sparse_coordinates<3>(control_points, points, sparse, most);
-    EXPECT_LT(deformation_error<3>(poses, given, sparse).rms, 0.005 * bounding_box_diagonal<3>(points));
+    EXPECT_LT(deformation_error<3>(poses, given, sparse).rms,
+              0.005 * bounding_box_diagonal<3>(points));
   }
 }
 

@@ -80,10 +80,11 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
   }
   const Index point = outside.load();
   if (point == points.cols()) return;
-  throw InputError("point " + std::to_string(point) + " at " + format_point(points.col(point)) +
-                   " lies outside the convex hull of the control points by " +
-                   format_number(nearest_point_in_hull<Dim>(control_points, points.col(point)).distance) +
-                   ": no weights >= 0 reproduce it");
+  throw InputError(
+      "point " + std::to_string(point) + " at " + format_point(points.col(point)) +
+      " lies outside the convex hull of the control points by " +
+      format_number(nearest_point_in_hull<Dim>(control_points, points.col(point)).distance) +
+      ": no weights >= 0 reproduce it");
 }
 
 template <int Dim>

@@ -27,7 +27,8 @@ constexpr double kNewtonDelta = 1e-12;
 template <int Dim>
 WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
     : points_(control_points),
-      size_(std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
+      size_(
+          std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
       center_(control_points.rowwise().mean()) {
   const PointList<Dim> offsets = (points_.colwise() - center_) / size_;
   axes_ = dense::principal_axes<Dim>(offsets * offsets.transpose());
@@ -42,7 +43,8 @@ WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
 
 // b = Q^T w of every feasible w.
 template <int Dim>
-typename WeightProjection<Dim>::Sums WeightProjection<Dim>::sums_of(const Vector<Dim>& point) const {
+typename WeightProjection<Dim>::Sums WeightProjection<Dim>::sums_of(
+    const Vector<Dim>& point) const {
   Sums sums;
   sums[0] = basis_(0, 0);
   sums.template tail<Dim>() =
@@ -60,14 +62,14 @@ double WeightProjection<Dim>::violation(const Sums& residual) const {
 
 template <int Dim>
 bool WeightProjection<Dim>::is_feasible(const Vector<Dim>& point,
-                                     const Eigen::VectorXd& weights) const {
+                                        const Eigen::VectorXd& weights) const {
   return weights.minCoeff() >= 0 &&
          violation(basis_.transpose() * weights - sums_of(point)) <= kExact;
 }
 
 template <int Dim>
 double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd& weights,
-                                   Workspace& work) const {
+                                      Workspace& work) const {
   if (is_feasible(point, weights)) {
     weights = (weights.array() > 0).select(weights, 0);  // -0 becomes 0
     return 0;
@@ -137,7 +139,7 @@ bool WeightProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) c
 
 template <int Dim>
 void WeightProjection<Dim>::correct(const Sums& residual, bool careful,
-                                 Eigen::VectorXd& weights) const {
+                                    Eigen::VectorXd& weights) const {
   std::vector<Index> support;
   for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
     if (weights[i] > 0) support.push_back(i);

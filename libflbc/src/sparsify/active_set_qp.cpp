@@ -59,8 +59,8 @@ bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
   return finish(weights);
 }
 
-// The quickest way to feasible weights: the most negative one of the free minimum leaves, until none
-// is left. It may miss them.
+// The quickest way to feasible weights: the most negative one of the free minimum leaves, until
+// none is left. It may miss them.
 template <int Dim>
 bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support) {
   members_ = support;

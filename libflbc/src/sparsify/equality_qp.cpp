@@ -19,8 +19,8 @@ template <int Dim>
 EqualityQp<Dim>::EqualityQp(Metric metric, const PointList<Dim>& control_points)
     : metric_(metric),
       control_points_(control_points),
-      size_(std::max(bounding_box_diagonal<Dim>(control_points),
-                     std::numeric_limits<double>::min())),
+      size_(
+          std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
       constraints_(Dim + 1, control_points.cols()),
       pull_(control_points.cols()) {
   constraints_.row(0).setOnes();

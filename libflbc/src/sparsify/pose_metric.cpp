@@ -33,7 +33,8 @@ Eigen::MatrixXd expectation(const PointList<Dim>& control_points, double size) {
 template <int Dim>
 Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
                             const std::vector<PointList<Dim>>& poses) {
-  const double size = std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min());
+  const double size =
+      std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min());
   Eigen::MatrixXd metric = expectation<Dim>(control_points, size);
   if (poses.empty()) return metric;
   metric *= kGeneral;

@@ -5,8 +5,7 @@ namespace flbc {
 
 template <int Dim>
 bool SupportProjection<Dim>::project(const Vector<Dim>& point, const std::vector<Index>& support,
-                                     const Eigen::VectorXd& given,
-                                     Eigen::VectorXd& weights) const {
+                                     const Eigen::VectorXd& given, Eigen::VectorXd& weights) const {
   const WeightProjection<Dim> projection(control_points_(Eigen::all, support));
   typename WeightProjection<Dim>::Workspace work(projection);
   Eigen::VectorXd few = given(support);

@@ -10,8 +10,8 @@
 
 namespace flbc {
 
-//! Projects the weights of one point on {w >= 0, sum w = 1, sum w c = x, w = 0 outside of a support}.
-//! Shared by threads.
+//! Projects the weights of one point on {w >= 0, sum w = 1, sum w c = x, w = 0 outside of a
+//! support}. Shared by threads.
 template <int Dim>
 class SupportProjection {
  public:

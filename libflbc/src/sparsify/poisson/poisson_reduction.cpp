@@ -97,12 +97,12 @@ double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& 
                        edges, before, after);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                  \
-  template WeightMatrix reduce_by_poisson(                                                     \
-      const PointList<Dim>&, const PointList<Dim>&, const EdgeList&, const WeightMatrix&,      \
-      const std::vector<PointList<Dim>>&, const SparsifyOptions&);                             \
-  template double poisson_cost(const PointList<Dim>&, const PointList<Dim>&, const EdgeList&,  \
-                               const WeightMatrix&, const WeightMatrix&,                       \
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template WeightMatrix reduce_by_poisson(                                                    \
+      const PointList<Dim>&, const PointList<Dim>&, const EdgeList&, const WeightMatrix&,     \
+      const std::vector<PointList<Dim>>&, const SparsifyOptions&);                            \
+  template double poisson_cost(const PointList<Dim>&, const PointList<Dim>&, const EdgeList&, \
+                               const WeightMatrix&, const WeightMatrix&,                      \
                                const std::vector<PointList<Dim>>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
