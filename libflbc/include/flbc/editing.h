@@ -29,9 +29,12 @@ struct EditBudget {
 template <int Dim>
 class EditableCoordinates {
  public:
-  //! Solves for the first shape. \param mesh  a mesh of the cage's interior (see
-  //! normalize_and_validate) \param options  of all solves. Methods kValue and kGradient start from
-  //! the solve before, others afresh \throws InputError, OptionError, SolverError
+  //! Solves for the first shape.
+  //! \param cage  n control points
+  //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
+  //! \param options  of all solves; kValue and kGradient start from the solve before, other methods
+  //! afresh
+  //! \throws InputError if mesh and cage do not belong together; OptionError, SolverError
   EditableCoordinates(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {});
   ~EditableCoordinates();
   EditableCoordinates(EditableCoordinates&&) noexcept;
@@ -40,6 +43,7 @@ class EditableCoordinates {
   //! Moves the control points there, the mesh with them, and solves. After any exception all is as
   //! it was.
   //! \param control_points  Dim x n, in the units of the cage
+  //! \param budget  of this step
   //! \return the coordinates, with status kIterationLimit where the budget ended the solve; its
   //! report is of this step alone
   //! \throws InputError if their number differs, one is not finite, the cage becomes defective, or
@@ -48,7 +52,10 @@ class EditableCoordinates {
   const Solution& move(const PointList<Dim>& control_points, const EditBudget& budget = {});
 
   //! Goes on where the last step ended, for example because of its budget, without set-up of the
-  //! weight functions. \throws OptionError, SolverError; the coordinates are then as they were
+  //! weight functions.
+  //! \param budget  of this step
+  //! \return the coordinates; their report is of this step alone
+  //! \throws OptionError, SolverError; the coordinates are then as they were
   const Solution& refine(const EditBudget& budget = {});
 
   //! From now on the mesh follows by the present coordinates, from the present shape. For edits so
@@ -56,7 +63,7 @@ class EditableCoordinates {
   //! then no longer is exactly what it was.
   void anchor();
 
-  //! The coordinates of the present shape.
+  //! The coordinates of the present shape, n x V, and the report of the last step.
   const Solution& solution() const;
 
   //! As it is now.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a caller may choose.
+//! Options of solve().
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a run tells about itself.
+//! The report of a run.
 #pragma once
 
 #include <vector>

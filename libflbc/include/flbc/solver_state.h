@@ -10,7 +10,7 @@
 
 namespace flbc {
 
-//! What the iterations keep between two steps.
+//! The arrays that an iteration keeps between two steps.
 enum class StateArray {
   kIterate,               //!< w, on vertices (kValue, kLbc2014)
   kNonNegativityDual,     //!< u + dual of u = w, u >= 0, on vertices (the same)
@@ -37,14 +37,18 @@ class StateStorage {
  public:
   virtual ~StateStorage() = default;
 
-  //! \return memory for the array, aligned to 64 bytes; what an earlier run left there if
-  //! penalty() > 0, else anything
+  //! Provides one array.
+  //! \param shape  which one, and how many numbers it has
+  //! \return memory aligned to 64 bytes; what an earlier run left there if penalty() > 0, else
+  //! anything
   virtual void* allocate(const StateShape& shape) = 0;
 
-  //! Penalty of the run that left what is there, from which to go on; 0 = start afresh.
+  //! What keep_penalty() was told by the run that left what is there, from which to go on; 0 =
+  //! start afresh.
   virtual double penalty() const = 0;
 
-  //! Called at the end with the penalty used last.
+  //! Called at the end of a run.
+  //! \param penalty  used last, on the published scale (published_penalty.h), > 0
   virtual void keep_penalty(double penalty) = 0;
 };
 

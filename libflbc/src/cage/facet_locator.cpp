@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cage/facet_locator.h"
 
+#include <Eigen/LU>
+
 #include "linear/dense.h"
 
 namespace flbc {
@@ -11,7 +13,7 @@ constexpr double kRounding = 1e-12;  // a coordinate below it is taken for zero
 }  // namespace
 
 template <int Dim>
-FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
+FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance, FacetProjection projection)
     : facets_(cage.facets.cols()), tolerance_(tolerance) {
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     auto& facet = facets_[f];
@@ -20,12 +22,22 @@ FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
     facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
     Eigen::Matrix<double, Dim, Dim - 1> edges;
     for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
-    facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
+    if (projection == FacetProjection::kNormalEquations) {
+      facet.to_coordinates = (edges.transpose() * edges).inverse() * edges.transpose();
+    } else {
+      facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
+    }
   }
 }
 
 template <int Dim>
 FacetPlace<Dim> FacetLocator<Dim>::locate(const Vector<Dim>& point) const {
+  const auto place = nearest(point);
+  return place.distance <= tolerance_ ? place : FacetPlace<Dim>{};
+}
+
+template <int Dim>
+FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
   FacetPlace<Dim> nearest;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const auto& facet = facets_[f];
@@ -40,7 +52,7 @@ FacetPlace<Dim> FacetLocator<Dim>::locate(const Vector<Dim>& point) const {
     coordinates = (coordinates.array() < kRounding).select(0, coordinates);
     coordinates /= coordinates.sum();
     const double distance = (facet.corners * coordinates - point).norm();
-    if (distance <= tolerance_ && distance < nearest.distance) {
+    if (distance < nearest.distance) {
       nearest = {static_cast<Index>(f), coordinates, distance};
     }
   }

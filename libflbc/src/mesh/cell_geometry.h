@@ -31,6 +31,27 @@ CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
   return geometry;
 }
 
+//! The centroid of a simplex, be it a cell or a facet.
+//! \param points  Dim x V
+//! \param simplices  the corners of each, a column per simplex
+template <int Dim, class Simplices>
+Vector<Dim> centroid(const PointList<Dim>& points, const Simplices& simplices,
+                     Eigen::Index simplex) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (Eigen::Index k = 0; k < simplices.rows(); ++k) sum += points.col(simplices(k, simplex));
+  return sum / static_cast<double>(simplices.rows());
+}
+
+//! All of them, a column per simplex. Parameters as above.
+template <int Dim, class Simplices>
+PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplices) {
+  PointList<Dim> result(Dim, simplices.cols());
+  for (Eigen::Index s = 0; s < simplices.cols(); ++s) {
+    result.col(s) = centroid(points, simplices, s);
+  }
+  return result;
+}
+
 //! Gradients of piecewise linear weights on one cell, n x Dim. \param weights  n x V
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> weight_gradients(const DomainMesh<Dim>& mesh, Index cell,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/cell_geometry.h"
+
 namespace flbc {
 
 namespace {
@@ -32,15 +34,6 @@ struct Bits {
 
 template <int Dim>
 constexpr int kLevels = Dim == 2 ? 31 : 21;  // as many as fit into 63 bits
-
-template <int Dim>
-PointList<Dim> centroids(const DomainMesh<Dim>& mesh) {
-  PointList<Dim> result = PointList<Dim>::Zero(Dim, mesh.num_cells());
-  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
-    for (int k = 0; k <= Dim; ++k) result.col(cell) += mesh.points.col(mesh.cells(k, cell));
-  }
-  return result / (Dim + 1);
-}
 
 }  // namespace
 
@@ -108,7 +101,7 @@ void reorder_in_space(DomainMesh<Dim>& mesh, Index num_fixed) {
   }
   for (Index& vertex : mesh.cells.reshaped()) vertex = new_number[vertex];
 
-  const std::vector<Index> cell_order = spatial_order<Dim>(centroids(mesh));
+  const std::vector<Index> cell_order = spatial_order<Dim>(centroids(mesh.points, mesh.cells));
   const CellList<Dim> cells = mesh.cells;
   for (Index i = 0; i < mesh.num_cells(); ++i) mesh.cells.col(i) = cells.col(cell_order[i]);
 }

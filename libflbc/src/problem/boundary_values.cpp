@@ -1,91 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/boundary_values.h"
 
-#include <limits>
 #include <string>
-
-#include <Eigen/LU>
 
 #include "base/messages.h"
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "mesh/cell_geometry.h"
 
 namespace flbc {
 namespace {
 
-constexpr double kDistanceTolerance = 1e-6;     // of the cage's size
-constexpr double kCoordinateTolerance = 1e-12;  // below it a barycentric coordinate is rounding
-
-// A cage facet, prepared for locating points on it.
-template <int Dim>
-struct LocatedFacet {
-  Eigen::Matrix<double, Dim, Dim> corners;
-  Vector<Dim> low, high;                               // bounding box, widened by the tolerance
-  Eigen::Matrix<double, Dim - 1, Dim> to_barycentric;  // pseudo-inverse of the edge vectors
-};
-
-template <int Dim>
-std::vector<LocatedFacet<Dim>> prepare_facets(const Cage<Dim>& cage, double tolerance) {
-  std::vector<LocatedFacet<Dim>> facets(cage.facets.cols());
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    auto& facet = facets[f];
-    for (int k = 0; k < Dim; ++k) facet.corners.col(k) = cage.points.col(cage.facets(k, f));
-    facet.low = facet.corners.rowwise().minCoeff().array() - tolerance;
-    facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
-    Eigen::Matrix<double, Dim, Dim - 1> edges;
-    for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
-    facet.to_barycentric = (edges.transpose() * edges).inverse() * edges.transpose();
-  }
-  return facets;
-}
-
-// Coordinates of the point's projection on the facet's plane, with what is outside the facet or due
-// to rounding cut off, so that a point on an edge or at a corner has exact zeros elsewhere.
-template <int Dim>
-Vector<Dim> barycentric_coordinates(const LocatedFacet<Dim>& facet, const Vector<Dim>& point) {
-  Vector<Dim> coordinates;
-  coordinates.template tail<Dim - 1>() = facet.to_barycentric * (point - facet.corners.col(0));
-  coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
-  for (double& c : coordinates) {
-    if (c < kCoordinateTolerance) c = 0;
-  }
-  return coordinates / coordinates.sum();
-}
-
-// Where on the cage a point is.
-template <int Dim>
-struct Place {
-  double distance = std::numeric_limits<double>::infinity();
-  Index facet = -1;
-  Vector<Dim> coordinates;
-};
-
-// \return facet -1 if the point is outside all bounding boxes
-template <int Dim>
-Place<Dim> nearest_place(const std::vector<LocatedFacet<Dim>>& facets, const Vector<Dim>& point) {
-  Place<Dim> nearest;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto& facet = facets[f];
-    if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
-      continue;
-    }
-    const Vector<Dim> coordinates = barycentric_coordinates(facet, point);
-    const double distance = (facet.corners * coordinates - point).norm();
-    if (distance < nearest.distance) nearest = {distance, static_cast<Index>(f), coordinates};
-  }
-  return nearest;
-}
+constexpr double kDistanceTolerance = 1e-6;  // of the cage's size
 
 // All vertices of a facet may lie on the cage and the facet not: where cells are missing.
 template <int Dim>
 void check_boundary_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
-                           const std::vector<LocatedFacet<Dim>>& cage_facets, double tolerance) {
+                           const FacetLocator<Dim>& cage_facets, double tolerance) {
   for (Index f = 0; f < topology.num_facets(); ++f) {
     if (!topology.is_boundary(f)) continue;
-    Vector<Dim> center = Vector<Dim>::Zero();
-    for (int k = 0; k < Dim; ++k) center += mesh.points.col(topology.facets(k, f)) / Dim;
-    if (nearest_place(cage_facets, center).distance <= tolerance) continue;
+    const Vector<Dim> center = centroid(mesh.points, topology.facets, f);
+    if (cage_facets.nearest(center).distance <= tolerance) continue;
     throw InputError("the boundary " + std::string(Dim == 2 ? "edge" : "face") + " of cell " +
                      std::to_string(topology.sides(0, f)) + " of the domain mesh at " +
                      format_point(center) +
@@ -125,7 +61,7 @@ template <int Dim>
 BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                     const MeshTopology<Dim>& topology) {
   const double tolerance = kDistanceTolerance * bounding_box_diagonal(cage.points);
-  const auto facets = prepare_facets(cage, tolerance);
+  const FacetLocator<Dim> facets(cage, tolerance, FacetProjection::kNormalEquations);
   const auto on_boundary = boundary_vertices(topology, mesh.num_vertices());
 
   BoundaryValues<Dim> boundary;
@@ -140,7 +76,7 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
 
   for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
     const Vector<Dim> point = mesh.points.col(boundary.vertices[b]);
-    const auto nearest = nearest_place(facets, point);
+    const auto nearest = facets.nearest(point);
     if (!(nearest.distance <= tolerance)) {
       throw InputError("boundary vertex " + std::to_string(boundary.vertices[b]) +
                        " of the domain mesh at " + format_point(point) +

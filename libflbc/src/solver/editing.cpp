@@ -12,6 +12,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "mesh/cell_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/state_storage.h"
 #include "solver/warm_start/transfer.h"
@@ -55,13 +56,6 @@ class Deadline {
   bool passed_ = false;
 };
 
-template <int Dim>
-std::string cell_place(const DomainMesh<Dim>& mesh, Index cell) {
-  Vector<Dim> center = Vector<Dim>::Zero();
-  for (int k = 0; k <= Dim; ++k) center += mesh.points.col(mesh.cells(k, cell)) / (Dim + 1);
-  return format_point(center);
-}
-
 // \throws InputError if a cell turned over, or has as good as no measure left
 template <int Dim>
 void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
@@ -70,7 +64,7 @@ void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
   for (Index s = 0; s < after.num_cells(); ++s) {
     if (signed_measure(after, s) > kLeast * enlargement * signed_measure(before, s)) continue;
     throw InputError("cell " + std::to_string(s) + " of the domain mesh, at " +
-                     cell_place(before, s) +
+                     format_point(centroid(before.points, before.cells, s)) +
                      ", would turn over; move the control points less far, or mesh the cage anew");
   }
 }

@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "mesh/cell_geometry.h"
+
 namespace flbc {
 namespace {
 
@@ -27,9 +29,8 @@ Vector<Dim> area_normal(const LbcProblem<Dim>& problem, Index facet) {
     normal = edge.cross(corner(problem, facet, 2) - first) / 2;
   }
   const Index cell = problem.topology.sides(0, facet);
-  Vector<Dim> center = Vector<Dim>::Zero();
-  for (int k = 0; k <= Dim; ++k) center += problem.mesh.points.col(problem.mesh.cells(k, cell));
-  return normal.dot(center / (Dim + 1) - first) > 0 ? Vector<Dim>(-normal) : normal;
+  const Vector<Dim> inside = centroid(problem.mesh.points, problem.mesh.cells, cell);
+  return normal.dot(inside - first) > 0 ? Vector<Dim>(-normal) : normal;
 }
 
 // Counter-clockwise round the first cell, as long as the edge.

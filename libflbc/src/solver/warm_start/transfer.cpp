@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/bounding_box.h"
-#include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "solver/warm_start/transfer.h"
 
 #include <limits>
 
+#include "flbc/bounding_box.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
+#include "mesh/cell_geometry.h"
+
 namespace flbc {
-namespace {
-
-template <int Dim, class Simplices>
-PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplices) {
-  PointList<Dim> centers = PointList<Dim>::Zero(Dim, simplices.cols());
-  for (Eigen::Index s = 0; s < simplices.cols(); ++s) {
-    for (Eigen::Index k = 0; k < simplices.rows(); ++k)
-      centers.col(s) += points.col(simplices(k, s));
-  }
-  return centers / static_cast<double>(simplices.rows());
-}
-
-}  // namespace
-
 template <int Dim>
 Transfer<Dim>::Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
                         const LbcProblem<Dim>& fine)
