@@ -40,11 +40,9 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
       "--tolerance", options.tolerance,
       "accuracy wanted (by method: value and paper 1e-7, gradient 2.5e-5, lbc2014 5e-8)");
   command.add_option("--max-iterations", options.max_iterations, "limit of iterations (20000)");
-  command
-      .add_option("--penalty", settings.penalty,
-                  "penalty of the augmented Lagrangian, as published: for a domain scaled to "
-                  "radius 250 (by method)")
-      ->check(CLI::NonNegativeNumber);
+  command.add_option("--penalty", settings.penalty,
+                     "penalty of the augmented Lagrangian, as published: for a domain scaled to "
+                     "radius 250 (by method)");
   command.add_option("--relaxation", options.relaxation, "over-relaxation in (0, 2) (by method)");
   command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_option("--cache", settings.cache,

@@ -10,6 +10,9 @@ namespace flbc {
 template <int Dim>
 double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
                          double penalty) {
+  SolverOptions options;
+  options.penalty = penalty;
+  validate(options);
   if (method == Method::kAuto) method = resolve({}).method;
   const double size = DomainScale<Dim>(mesh).factor * bounding_box_diagonal(cage.points);
   return penalty / penalty_unit(method, Dim, size);
