@@ -12,9 +12,11 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "report/checks.h"
 #include "report/report_json.h"
+#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
@@ -31,7 +33,7 @@ void check_arguments(const CheckArguments& arguments) {
   if (!arguments.weights.empty() && arguments.model.empty() && arguments.domain.empty()) {
     throw OptionError("--weights needs --model or --domain: the points to which its rows belong");
   }
-  if (arguments.json != "-") require_writable(arguments.json, {"json"});
+  if (arguments.json != "-") require_writable(arguments.json, "json");
   require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},
                    {arguments.json});
 }
@@ -43,32 +45,21 @@ void check_model(CheckReport<Dim>& report) {
   report.model = ModelCheck<Dim>{std::move(points), std::move(outside)};
 }
 
-// The sizes of the files must agree; checked here as well, because here the files have names.
-template <int Dim>
-void check_sizes(const CheckReport<Dim>& report, const WeightMatrix& weights,
-                 const std::string& points_file, Eigen::Index num_points) {
-  if (weights.rows() != report.cage.size()) {
-    throw InputError(report.weights_file + ": has weights for " + std::to_string(weights.rows()) +
-                     " control points, but " + report.cage_file + " has " +
-                     std::to_string(report.cage.size()));
-  }
-  if (weights.cols() != num_points) {
-    throw InputError(report.weights_file + ": has weights of " + std::to_string(weights.cols()) +
-                     " points, but " + points_file + " has " + std::to_string(num_points) +
-                     " vertices");
-  }
-}
-
 template <int Dim>
 void check_weight_file(CheckReport<Dim>& report) {
   const auto weights = io::read_weights(report.weights_file);
+  // Said here as well, because here the files have names.
+  const auto check_sizes_with = [&](const std::string& points_file, Eigen::Index num_points) {
+    check_sizes(weights, report.cage.size(), num_points,
+                {report.weights_file, report.cage_file, points_file});
+  };
   if (report.domain_file.empty()) {
     const auto& points = report.model->points;
-    check_sizes(report, weights, report.model_file, points.cols());
+    check_sizes_with(report.model_file, points.cols());
     check_weights_of(report, points, weights);
   } else {
     const auto domain = io::read_domain<Dim>(report.domain_file);
-    check_sizes(report, weights, report.domain_file, domain.num_vertices());
+    check_sizes_with(report.domain_file, domain.num_vertices());
     naming(report.domain_file, [&] { check_weights_of(report, domain, weights); });
   }
 }
@@ -122,7 +113,7 @@ void add_check_command(CLI::App& app, int& exit_status) {
   command->add_option("--json", a.json, "write the same as JSON, '-' to print that instead");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);
-    const auto cage = io::to_cage(load_polygons(arguments->cage), arguments->cage);
+    const auto cage = io::to_cage(io::read_polygons(arguments->cage), arguments->cage);
     exit_status = std::visit([&](const auto& any) { return check(any, *arguments); }, cage);
   });
 }

@@ -8,7 +8,6 @@
 #include "files/convert_mesh.h"
 #include "files/convert_weights.h"
 #include "files/load.h"
-#include "files/mesh_file.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
 
@@ -21,21 +20,22 @@ struct ConvertArguments {
 };
 
 void check_weight_arguments(const WeightConversion& files) {
-  if (is_mesh_file(files.output)) throw OptionError(files.output + ": weights are no mesh");
-  require_writable(files.output, {"mtx", "dmat", "npy", "txt"});
+  if (io::holds(files.output, kMeshFiles))
+    throw OptionError(files.output + ": weights are no mesh");
+  require_writable(files.output, kWeightFiles);
   if (files.threshold && !(*files.threshold >= 0 && std::isfinite(*files.threshold))) {
     throw OptionError("--threshold must be a number that is not negative");
   }
 }
 
 void check_mesh_arguments(const WeightConversion& files) {
-  if (!is_mesh_file(files.input)) {
-    throw OptionError(files.input +
-                      ": cannot tell the format; weights end in .mtx, .dmat, .npy or .txt, meshes "
-                      "in .obj, .off, .ply, .stl, .om, .vtu, .mesh, .node, .ele or .msh");
+  if (!io::holds(files.input, kMeshFiles)) {
+    throw OptionError(files.input + ": cannot tell the format; weights end in " +
+                      io::extensions_of(kWeightFiles) + ", meshes in " +
+                      io::extensions_of(kMeshFiles));
   }
   if (is_weight_file(files.output)) throw OptionError(files.output + ": a mesh is no weights");
-  require_mesh_writable(files.output);
+  require_formats({files.input, files.output, false, true});
   if (files.transpose || files.threshold || !files.cage.empty() || !files.points.empty()) {
     throw OptionError("--cage, --points, --transpose and --threshold are for weights, but " +
                       files.input + " is a mesh");

@@ -46,7 +46,7 @@ void check_arguments(const DeformArguments& arguments) {
     throw OptionError("--show-displacement needs --rest: it is measured from there");
   }
   require_formats(arguments.file);
-  require_writable(arguments.displacement, {"npy", "dmat", "mtx"});
+  require_writable(arguments.displacement, {io::Content::kWeights});
 }
 
 // No result may replace a file that is read, nor the other result.
@@ -117,7 +117,7 @@ template <int Dim>
 void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>& poses,
                    const Displacement& displacement, double seconds,
                    const DeformArguments& arguments) {
-  const auto& [input, output, shows_displacement] = arguments.file;
+  const auto& [input, output, shows_displacement, is_anew] = arguments.file;
   std::cerr << output << ": " << model.points().cols() << " points, " << poses.size()
             << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
   if (!arguments.rest.empty()) std::cerr << "; largest displacement " << displacement.largest;
@@ -129,7 +129,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
     std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark red)";
   }
   std::cerr << '\n';
-  print_losses(input, output, model.losses());
+  model.print_losses();
   if (model.num_loose_normals() > 0) {
     std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
               << " normals belong to no face with an area and stay as they are\n";

@@ -13,6 +13,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
+#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
@@ -27,26 +28,6 @@ struct DrawArguments {
   bool all = false;
   draw::WeightPictureOptions options;
 };
-
-// The three files must belong together for a picture to make sense.
-template <int Dim>
-void check_sizes(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, const WeightMatrix& weights,
-                 const DrawArguments& arguments) {
-  if (weights.rows() != cage.size()) {
-    throw InputError(arguments.weights + ": has weights for " + std::to_string(weights.rows()) +
-                     " control points, but " + arguments.cage + " has " +
-                     std::to_string(cage.size()));
-  }
-  if (weights.cols() != domain.num_vertices()) {
-    throw InputError(arguments.weights + ": has weights of " + std::to_string(weights.cols()) +
-                     " points, but " + arguments.domain + " has " +
-                     std::to_string(domain.num_vertices()) + " vertices");
-  }
-  if (arguments.control_point < 0 || arguments.control_point >= cage.size()) {
-    throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
-                      "], not " + std::to_string(arguments.control_point));
-  }
-}
 
 draw::Image picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
@@ -70,7 +51,12 @@ template <int Dim>
 void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
   const auto domain = io::read_domain<Dim>(arguments.domain);
   const auto weights = io::read_weights(arguments.weights);
-  check_sizes(cage, domain, weights, arguments);
+  check_sizes(weights, cage.size(), domain.num_vertices(),
+              {arguments.weights, arguments.cage, arguments.domain});
+  if (arguments.control_point < 0 || arguments.control_point >= cage.size()) {
+    throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
+                      "], not " + std::to_string(arguments.control_point));
+  }
   const auto png = draw::encode_png(picture(cage, domain, weights, arguments));
   const HeldSignals held;
   io::write_file(arguments.output, [&](std::ostream& file) { file << png; });
@@ -95,7 +81,7 @@ void add_draw_command(CLI::App& app, int&) {
   command->add_flag("--mesh", a.options.mesh_edges, "show the mesh");
   command->callback([arguments] {
     draw::validate(arguments->options);
-    require_writable(arguments->output, {"png"});
+    require_writable(arguments->output, "png");
     std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

@@ -8,7 +8,6 @@
 #include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
-#include "files/load_surface.h"
 #include "files/movable_model.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -50,8 +49,8 @@ void check_arguments(ExportArguments& arguments) {
   if (arguments.bits == 16) arguments.options.weight_format = WeightFormat::kUnsignedShort;
   if (arguments.bits == 8) arguments.options.weight_format = WeightFormat::kUnsignedByte;
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
-  require_surface_readable(arguments.model);
-  require_writable(arguments.output, {"glb"});
+  require_mesh_readable(arguments.model);
+  require_writable(arguments.output, "glb");
 }
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
@@ -100,21 +99,24 @@ template <int Dim>
 void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const auto rest = load_control_points<Dim>(arguments.cage);
   const auto animation = load_motion<Dim>(arguments, poses, rest);
-  const auto model = load_surface<Dim>(arguments.model);
+  const MovedFile same{arguments.model, arguments.model};
+  require_formats_of<Dim>(same);
+  const MovableModel<Dim> model(same);
+  const auto& points = model.points();
   const auto weights = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
-  check_sizes(weights, rest.cols(), model.points.cols(), files);
-  check_reproduction(SparseWeights(weights), rest, model.points, files);
+  check_sizes(weights, rest.cols(), points.cols(), files);
+  check_reproduction(SparseWeights(weights), rest, points, files);
 
+  const auto surface = model.surface();
   const auto skin = naming(arguments.model, [&] {
-    return gltf::export_skin(rest, model.points, weights, model.surface, arguments.options,
-                             animation);
+    return gltf::export_skin(rest, points, weights, surface, arguments.options, animation);
   });
   {
     const HeldSignals held;
     io::write_file(arguments.output, [&](std::ostream& file) { file << skin.glb; });
   }
-  const double size = bounding_box_diagonal<Dim>(model.points);
+  const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
   const double change = skin.position_change / size;
   if (change > kWorthATell) {
@@ -137,8 +139,8 @@ void add_export_command(CLI::App& app, int& exit_status) {
       "tells the numbers of the vertices in MODEL. Normals stay as they are at rest.");
   command
       ->add_option("MODEL", a.model,
-                   "model (.obj, .off, .ply, .stl) or domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh), of which the boundary is shown")
+                   "model (.obj, .off, .ply, .stl, .om) or domain mesh (.vtu; 3D: .mesh .node "
+                   ".ele .msh), of which the boundary is shown")
       ->required();
   command
       ->add_option("--weights", a.weights,

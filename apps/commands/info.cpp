@@ -5,11 +5,9 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/load.h"
-#include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "flbc/io/mesh_io.h"
-#include "flbc/io/weights_io.h"
+#include "files/convert_weights.h"
+#include "files/movable_model.h"
+#include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
 #include "flbc/self_intersections.h"
 
@@ -23,7 +21,7 @@ void print_box(const Eigen::MatrixXd& points) {
 }
 
 void print_weights(const std::string& path) {
-  const auto weights = io::read_weights(path);
+  const auto weights = read_weight_file(path);
   std::cout << path << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";
   if (weights.size() == 0) return;
@@ -35,8 +33,7 @@ void print_weights(const std::string& path) {
 }
 
 template <int Dim>
-void print_domain(const std::string& path) {
-  const auto domain = io::read_domain<Dim>(path);
+void print_domain(const std::string& path, const DomainMesh<Dim>& domain) {
   const auto topology = build_topology(domain);
   const auto on_boundary = boundary_vertices(topology, domain.num_vertices());
   double measure = 0;
@@ -64,7 +61,7 @@ void print_cage(const Cage<Dim>& cage) {
 }
 
 void print_polygons(const std::string& path) {
-  const auto soup = load_polygons(path);
+  const auto soup = io::read_polygons(path);
   std::cout << path << ": " << soup.points.size() << " vertices, " << soup.polygons.size()
             << " polygons, " << soup.polylines.size() << " polylines\n";
   if (soup.points.empty()) return;
@@ -73,15 +70,12 @@ void print_polygons(const std::string& path) {
 }
 
 void print_info(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  if (extension == "mtx" || extension == "dmat" || extension == "npy") {
-    print_weights(path);
-  } else if (extension == "mesh" || extension == "node" || extension == "ele" ||
-             extension == "msh") {
-    print_domain<3>(path);
-  } else {
-    print_polygons(path);
+  if (is_weight_file(path)) return print_weights(path);
+  if (io::holds(path, {io::Content::kModel}) || !io::holds(path, kMeshFiles)) {
+    return print_polygons(path);
   }
+  std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
+             load_any_model({path, path}));
 }
 
 }  // namespace

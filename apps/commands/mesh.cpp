@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/domain_formats.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "flbc/io/mesh_io.h"
 #include "solve/make_domain.h"
 
 namespace flbc::app {
@@ -22,7 +22,7 @@ struct MeshArguments {
 
 template <int Dim>
 void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
-  require_domain_writable<Dim>(arguments.output);
+  require_writable(arguments.output, {io::kMesh<Dim>});
   PointList<Dim> embedded;
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
   const auto domain =
@@ -43,7 +43,7 @@ void add_mesh_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<MeshArguments>();
   auto* command = app.add_subcommand("mesh", "Mesh the interior of a cage");
   command->add_option("CAGE", arguments->cage, "closed polylines (2D) or surface (3D)")->required();
-  command->add_option("-o,--output", arguments->output, domain_formats_help())->required();
+  command->add_option("-o,--output", arguments->output, mesh_formats_help())->required();
   command->add_option("--vertices", arguments->vertices, "number of mesh vertices wanted")
       ->check(refuse_vertex_count);
   command->add_option("--model", arguments->model, "make this model's vertices mesh vertices");

@@ -6,10 +6,10 @@
 
 #include "commands/commands.h"
 #include "commands/exit_status.h"
-#include "files/domain_formats.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/io/files.h"
+#include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
 #include "report/report_json.h"
@@ -29,8 +29,8 @@ struct SolveArguments {
 
 void check_outputs(const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
-  require_writable(arguments.output, {"mtx", "dmat", "npy"});
-  if (arguments.report != "-") require_writable(arguments.report, {"json"});
+  require_writable(arguments.output, {io::Content::kWeights});
+  if (arguments.report != "-") require_writable(arguments.report, "json");
   require_distinct({settings.cage, settings.domain, settings.model},
                    {arguments.output, arguments.save_domain, arguments.report});
 }
@@ -54,7 +54,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
 template <int Dim>
 int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
-  require_domain_writable<Dim>(arguments.save_domain);
+  require_writable(arguments.save_domain, {io::kMesh<Dim>});
   PointList<Dim> model;
   if (!settings.model.empty()) model = load_model<Dim>(settings.model);
 
@@ -99,7 +99,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
       command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices")
           ->needs(model);
   domain->excludes(vertices)->excludes(embed);
-  command->add_option("--save-domain", a.save_domain, domain_formats_help());
+  command->add_option("--save-domain", a.save_domain, mesh_formats_help());
   command->add_option("--report", a.report, "write what happened to this .json file");
   add_solver_options(*command, settings);
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");

@@ -15,6 +15,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
 #include "flbc/poisson_reduction.h"
@@ -22,6 +23,7 @@
 #include "flbc/version.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
+#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
@@ -44,8 +46,8 @@ struct SparsifyArguments {
 };
 
 void check_files(const SparsifyArguments& arguments) {
-  require_writable(arguments.output, {"mtx", "dmat", "npy"});
-  if (arguments.report != "-") require_writable(arguments.report, {"json"});
+  require_writable(arguments.output, {io::Content::kWeights});
+  if (arguments.report != "-") require_writable(arguments.report, "json");
   auto inputs = arguments.poses;
   inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.points});
   require_distinct(inputs, {arguments.output, arguments.report});
@@ -60,14 +62,13 @@ struct ConnectedPoints {
 // The vertices of a domain mesh or a model, by the file's name.
 template <int Dim>
 ConnectedPoints<Dim> load_points(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  for (const char* domain : {"mesh", "node", "ele", "msh", "vtu"}) {
-    if (extension != domain) continue;
+  if (!io::holds(path, {io::Content::kModel}) &&
+      io::holds(path, {io::Content::kMesh2D, io::Content::kMesh3D})) {
     auto mesh = io::read_domain<Dim>(path);
     auto edges = edges_of_cells(mesh);
     return {std::move(mesh.points), std::move(edges)};
   }
-  const auto soup = load_polygons(path);
+  const auto soup = io::read_polygons(path);
   auto points = io::to_points<Dim>(soup, path);
   if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
   auto edges =
@@ -78,21 +79,13 @@ ConnectedPoints<Dim> load_points(const std::string& path) {
 template <int Dim>
 WeightMatrix load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
                           const PointList<Dim>& points) {
-  if (io::extension_of(arguments.weights) == "txt") {
+  if (io::holds(arguments.weights, {io::Content::kTriplets})) {
     return io::read_weight_triplets(arguments.weights, static_cast<Index>(control_points.cols()),
                                     static_cast<Index>(points.cols()));
   }
   auto weights = io::read_weights(arguments.weights);
-  if (weights.rows() != control_points.cols()) {
-    throw InputError(arguments.weights + ": has weights for " + std::to_string(weights.rows()) +
-                     " control points, but " + arguments.cage + " has " +
-                     std::to_string(control_points.cols()));
-  }
-  if (weights.cols() != points.cols()) {
-    throw InputError(arguments.weights + ": has weights of " + std::to_string(weights.cols()) +
-                     " points, but " + arguments.points + " has " + std::to_string(points.cols()) +
-                     " vertices");
-  }
+  check_sizes(weights, control_points.cols(), points.cols(),
+              {arguments.weights, arguments.cage, arguments.points});
   return weights;
 }
 

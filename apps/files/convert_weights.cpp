@@ -7,7 +7,6 @@
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
 #include "solve/weights_of_model.h"
@@ -15,9 +14,8 @@
 namespace flbc::app {
 namespace {
 
-// Triplets are text without a name of their own.
 bool holds_triplets(const std::string& path) {
-  return io::extension_of(path) == "txt";
+  return io::holds(path, {io::Content::kTriplets});
 }
 
 void check_files(const WeightMatrix& weights, const WeightConversion& conversion) {
@@ -34,7 +32,7 @@ void check_files(const WeightMatrix& weights, const WeightConversion& conversion
 
 WeightMatrix load(const WeightConversion& conversion) {
   const auto& input = conversion.input;
-  auto weights = holds_triplets(input) ? io::read_weight_triplets(input) : io::read_weights(input);
+  auto weights = read_weight_file(input);
   if (conversion.transpose) weights.transposeInPlace();
   check_files(weights, conversion);
   return weights;
@@ -73,8 +71,11 @@ void save(const std::string& path, const WeightMatrix& weights) {
 }  // namespace
 
 bool is_weight_file(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  return extension == "mtx" || extension == "dmat" || extension == "npy" || extension == "txt";
+  return io::holds(path, kWeightFiles);
+}
+
+WeightMatrix read_weight_file(const std::string& path) {
+  return holds_triplets(path) ? io::read_weight_triplets(path) : io::read_weights(path);
 }
 
 void convert_weights(const WeightConversion& conversion, bool quiet) {

@@ -6,6 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "flbc/io/formats.h"
+#include "flbc/types.h"
+
 namespace flbc::app {
 
 //! What to convert, and what is known of it.
@@ -18,8 +21,15 @@ struct WeightConversion {
   bool transpose = false;             //!< the input has control points as rows
 };
 
+//! Weights in all formats.
+constexpr std::initializer_list<io::Content> kWeightFiles = {io::Content::kWeights,
+                                                             io::Content::kTriplets};
+
 //! By the extension.
 bool is_weight_file(const std::string& path);
+
+//! Weights in any format. \return n x #points \throws IoError, InputError
+WeightMatrix read_weight_file(const std::string& path);
 
 //! Reads weights and writes them in another format; what is left unsaid or dropped is told unless
 //! `quiet`. \throws IoError; InputError, also if the weights do not fit cage or points

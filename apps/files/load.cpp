@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,9 +12,6 @@
 #include "flbc/io/model_file.h"
 #include "flbc/meshing.h"
 #include "flbc/self_intersections.h"
-#ifdef FLBC_WITH_OPENMESH
-#include "flbc/openmesh/mesh_io.h"
-#endif
 
 namespace flbc::app {
 namespace {
@@ -38,50 +34,49 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
 }
 
-}  // namespace
-
-io::PolygonSoup load_polygons(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  if (extension == "obj" || path == "-") return io::read_obj(path);
-  if (extension == "off") return io::read_off(path);
-#ifdef FLBC_WITH_OPENMESH
-  if (extension == "stl") return openmesh::read_polygons(path);
-#endif
-  if (extension == "ply" || extension == "om") return io::ModelFile(path).model().soup;
-#ifdef FLBC_WITH_OPENMESH
-  throw OptionError(path + ": expected a file ending in .obj, .off, .ply, .stl or .om");
-#else
-  throw OptionError(path + ": expected a file ending in .obj, .off, .ply or .om");
-#endif
+[[noreturn]] void fail_extension(const std::string& path, const std::string& extensions) {
+  throw OptionError(path + ": cannot tell the format; the file must end in " + extensions);
 }
 
-io::AnyCage load_cage(const std::string& path) {
-  auto cage = io::to_cage(load_polygons(path), path);
-  std::visit([&](const auto& any) { check_cage(any, path); }, cage);
-  return cage;
-}
-
-template <int Dim>
-PointList<Dim> load_model(const std::string& path) {
-  auto points = io::to_points<Dim>(load_polygons(path), path);
-  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
-  return points;
-}
-
-void require_writable(const std::string& path, std::initializer_list<const char*> extensions) {
-  if (path.empty()) return;
-  if (std::find(extensions.begin(), extensions.end(), io::extension_of(path)) == extensions.end()) {
-    std::string list;
-    for (const auto* extension : extensions)
-      list += std::string(list.empty() ? "." : ", .") + extension;
-    throw OptionError(path + ": cannot tell the format; the file must end in " + list);
-  }
+void require_writable_folder(const std::string& path) {
   auto folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
   if (access(folder.c_str(), W_OK) != 0) {
     throw IoError(path + ": cannot write in folder " + folder.string() + ": " +
                   std::strerror(errno));
   }
+}
+
+}  // namespace
+
+io::AnyCage load_cage(const std::string& path) {
+  auto cage = io::to_cage(io::read_polygons(path), path);
+  std::visit([&](const auto& any) { check_cage(any, path); }, cage);
+  return cage;
+}
+
+template <int Dim>
+PointList<Dim> load_model(const std::string& path) {
+  auto points = io::to_points<Dim>(io::read_polygons(path), path);
+  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
+  return points;
+}
+
+void require_writable(const std::string& path, const char* extension) {
+  if (path.empty()) return;
+  if (io::extension_of(path) != extension) fail_extension(path, std::string(".") + extension);
+  require_writable_folder(path);
+}
+
+void require_writable(const std::string& path, std::initializer_list<io::Content> contents) {
+  if (path.empty()) return;
+  if (!io::holds(path, contents)) fail_extension(path, io::extensions_of(contents));
+  require_writable_folder(path);
+}
+
+std::string mesh_formats_help() {
+  return "mesh file: " + io::extensions_of({io::Content::kMesh2D}) + " in 2D, " +
+         io::extensions_of({io::Content::kMesh3D}) + " in 3D";
 }
 
 void require_distinct(const std::vector<std::string>& inputs,

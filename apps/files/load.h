@@ -9,6 +9,7 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/formats.h"
 
 namespace flbc::app {
 
@@ -22,9 +23,6 @@ auto naming(const std::string& path, const Action& action) {
   }
 }
 
-//! Any polygon file, exactly; STL through OpenMesh if it was built in.
-io::PolygonSoup load_polygons(const std::string& path);
-
 //! A cage that has passed all checks, self-intersection included where CGAL was built in.
 io::AnyCage load_cage(const std::string& path);
 
@@ -34,7 +32,11 @@ PointList<Dim> load_model(const std::string& path);
 
 //! \throws OptionError before any work is done if the file could not be written in the end: unknown
 //! extension; IoError: missing or unwritable folder. Nothing is checked for an empty path.
-void require_writable(const std::string& path, std::initializer_list<const char*> extensions);
+void require_writable(const std::string& path, const char* extension);
+void require_writable(const std::string& path, std::initializer_list<io::Content> contents);
+
+//! The formats of meshes of the interior, for help.
+std::string mesh_formats_help();
 
 //! \throws OptionError before any work is done if a result would replace a file that is read, or
 //! another result. Empty paths and "-" are no files.

@@ -2,36 +2,36 @@
 #include "files/movable_model.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "draw/colormap.h"
-#include "files/domain_formats.h"
 #include "files/load.h"
-#include "flbc/errors.h"
 #include "flbc/io/files.h"
+#ifdef FLBC_WITH_OPENMESH
+#include "flbc/openmesh/om_file.h"
+#endif
 
 namespace flbc::app {
 namespace {
 
+using io::Content;
+using io::holds;
+
+constexpr std::initializer_list<Content> kShowing = {Content::kColors, Content::kFields};
 const char* const kField = "displacement";
 
-bool has_extension(const std::string& path, std::initializer_list<const char*> extensions) {
-  return std::find(extensions.begin(), extensions.end(), io::extension_of(path)) !=
-         extensions.end();
+bool is_model_file(const std::string& path) {
+  return holds(path, {Content::kModel});
 }
 
-// Weights were computed for the vertices that load_model() finds.
-void require_same_vertices([[maybe_unused]] const std::string& path,
-                           [[maybe_unused]] const io::PolygonSoup& soup) {
-#ifdef FLBC_WITH_OPENMESH
-  if (!has_extension(path, {"stl"})) return;
-  const auto other = load_polygons(path);
-  if (other.points == soup.points) return;
-  throw InputError(path + ": its corners make " + std::to_string(soup.points.size()) +
-                   " vertices, but OpenMesh, through which flbc solve reads it, finds " +
-                   std::to_string(other.points.size()) +
-                   " or places them otherwise; flbc convert makes a .ply or .obj file of it for "
-                   "both commands");
-#endif
+// .vtu files may be of either dimension.
+bool is_tetrahedra_file(const std::string& path) {
+  return holds(path, {Content::kMesh3D}) && !holds(path, {Content::kMesh2D});
+}
+
+bool is_rewritten(const MovedFile& file) {
+  return is_model_file(file.model) && !file.shows_displacement && !file.is_anew &&
+         io::extension_of(file.model) == io::extension_of(file.output);
 }
 
 PointList<3> colors_of(const Eigen::VectorXd& lengths, double largest) {
@@ -50,97 +50,176 @@ void set_field(std::vector<io::VertexField>& fields, const Eigen::VectorXd& valu
   fields.push_back({kField, values});
 }
 
+// In a plane, triangles are a surface too.
+template <int Dim>
+io::Model to_model(const PointList<Dim>& points, const FacetList<3>& triangles) {
+  io::Model model;
+  for (const auto& point : points.colwise()) {
+    model.soup.points.push_back(Vector<3>::Zero());
+    model.soup.points.back().template head<Dim>() = point;
+  }
+  for (const auto& cell : triangles.colwise()) {
+    model.soup.polygons.emplace_back(cell.begin(), cell.end());
+  }
+  return model;
+}
+
+void save(const std::string& path, const io::Model& model) {
+#ifdef FLBC_WITH_OPENMESH
+  if (io::extension_of(path) == "om") return openmesh::write_om(path, model);
+#endif
+  io::write_model(path, model);
+}
+
 }  // namespace
 
+void require_mesh_readable(const std::string& path) {
+  if (holds(path, kMeshFiles)) return;
+  throw OptionError(path + ": cannot tell the format; a model or mesh must end in " +
+                    io::extensions_of(kMeshFiles));
+}
+
 void require_formats(const MovedFile& file) {
-  if (!is_mesh_file(file.model)) {
-    throw OptionError(file.model +
-                      ": cannot tell the format; a model ends in .obj, .off, .ply, .stl or .om, a "
-                      "domain mesh in .vtu, .mesh, .node, .ele or .msh");
+  require_mesh_readable(file.model);
+#ifndef FLBC_WITH_OPENMESH
+  if (io::extension_of(file.output) == "om" && !is_rewritten(file)) {
+    throw OptionError(file.output + ": this program was built without OpenMesh");
   }
-  require_mesh_writable(file.output);
-  if (file.shows_displacement && has_extension(file.output, {"stl", "node", "ele", "msh"})) {
+#endif
+  require_writable(file.output, kMeshFiles);
+  if (file.shows_displacement && !holds(file.output, kShowing)) {
     throw OptionError(file.output +
                       ": cannot show displacements, for this format has neither colours nor "
-                      "fields; .obj, .off, .ply, .om, .vtu and .mesh have");
+                      "fields; " +
+                      io::extensions_of(kShowing) + " has");
   }
 }
 
 template <int Dim>
 void require_formats_of(const MovedFile& file) {
-  const auto& [model, output, shows] = file;
+  const auto& [model, output, shows, is_anew] = file;
   if (Dim == 2 && is_tetrahedra_file(model)) {
     throw OptionError(model + ": holds tetrahedra, but the cage is in 2D");
   }
-  if (is_model_file(model)) {
-    const bool is_mesh = Dim == 2 && has_extension(model, {"obj", "off"});
-    if (is_model_file(output) || (is_mesh && has_extension(output, {"vtu"}))) return;
-    throw OptionError(output + ": " + model +
-                      " holds polygons, so that the result must end in .obj, .off, .ply, .stl or "
-                      ".om" +
-                      (is_mesh ? ", or in .vtu" : ""));
-  }
-  if (Dim == 2 && is_model_file(output)) return;
-  require_domain_writable<Dim>(output);
+  const bool is_model = is_model_file(model);
+  const bool is_mesh = holds(model, {io::kMesh<Dim>});
+  if (is_mesh && holds(output, {io::kMesh<Dim>})) return;
+  if ((is_model || Dim == 2) && is_model_file(output)) return;
+  const char* const held = !is_model                    ? " holds tetrahedra"
+                           : is_tetrahedra_file(output) ? " holds no tetrahedra"
+                                                        : " holds polygons";
+  throw OptionError(
+      output + ": " + model + (Dim == 2 && !is_model ? " holds triangles" : held) +
+      ", so that the result must end in " +
+      (is_model ? io::extensions_of({Content::kModel}) : io::extensions_of({io::kMesh<Dim>})) +
+      (is_mesh && is_model ? ", or in .vtu" : ""));
 }
 
 std::vector<std::string> files_of_model(const std::string& path) {
   const auto extension = io::extension_of(path);
   const auto stem = path.substr(0, path.size() - extension.size());
-  if (has_extension(path, {"node", "ele"})) return {path, stem + "node", stem + "ele"};
-  if (has_extension(path, {"mesh"})) return {path, stem + "sol"};
+  if (extension == "node" || extension == "ele") return {path, stem + "node", stem + "ele"};
+  if (extension == "mesh") return {path, stem + "sol"};
   return {path};
 }
 
 template <int Dim>
-MovableModel<Dim>::MovableModel(const MovedFile& file)
-    : shows_displacement_(file.shows_displacement) {
-  const auto& [path, output, shows] = file;
+MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
+  const auto& path = file_.model;
   if (is_model_file(path)) {
-    model_ = std::make_unique<io::ModelFile>(path);
-    auto model = model_->model();
-    points_ = io::to_points<Dim>(model.soup, path);
-    require_same_vertices(path, model.soup);
-    is_rewritten_ = io::extension_of(path) == io::extension_of(output) && !shows;
-    if (is_rewritten_) return;
-    const bool replaces_colors = shows && model.attributes.colors.cols() > 0;
-    if (replaces_colors) model.attributes.colors.resize(3, 0);
-    losses_ = find_losses(model, output);
-    if (replaces_colors) losses_.emplace_back("colours (they show the displacement)");
+    model_.emplace(path);
+    if (!is_rewritten(file_)) find_losses(model_->model());
+    if (is_model_file(file_.output)) {
+      points_ = io::to_points<Dim>(model_->model().soup, path);
+      return;
+    }
+    model_.reset();
   }
-  if (model_ && is_model_file(output)) return;
-  model_.reset();
-  mesh_.mesh = io::read_domain<Dim>(path, mesh_.fields);
-  points_ = mesh_.mesh.points;
-  const auto lost_fields = find_losses(mesh_, output);
-  losses_.insert(losses_.end(), lost_fields.begin(), lost_fields.end());
+  mesh_ = io::read_domain<Dim>(path, fields_);
+  points_ = mesh_.points;
+  if (holds(file_.output, {Content::kFields})) return;
+  for (const auto& field : fields_) losses_.push_back("field \"" + field.name + "\"");
+  if (Dim == 2) find_losses(to_model<Dim>(points_, mesh_.cells.template topRows<3>()));
 }
 
 template <int Dim>
-void MovableModel<Dim>::write_model(const std::string& path, const PointList<Dim>& points,
-                                    const Eigen::VectorXd& lengths, double largest) const {
-  if (is_rewritten_) {
-    return io::write_file(path, [&](std::ostream& file) { model_->write(file, points); });
-  }
-  auto model = model_->moved(points);
-  if (shows_displacement_) model.attributes.colors = colors_of(lengths, largest);
-  save(path, model);
+void MovableModel<Dim>::find_losses(io::Model model) {
+  const bool replaces_colors = file_.shows_displacement && model.attributes.colors.cols() > 0;
+  if (replaces_colors) model.attributes.colors.resize(3, 0);
+  const auto lost = io::losses(model, file_.output);
+  losses_.insert(losses_.end(), lost.begin(), lost.end());
+  if (replaces_colors) losses_.emplace_back("colours (they show the displacement)");
+}
+
+template <int Dim>
+EdgeList MovableModel<Dim>::edges() const {
+  if (!model_) return edges_of_cells(mesh_);
+  const auto& soup = model()->soup;
+  return naming(file_.model,
+                [&] { return edges_of_polygons(points_, soup.polygons, soup.polylines); });
+}
+
+template <int Dim>
+gltf::Surface MovableModel<Dim>::surface() const {
+  return naming(file_.model, [&] {
+    return model_ ? gltf::surface_of_model<Dim>(*model()) : gltf::surface_of_domain(mesh_);
+  });
+}
+
+template <int Dim>
+void MovableModel<Dim>::print_losses() const {
+  if (losses_.empty()) return;
+  std::cerr << "flbc: " << file_.output << " does not keep all of " << file_.model << "; lost: ";
+  for (std::size_t k = 0; k < losses_.size(); ++k) std::cerr << (k > 0 ? ", " : "") << losses_[k];
+  std::cerr << '\n';
 }
 
 template <int Dim>
 void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& points,
                               const Eigen::VectorXd& lengths, double largest) const {
-  if (model_) return write_model(path, points, lengths, largest);
-  FieldMesh<Dim> moved{{points, mesh_.mesh.cells}, mesh_.fields};
-  if constexpr (Dim == 2) {
-    if (is_model_file(path)) {
-      auto model = to_model(moved.mesh);
-      if (shows_displacement_) model.attributes.colors = colors_of(lengths, largest);
-      return save(path, model);
+  if (model_ && is_rewritten(file_)) {
+    return io::write_file(path, [&](std::ostream& out) { model_->write(out, points); });
+  }
+  if (is_model_file(path)) {
+    auto model =
+        model_ ? model_->moved(points) : to_model<Dim>(points, mesh_.cells.template topRows<3>());
+    if (file_.shows_displacement) model.attributes.colors = colors_of(lengths, largest);
+    return save(path, model);
+  }
+  std::vector<io::VertexField> fields;
+  if (holds(path, {Content::kFields})) fields = fields_;
+  if (file_.shows_displacement) set_field(fields, lengths);
+  io::write_domain<Dim>(path, {points, mesh_.cells}, fields);
+}
+
+AnyModel load_any_model(const MovedFile& file) {
+  const auto load = [&](auto dimension) {
+    require_formats_of<dimension>(file);
+    return MovableModel<dimension>(file);
+  };
+  constexpr std::integral_constant<int, 2> kPlane;
+  constexpr std::integral_constant<int, 3> kSpace;
+  const auto& path = file.model;
+  if (is_tetrahedra_file(path)) return load(kSpace);
+  if (is_model_file(path)) {
+    if (holds(file.output, {Content::kMesh2D}) && !is_model_file(file.output)) return load(kPlane);
+    return load(kSpace);
+  }
+  // Only the cells of a .vtu file tell its dimension, and so what it can become.
+  try {
+    MovableModel<2> model(file);
+    require_formats_of<2>(file);
+    return model;
+  } catch (const InputError& no_triangles) {
+    try {
+      MovableModel<3> model(file);
+      require_formats_of<3>(file);
+      return model;
+    } catch (const InputError& no_tetrahedra) {
+      throw InputError(path + ": neither a 2D mesh (" + no_triangles.what() + ") nor a 3D one (" +
+                       no_tetrahedra.what() + ")");
     }
   }
-  if (shows_displacement_) set_field(moved.fields, lengths);
-  save(path, moved);
 }
 
 template void require_formats_of<2>(const MovedFile&);

@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A model or domain mesh file that can be written with its vertices elsewhere.
+//! Models and meshes of the interior: read once, shown, moved, written in every format.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "files/mesh_file.h"
+#include "flbc/edge_list.h"
+#include "flbc/io/formats.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
+#include "gltf/surface.h"
 
 namespace flbc::app {
 
-//! What becomes of the file.
+//! Models and meshes of the interior in all formats.
+constexpr std::initializer_list<io::Content> kMeshFiles = {
+    io::Content::kModel, io::Content::kMesh2D, io::Content::kMesh3D};
+
+//! What becomes of a file.
 struct MovedFile {
   std::string model;                //!< that is read
   std::string output;               //!< that is written, maybe with a place for a number
   bool shows_displacement = false;  //!< as colours, or as a field in .vtu and .mesh
+  bool is_anew = false;             //!< even into the format it has
 };
+
+//! \throws OptionError if the file's name has no extension of a model or a mesh of the interior
+void require_mesh_readable(const std::string& path);
 
 //! \throws OptionError or IoError before any work is done if no such model can be read, or such a
 //! result written, in any dimension
@@ -29,39 +42,58 @@ void require_formats_of(const MovedFile& file);
 //! The file with those that lie beside it in some formats: .node and .ele, .mesh and .sol.
 std::vector<std::string> files_of_model(const std::string& path);
 
-//! Models are rewritten in place if the result has the same format and no new colours: then nothing
-//! is lost. All else is read and written anew.
+//! A model or a mesh of the interior. Models are rewritten in place if the result has the same
+//! format and no new colours: then nothing is lost. All else is written anew.
 template <int Dim>
 class MovableModel {
  public:
-  //! \throws IoError, InputError; the latter also if the vertices of an .stl file are not those
-  //! that weights belong to (load_model())
-  explicit MovableModel(const MovedFile& file);
+  //! \throws IoError, InputError
+  explicit MovableModel(MovedFile file);
 
   //! Dim x P.
   const PointList<Dim>& points() const { return points_; }
 
+  //! What is in a model's file; null for meshes of the interior.
+  const io::Model* model() const { return model_ ? &model_->model() : nullptr; }
+
+  //! A mesh of the interior; empty for models.
+  const DomainMesh<Dim>& mesh() const { return mesh_; }
+
+  //! Along polygons, polylines and cells. \throws InputError naming the file
+  EdgeList edges() const;
+
+  //! Polygons with all their attributes, the triangles of a 2D mesh, the boundary of a 3D one.
+  //! \throws InputError naming the file if there are none
+  gltf::Surface surface() const;
+
   //! Normals that cannot follow the vertices.
   Index num_loose_normals() const { return model_ ? model_->num_loose_normals() : 0; }
 
-  //! What the results do not keep of the file, a phrase each.
-  const std::vector<std::string>& losses() const { return losses_; }
+  //! Tells on standard error what the results do not keep of the file.
+  void print_losses() const;
 
   //! Writes it with other points (Dim x P). \param lengths  of the displacements (P) \param largest
   //! length of all, which is shown in the last colour; both of no interest unless they are shown
+  //! \throws IoError, InputError
   void write(const std::string& path, const PointList<Dim>& points, const Eigen::VectorXd& lengths,
              double largest) const;
 
  private:
-  void write_model(const std::string& path, const PointList<Dim>& points,
-                   const Eigen::VectorXd& lengths, double largest) const;
+  void find_losses(io::Model model);
 
-  bool shows_displacement_;
-  bool is_rewritten_ = false;
+  MovedFile file_;
   PointList<Dim> points_;
-  std::unique_ptr<io::ModelFile> model_;  // null: it is a mesh of the interior
-  FieldMesh<Dim> mesh_;
-  std::vector<std::string> losses_;
+  std::optional<io::ModelFile> model_;
+  DomainMesh<Dim> mesh_;
+  std::vector<io::VertexField> fields_;  // at its vertices
+  std::vector<std::string> losses_;      // a phrase each
 };
+
+//! Either dimension. Models that remain models are taken for 3D ones, which loses nothing.
+using AnyModel = std::variant<MovableModel<2>, MovableModel<3>>;
+
+//! Reads a file whose dimension only its content may tell, with the checks of require_formats_of().
+//! \throws OptionError, IoError, InputError
+AnyModel load_any_model(const MovedFile& file);
 
 }  // namespace flbc::app

@@ -142,7 +142,8 @@ void add_texture_and_colors(const io::SurfaceAttributes& attributes, const Corne
 }  // namespace
 
 template <int Dim>
-Surface surface_of_polygons(const io::PolygonSoup& soup, const io::SurfaceAttributes& attributes) {
+Surface surface_of_model(const io::Model& model) {
+  const auto& [soup, attributes, others, is_text] = model;
   // A plane has normals of its own.
   PointList<3> normals = unit(attributes.normals);
   if (Dim == 2) normals.setZero();
@@ -171,7 +172,8 @@ Surface surface_of_polygons(const io::PolygonSoup& soup, const io::SurfaceAttrib
 
 template <int Dim>
 Surface surface_of_domain(const DomainMesh<Dim>& mesh) {
-  io::PolygonSoup soup;
+  io::Model model;
+  auto& soup = model.soup;
   for (const auto& point : mesh.points.colwise()) {
     soup.points.push_back(Vector<3>::Zero());
     soup.points.back().template head<Dim>() = point;
@@ -192,11 +194,11 @@ Surface surface_of_domain(const DomainMesh<Dim>& mesh) {
       }
     }
   }
-  return surface_of_polygons<Dim>(soup, {});
+  return surface_of_model<Dim>(model);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template Surface surface_of_polygons<Dim>(const io::PolygonSoup&, const io::SurfaceAttributes&); \
+#define FLBC_INSTANTIATE(Dim)                               \
+  template Surface surface_of_model<Dim>(const io::Model&); \
   template Surface surface_of_domain(const DomainMesh<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/io/obj_attributes.h"
+#include "flbc/io/model.h"
 
 namespace flbc::gltf {
 
@@ -25,10 +25,9 @@ struct Surface {
 //! triangles round a vertex, weighted by their angles there. In 2D triangles are turned
 //! counterclockwise, and all normals are (0, 0, 1). Vertices without a triangle are left out, and
 //! so are triangles that have a vertex twice.
-//! \param attributes  of the same polygons, or empty
 //! \throws InputError if no triangle is left
 template <int Dim>
-Surface surface_of_polygons(const io::PolygonSoup& soup, const io::SurfaceAttributes& attributes);
+Surface surface_of_model(const io::Model& model);
 
 //! The triangles of a 2D mesh, the boundary of a 3D one.
 //! \param mesh  positively oriented (normalize_and_validate)

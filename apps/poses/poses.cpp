@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "files/load.h"
 #include "flbc/errors.h"
+#include "flbc/io/cage_io.h"
 #include "flbc/io/keyframes.h"
+#include "flbc/io/model_file.h"
 #include "poses/file_sequence.h"
 
 namespace flbc::app {
@@ -30,7 +31,7 @@ CageFiles find_cages(const std::vector<std::string>& cages) {
 }
 
 int dimension_of_cage(const std::string& path) {
-  const auto soup = load_polygons(path);
+  const auto soup = io::read_polygons(path);
   if (!soup.polylines.empty()) return 2;
   const bool is_flat = std::all_of(soup.points.begin(), soup.points.end(), [&](const auto& point) {
     return point.z() == soup.points.front().z();
@@ -40,7 +41,7 @@ int dimension_of_cage(const std::string& path) {
 
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path) {
-  return io::to_points<Dim>(load_polygons(path), path);
+  return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
 template <int Dim>

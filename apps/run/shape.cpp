@@ -3,37 +3,23 @@
 
 #include <filesystem>
 
-#include "files/load.h"
-#include "files/load_surface.h"
 #include "flbc/errors.h"
 
 namespace flbc::app {
-namespace {
-
-// Points and lines have none, and are fine nevertheless.
-bool has_surface(const io::PolygonSoup& soup) {
-  for (const auto& polygon : soup.polygons) {
-    if (polygon.size() >= 3) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 template <int Dim>
 Shape<Dim> load_shape(const std::string& path) {
   const std::filesystem::path file(path);
-  const MovedFile moved{path, path};
-  require_formats(moved);
-  require_formats_of<Dim>(moved);
-  const auto soup = load_polygons(path);
+  if (!io::holds(path, {io::Content::kModel})) {
+    throw OptionError(path + ": cannot tell the format; a model must end in " +
+                      io::extensions_of({io::Content::kModel}));
+  }
   Shape<Dim> shape{file.stem().string(), file.extension().string()};
-  shape.file = std::make_unique<MovableModel<Dim>>(moved);
+  shape.file = std::make_unique<MovableModel<Dim>>(MovedFile{path, path});
   shape.points = shape.file->points();
   if (shape.points.cols() == 0) throw InputError(path + ": the model has no vertices");
-  shape.edges =
-      naming(path, [&] { return edges_of_polygons(shape.points, soup.polygons, soup.polylines); });
-  if (has_surface(soup)) shape.surface = load_surface<Dim>(path).surface;
+  shape.edges = shape.file->edges();
+  // Points and lines have none, and are fine nevertheless.
+  if (!shape.file->model()->soup.polygons.empty()) shape.surface = shape.file->surface();
   return shape;
 }
 

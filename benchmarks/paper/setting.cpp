@@ -7,6 +7,7 @@
 
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "paper/stopwatch.h"
 
 namespace flbc::bench {
@@ -27,7 +28,7 @@ bool prepare_domain(const Context& context, const Model& model, Index vertices) 
   const auto meshed = in_child(path, [&]() -> std::string {
     std::filesystem::create_directories(context.out + "/meshes");
     const auto file = cage_path(context, model);
-    const auto any = io::to_cage(io::read_obj(file), file);
+    const auto any = io::to_cage(io::read_polygons(file), file);
     std::visit([&](const auto& cage) { io::write_domain(path, mesh_of(cage, vertices)); }, any);
     return "";
   });
@@ -38,7 +39,7 @@ bool prepare_domain(const Context& context, const Model& model, Index vertices) 
 template <int Dim>
 Setting<Dim> load_setting(const Context& context, const Model& model, Index vertices) {
   const auto file = cage_path(context, model);
-  auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_obj(file), file));
+  auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(file), file));
   auto mesh = io::read_domain<Dim>(domain_path(context, model, vertices));
   Stopwatch watch;
   auto problem = make_problem(std::move(cage), std::move(mesh), DistanceScheme::kSquare);

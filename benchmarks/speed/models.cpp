@@ -25,6 +25,7 @@
 
 #include "flbc/flbc.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
 #include "speed/real_models.h"
 
 namespace {
@@ -138,7 +139,7 @@ bool run_isolated(const Case& test, const std::string& path, const Arguments& ar
   const pid_t child = fork();
   if (child == 0) {
     try {
-      const auto cage = io::to_cage(io::read_obj(path), path);
+      const auto cage = io::to_cage(io::read_polygons(path), path);
       std::visit([&](const auto& any) { run(test, any, arguments); }, cage);
       std::_Exit(EXIT_SUCCESS);
     } catch (const std::exception& error) {

@@ -16,6 +16,7 @@
 
 #include "flbc/flbc.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
 #include "speed/real_models.h"
 
 namespace {
@@ -122,7 +123,7 @@ int main(int argc, char** argv) {
     std::printf("\n");
     Totals totals;
     for_each_case(argv[1], kCases, arguments.only_model, [&](const Case& test, const auto& path) {
-      const auto cage = io::to_cage(io::read_obj(path), path);
+      const auto cage = io::to_cage(io::read_polygons(path), path);
       std::visit([&](const auto& any) { run(test, any, arguments, totals); }, cage);
     });
     std::printf("worst ratio %.2f, geometric mean %.2f, %d iterations in all\n", totals.worst,

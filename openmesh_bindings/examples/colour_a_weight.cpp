@@ -7,6 +7,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
+#include <flbc/io/model_file.h>
 #include <flbc/openmesh/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -23,9 +24,9 @@ int main(int argc, char** argv) try {
   // Exact coordinates: OpenMesh's own readers of text formats keep single precision only, with
   // which boundary vertices would lie a little beside the cage.
   const auto cage =
-      std::get<flbc::Cage<2>>(flbc::io::to_cage(flbc::io::read_obj(argv[1]), argv[1]));
+      std::get<flbc::Cage<2>>(flbc::io::to_cage(flbc::io::read_polygons(argv[1]), argv[1]));
   Mesh mesh;
-  const auto shape = flbc::io::read_obj(argv[2]);
+  const auto shape = flbc::io::read_polygons(argv[2]);
   for (const auto& point : shape.points) mesh.add_vertex(Mesh::Point(point[0], point[1], 0));
   for (const auto& face : shape.polygons) {
     mesh.add_face(Mesh::VertexHandle(face[0]), Mesh::VertexHandle(face[1]),

@@ -12,11 +12,12 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include <flbc/coordinates.h>
-#include <flbc/io/cage_io.h>
-#include <flbc/meshing.h>
-#include <flbc/interpolate.h>
 #include <flbc/cell_locator.h>
+#include <flbc/coordinates.h>
+#include <flbc/interpolate.h>
+#include <flbc/io/cage_io.h>
+#include <flbc/io/model_file.h>
+#include <flbc/meshing.h>
 #include <flbc/openmesh/lbc.h>
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -41,7 +42,7 @@ int main(int argc, char** argv) try {
     return 1;
   }
   const auto cage =
-      std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_obj(argv[1]), argv[1]));
+      std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_polygons(argv[1]), argv[1]));
   Mesh model;
   if (!OpenMesh::IO::read_mesh(model, argv[2])) return 4;
 

@@ -8,6 +8,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
+#include <flbc/io/model_file.h>
 #include <flbc/meshing.h>
 #include <flbc/openmesh/lbc.h>
 
@@ -22,7 +23,7 @@ int main(int argc, char** argv) try {
     return 1;
   }
   const auto cage =
-      std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_obj(argv[1]), argv[1]));
+      std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_polygons(argv[1]), argv[1]));
   Model model;
   if (!OpenMesh::IO::read_mesh(model, argv[2])) return 4;
 

@@ -7,6 +7,7 @@
 #include "flbc/coordinates.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
 #include "support/command_line.h"
@@ -97,7 +98,7 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
 template <int Dim>
 void expect_measures(const Json& json, const std::string& cage_file, const PointList<Dim>& points,
                      const std::string& weights_file) {
-  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_obj(cage_file), cage_file));
+  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
   const auto quality = measure_quality(cage.points, points, io::read_weights(weights_file));
   EXPECT_EQ(json["weights"]["min_weight"].get<double>(), quality.min_weight);
   EXPECT_EQ(json["weights"]["mean_influences"].get<double>(), quality.mean_influences);
@@ -128,7 +129,7 @@ TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
     const auto [at_model, on_mesh] = check("2d/letter", "d.obj");
     const auto model = sample("2d/letter_model.obj");
     expect_measures<2>(at_model, sample("2d/letter_cage.obj"),
-                       io::to_points<2>(io::read_obj(model), model), path("w.npy"));
+                       io::to_points<2>(io::read_polygons(model), model), path("w.npy"));
     expect_measures<2>(on_mesh, sample("2d/letter_cage.obj"),
                        io::read_domain<2>(path("d.obj")).points, path("v.npy"));
     EXPECT_EQ(on_mesh["weights"]["control_points_found"], 24);
@@ -137,7 +138,7 @@ TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
   const auto [at_model, on_mesh] = check("3d/limb", "d.mesh");
   const auto model = sample("3d/limb_model.obj");
   expect_measures<3>(at_model, sample("3d/limb_cage.obj"),
-                     io::to_points<3>(io::read_obj(model), model), path("w.npy"));
+                     io::to_points<3>(io::read_polygons(model), model), path("w.npy"));
   expect_measures<3>(on_mesh, sample("3d/limb_cage.obj"), io::read_domain<3>(path("d.mesh")).points,
                      path("v.npy"));
   EXPECT_FALSE(at_model["weights"].contains("mesh"));

@@ -11,6 +11,7 @@
 #include "flbc/coordinates.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
 #include "support/command_line.h"
@@ -40,8 +41,8 @@ template <int Dim>
 void solve_sample(const std::string& cage_file, const std::string& model_file,
                   const std::string& domain_file, const std::string& rows_file,
                   const std::string& report_file) {
-  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_obj(cage_file), cage_file));
-  const auto model = io::to_points<Dim>(io::read_obj(model_file), model_file);
+  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
+  const auto model = io::to_points<Dim>(io::read_polygons(model_file), model_file);
   const auto rows = io::read_weights(rows_file);
   const auto quality = measure_quality(cage.points, model, rows);
   EXPECT_LT(quality.max_partition_error, 1e-12);
@@ -93,7 +94,7 @@ TEST_F(CommandLine, EmbeddedModelsGetTheirOwnVertices) {
                             domain + " --tolerance 1e-6 -q");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.errors, "");
-    const auto model = io::read_obj(sample(name + "_model.obj")).points;
+    const auto model = io::read_polygons(sample(name + "_model.obj")).points;
     EXPECT_EQ(io::read_weights(path("w.dmat")).cols(), static_cast<Index>(model.size()));
   }
 }
@@ -142,6 +143,23 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
             0);
   result = run("info " + path("w.npy"));
   EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
+  ASSERT_EQ(run("convert -q " + path("w.npy") + " -o " + path("w.txt")).status, 0);
+  const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
+  EXPECT_EQ(words(run("info " + path("w.txt")).output), words(result.output));
+  for (const std::string mesh : {"d.obj", "d.mesh"}) {
+    SCOPED_TRACE(mesh);
+    const auto cage = sample(mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj");
+    ASSERT_EQ(run("mesh " + cage + " --vertices 800 -q -o " + path(mesh)).status, 0);
+    ASSERT_EQ(run("convert -q " + path(mesh) + " -o " + path("d.vtu")).status, 0);
+    const auto info = run("info " + path("d.vtu"));
+    EXPECT_EQ(info.status, 0) << info.errors;
+    EXPECT_NE(info.output.find(mesh == "d.obj" ? " triangles, area " : " tetrahedra, volume "),
+              std::string::npos)
+        << info.output;
+    if (mesh == "d.mesh") {
+      EXPECT_EQ(words(info.output), words(run("info " + path(mesh)).output));
+    }
+  }
   EXPECT_EQ(run("info " + path("missing.obj")).status, 4);
 }
 

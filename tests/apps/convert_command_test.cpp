@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "flbc/io/mesh_io.h"
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
 #include "support/command_line.h"
@@ -199,7 +199,7 @@ TEST_F(ConvertCommand, ModelsKeepPolygonsAndColours) {
     expect_converted(from + " -o " + path(name), "4 vertices\n");
     told = path(name);
   }
-  const auto soup = io::read_obj(path("b.obj"));
+  const auto soup = io::read_polygons(path("b.obj"));
   EXPECT_EQ(soup.points[2].z(), 0.1);
   EXPECT_EQ(soup.polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
   EXPECT_NE(slurp(path("b.obj")).find("v 0 1 0 0.2 0.4 0.6\n"), std::string::npos);

@@ -7,6 +7,7 @@
 #include "flbc/deform.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 #include "support/model_cages.h"
@@ -26,7 +27,7 @@ std::string without_vertices(const std::string& path) {
 
 template <int Dim>
 PointList<Dim> points_of(const std::string& path) {
-  return io::to_points<Dim>(io::read_obj(path), path);
+  return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
 class DeformCommand : public CommandLineTest {
@@ -88,11 +89,11 @@ class DeformCommand : public CommandLineTest {
     EXPECT_LT((lengths.row(0) - (moved - rest).colwise().norm()).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_GT(lengths.maxCoeff(), 0.1);
 
-    auto soup = io::read_obj(cage);
+    auto soup = io::read_polygons(cage);
     for (auto& point : soup.points) {
       point.head<2>() = Vector<2>(2 * point.x() - point.y() + 3, point.x() + 0.5 * point.y());
     }
-    io::write_obj(path("affine.obj"), soup);
+    io::write_model(path("affine.obj"), {soup});
     expect_deform(command + path("affine.obj") + " -o " + path("o.obj"), 0, size);
     PointList<Dim> expected = rest;
     expected.row(0) = (2 * rest.row(0) - rest.row(1)).array() + 3;

@@ -8,6 +8,7 @@
 #include "flbc/cage.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
@@ -18,7 +19,7 @@ namespace {
 
 // 3 x P.
 PointList<3> points_of(const std::string& path) {
-  return io::to_points<3>(io::read_obj(path), path);
+  return io::to_points<3>(io::read_polygons(path), path);
 }
 
 double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -148,6 +149,29 @@ TEST_F(ExportCommand, OtherFormatsOfModels) {
   check(file("m.stl",
              "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.25 0.25 0.125\n"
              "vertex 0.5 0.25 0.125\nvertex 0.25 0.5 0.125\nendloop\nendfacet\nendsolid\n"));
+}
+
+// What is painted on a model comes along from every format that has it.
+TEST_F(ExportCommand, AttributesOfOtherFormats) {
+  const auto model = file("m.obj",
+                          "v 0.25 0.25 0.125 1 0 0.2\nv 0.5 0.25 0.125 0 0.4 0\n"
+                          "v 0.25 0.5 0.125 0 0.6 1\nvt 0.25 0.5\nvt 1 0\nvt 0.5 1\n"
+                          "vn 0 0.6 0.8\nvn 0 0 1\nvn 0.8 0 0.6\nf 1/1/1 2/2/2 3/3/3\n");
+  const auto rest = " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron() +
+                    " -q -o " + path("s.glb");
+  expect_export(model + rest, 0, "");
+  const auto expected = skin("s.glb");
+  EXPECT_LT((expected.attribute("NORMAL").col(0) - Vector<3>(0, 0.6, 0.8)).norm(), 1e-6);
+  for (const std::string name : {"m.ply", "m.off", "m.om"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(run("convert " + model + " -q -o " + path(name)).status, 0);
+    expect_export(path(name) + rest, 0, "");
+    const auto found = skin("s.glb");
+    for (const char* attribute : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"}) {
+      ASSERT_TRUE(found.has(attribute)) << attribute;
+      EXPECT_LT(distance(found.attribute(attribute), expected.attribute(attribute)), 1e-6);
+    }
+  }
 }
 
 TEST_F(ExportCommand, RoundedWeights) {

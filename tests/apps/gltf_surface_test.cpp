@@ -35,9 +35,9 @@ io::PolygonSoup cube() {
   return soup;
 }
 
-TEST(SurfaceOfPolygons, NormalsDoNotDependOnHowACubeIsCut) {
+TEST(SurfaceOfModel, NormalsDoNotDependOnHowACubeIsCut) {
   const auto soup = cube();
-  const auto surface = gltf::surface_of_polygons<3>(soup, {});
+  const auto surface = gltf::surface_of_model<3>({soup});
   EXPECT_EQ(surface.triangles.cols(), 12);
   EXPECT_EQ(surface.sources, (std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(surface.texture_coordinates.cols(), 0);
@@ -48,7 +48,7 @@ TEST(SurfaceOfPolygons, NormalsDoNotDependOnHowACubeIsCut) {
   }
 }
 
-TEST(SurfaceOfPolygons, SeamsPartVerticesAndEqualValuesDoNot) {
+TEST(SurfaceOfModel, SeamsPartVerticesAndEqualValuesDoNot) {
   // Two quadrangles side by side. The left and the right have different texture coordinates where
   // they meet at vertex 1, equal ones of different number at vertex 4.
   io::PolygonSoup soup;
@@ -59,7 +59,7 @@ TEST(SurfaceOfPolygons, SeamsPartVerticesAndEqualValuesDoNot) {
   attributes.texture_coordinates << 0, 0.5, 0.5, 0, 0.6, 1, 1, 0.5,  //
       0, 0, 1, 1, 0, 0, 1, 1;
   attributes.corners = {{{0}, {1}, {2}, {3}}, {{4}, {5}, {6}, {7}}};
-  const auto surface = gltf::surface_of_polygons<3>(soup, attributes);
+  const auto surface = gltf::surface_of_model<3>({soup, attributes});
   EXPECT_EQ(surface.sources, (std::vector<Index>{0, 1, 1, 2, 3, 4, 5}));
   ASSERT_EQ(surface.texture_coordinates.cols(), 7);
   // In glTF the second coordinate points down.
@@ -81,7 +81,7 @@ TEST(SurfaceOfPolygons, SeamsPartVerticesAndEqualValuesDoNot) {
   }
 }
 
-TEST(SurfaceOfPolygons, NormalsOfTheFileComeFirst) {
+TEST(SurfaceOfModel, NormalsOfTheFileComeFirst) {
   auto soup = cube();
   io::SurfaceAttributes attributes;
   attributes.normals.setZero(3, 3);
@@ -91,7 +91,7 @@ TEST(SurfaceOfPolygons, NormalsOfTheFileComeFirst) {
   for (auto& reference : attributes.corners[0]) reference.normal = 0;  // the bottom
   for (auto& reference : attributes.corners[3]) reference.normal = 2;  // the back
   attributes.corners[5][0].normal = 1;                                 // no direction: none
-  const auto surface = gltf::surface_of_polygons<3>(soup, attributes);
+  const auto surface = gltf::surface_of_model<3>({soup, attributes});
   EXPECT_LT((surface.normals.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
   int bottoms = 0, backs = 0;
   for (std::size_t v = 0; v < surface.sources.size(); ++v) {
@@ -110,12 +110,12 @@ TEST(SurfaceOfPolygons, NormalsOfTheFileComeFirst) {
   EXPECT_EQ(backs, 4);
 }
 
-TEST(SurfaceOfPolygons, ColoursBecomeLinear) {
+TEST(SurfaceOfModel, ColoursBecomeLinear) {
   auto soup = cube();
   io::SurfaceAttributes attributes;
   attributes.colors.setConstant(3, 8, 0.5);
   attributes.colors.col(3) << 0, 1, 0.04;
-  const auto surface = gltf::surface_of_polygons<3>(soup, attributes);
+  const auto surface = gltf::surface_of_model<3>({soup, attributes});
   ASSERT_EQ(surface.colors.cols(), 8);
   // Halfway in sRGB is 21.4 % of the light.
   EXPECT_NEAR(surface.colors(0, 0), 0.21404114, 1e-8);
@@ -124,31 +124,31 @@ TEST(SurfaceOfPolygons, ColoursBecomeLinear) {
   EXPECT_NEAR(surface.colors(2, 3), 0.04 / 12.92, 1e-15);
 }
 
-TEST(SurfaceOfPolygons, WhatNobodySeesIsLeftOut) {
+TEST(SurfaceOfModel, WhatNobodySeesIsLeftOut) {
   auto soup = cube();
   soup.points.insert(soup.points.begin(), Vector<3>(9, 9, 9));
   for (auto& polygon : soup.polygons) {
     for (auto& point : polygon) ++point;
   }
   soup.polygons.push_back({1, 1, 2});
-  const auto surface = gltf::surface_of_polygons<3>(soup, {});
+  const auto surface = gltf::surface_of_model<3>({soup});
   EXPECT_EQ(surface.sources, (std::vector<Index>{1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(surface.triangles.cols(), 12);
   soup.polygons = {{1, 1, 2}};
-  expect_error<InputError>([&] { gltf::surface_of_polygons<3>(soup, {}); },
+  expect_error<InputError>([&] { gltf::surface_of_model<3>({soup}); },
                            {"no triangle among its 1 polygons"});
-  expect_error<InputError>([&] { gltf::surface_of_polygons<2>({}, {}); }, {"among its 0 polygons"});
+  expect_error<InputError>([&] { gltf::surface_of_model<2>({}); }, {"among its 0 polygons"});
 }
 
-TEST(SurfaceOfPolygons, TrianglesWithoutAreaHaveANormalToo) {
+TEST(SurfaceOfModel, TrianglesWithoutAreaHaveANormalToo) {
   io::PolygonSoup soup;
   soup.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   soup.polygons = {{0, 1, 2}};
-  const auto surface = gltf::surface_of_polygons<3>(soup, {});
+  const auto surface = gltf::surface_of_model<3>({soup});
   EXPECT_EQ(surface.normals, Vector<3>(0, 0, 1).replicate(1, 3));
 }
 
-TEST(SurfaceOfPolygons, In2DAllTrianglesFaceUp) {
+TEST(SurfaceOfModel, In2DAllTrianglesFaceUp) {
   io::PolygonSoup soup;
   soup.points = {{0, 0, 7}, {2, 0, 7}, {2, 2, 7}, {1, 0.5, 7}, {0, 2, 7}};
   soup.polygons = {{0, 1, 3}, {0, 4, 3}, {1, 2, 3}, {3, 2, 4}};
@@ -156,7 +156,7 @@ TEST(SurfaceOfPolygons, In2DAllTrianglesFaceUp) {
   attributes.normals = Vector<3>(0, 0, -1);
   for (const auto& polygon : soup.polygons) attributes.corners.emplace_back(polygon.size());
   for (auto& reference : attributes.corners[0]) reference.normal = 0;
-  const auto surface = gltf::surface_of_polygons<2>(soup, attributes);
+  const auto surface = gltf::surface_of_model<2>({soup, attributes});
   EXPECT_EQ(surface.sources.size(), 5);
   EXPECT_EQ(surface.normals, Vector<3>(0, 0, 1).replicate(1, 5));
   for (Eigen::Index t = 0; t < 4; ++t) EXPECT_GT(area(soup, surface, t).z(), 0);

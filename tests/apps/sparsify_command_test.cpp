@@ -9,6 +9,7 @@
 #include "flbc/edge_error.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poisson_reduction.h"
 #include "flbc/quality.h"
@@ -53,7 +54,7 @@ class SparsifyCommand : public CommandLineTest {
 
 template <int Dim>
 PointList<Dim> read_points(const std::string& path) {
-  return io::to_points<Dim>(io::read_obj(path), path);
+  return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
 template <int Dim>
@@ -147,9 +148,9 @@ TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
 // With a pose the weights are chosen for it.
 TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
   solve("2d/ring", "ring.vtu");
-  auto pose = io::read_obj(sample("2d/ring_cage.obj"));
+  auto pose = io::read_polygons(sample("2d/ring_cage.obj"));
   for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
-  io::write_obj(path("pose.obj"), pose);
+  io::write_model(path("pose.obj"), {pose});
   const auto arguments = "sparsify " + path("v.npy") + " --cage " + sample("2d/ring_cage.obj") +
                          " --points " + path("ring.vtu") + " -k 3 -q --method poisson -o ";
   ASSERT_EQ(run(arguments + path("without.npy")).status, 0);

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model_file.h"
 
 namespace flbc {
 namespace {
@@ -25,7 +25,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kMargin = 0.02;  // between model and cage, in diagonals of the cage
 
 PolygonSoup load(const std::string& name) {
-  return io::read_obj(std::string(FLBC_MESHES_DIR) + "/" + name + ".obj");
+  return io::read_polygons(std::string(FLBC_MESHES_DIR) + "/" + name + ".obj");
 }
 
 // The names, without extension, of the files of a folder that end like this.

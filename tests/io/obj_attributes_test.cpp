@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/io/obj_attributes.h"
+#include "flbc/io/model_file.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,7 @@ namespace {
 class ObjAttributesTest : public FolderTest {
  protected:
   io::SurfaceAttributes read(const std::string& text) const {
-    const auto path = make("model.obj", text);
-    return io::read_obj_attributes(path, io::read_obj(path));
+    return io::ModelFile(make("model.obj", text)).model().attributes;
   }
   void expect_refusal(const std::string& text, const std::string& message) const {
     expect_error<InputError>([&] { read(text); }, {"model.obj:", message});
@@ -80,7 +79,7 @@ TEST_F(ObjAttributesTest, DamagedFiles) {
   expect_refusal(triangle + "vt zero 0\n", "model.obj:4: expected a number");
   expect_refusal(triangle + "vn 0 1\n", "model.obj:4: expected a number");
   expect_refusal(triangle + "vn 0 0 1\\\nv 1 2 3\nf 1 2 3\n", "continued on another line");
-  expect_error<IoError>([&] { io::read_obj_attributes(path("absent.obj"), {}); }, {"absent.obj"});
+  expect_error<IoError>([&] { io::ModelFile(path("absent.obj")); }, {"absent.obj"});
 }
 
 // Twice the area of a triangle along z.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model_file.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flbc/errors.h"
+#include "flbc/io/cage_io.h"
 #include "support/io_files.h"
 
 namespace flbc::io {
@@ -27,8 +28,8 @@ struct Malformed {
 
 class PolygonFile : public FolderTest {
  protected:
-  PolygonSoup obj(const std::string& content) { return read_obj(make("soup.obj", content)); }
-  PolygonSoup off(const std::string& content) { return read_off(make("soup.off", content)); }
+  PolygonSoup obj(const std::string& content) { return read_polygons(make("soup.obj", content)); }
+  PolygonSoup off(const std::string& content) { return read_polygons(make("soup.off", content)); }
 };
 
 // Three points per awkward number.
@@ -57,8 +58,8 @@ const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";  // 3 lines
 TEST_F(PolygonFile, ObjRoundTripIsBitEqual) {
   PolygonSoup soup = awkward_soup();
   soup.polylines = {{0, 1}, {3, 2, 1, 3}};
-  write_obj(path("soup.obj"), soup);
-  const PolygonSoup read = read_obj(path("soup.obj"));
+  write_model(path("soup.obj"), {soup});
+  const PolygonSoup read = read_polygons(path("soup.obj"));
   expect_same_points(read, soup);
   EXPECT_EQ(read.polygons, soup.polygons);
   EXPECT_EQ(read.polylines, soup.polylines);
@@ -66,8 +67,8 @@ TEST_F(PolygonFile, ObjRoundTripIsBitEqual) {
 
 TEST_F(PolygonFile, OffRoundTripIsBitEqual) {
   const PolygonSoup soup = awkward_soup();
-  write_off(path("soup.off"), soup);
-  const PolygonSoup read = read_off(path("soup.off"));
+  write_model(path("soup.off"), {soup});
+  const PolygonSoup read = read_polygons(path("soup.off"));
   expect_same_points(read, soup);
   EXPECT_EQ(read.polygons, soup.polygons);
   EXPECT_TRUE(read.polylines.empty());
@@ -220,47 +221,74 @@ TEST_F(PolygonFile, MalformedOff) {
   }
 }
 
+// A cage as others write it: in single precision, each corner by itself.
+TEST_F(PolygonFile, StlCages) {
+  PolygonSoup cube;
+  for (int k = 0; k < 8; ++k) cube.points.emplace_back(k % 2 / 3.0, k / 2 % 2 / 7.0, k / 4);
+  cube.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const bool is_text : {true, false}) {
+    SCOPED_TRACE(is_text);
+    Model model{cube};
+    model.is_text = is_text;
+    write_model(path("cube.stl"), model);
+    const auto cage = std::get<Cage<3>>(to_cage(read_polygons(path("cube.stl")), "cube.stl"));
+    EXPECT_TRUE(find_defects(cage).empty());
+    EXPECT_EQ(cage.facets.cols(), 12);
+    ASSERT_EQ(cage.size(), 8);
+    for (const auto& point : cube.points) {
+      const Vector<3> rounded = point.cast<float>().cast<double>();
+      EXPECT_TRUE(((cage.points.colwise() - rounded).array() == 0).colwise().all().any());
+    }
+  }
+}
+
 TEST_F(PolygonFile, FilesThatCannotBeOpened) {
-  expect_error<IoError>([&] { read_obj(path("missing")); }, {path("missing"), "No such file"});
-  expect_error<IoError>([&] { read_off(path("missing")); }, {path("missing"), "No such file"});
-  expect_error<IoError>([&] { read_obj(folder_.string()); }, {folder_.string(), "directory"});
-  expect_error<IoError>([&] { write_obj(path("no/file"), awkward_soup()); }, {path("no/file")});
-  expect_error<IoError>([&] { write_off(path("no/file"), awkward_soup()); }, {path("no/file")});
+  for (const std::string extension : {"obj", "off", "ply", "stl", "om"}) {
+    const auto missing = path("missing." + extension);
+    expect_error<IoError>([&] { read_polygons(missing); }, {missing, "No such file"});
+    const auto folder = path("folder." + extension);
+    std::filesystem::create_directory(folder);
+    expect_error<IoError>([&] { read_polygons(folder); }, {folder, "directory"});
+    if (extension == "om") continue;
+    const auto nowhere = path("no/file." + extension);
+    expect_error<IoError>([&] { write_model(nowhere, {awkward_soup()}); }, {nowhere});
+  }
 }
 
 TEST_F(PolygonFile, PointsThatAreNotFiniteAreNotWritten) {
   PolygonSoup soup = awkward_soup();
   soup.points.back()[1] = 1.0 / 0.0;
-  expect_error<InputError>([&] { write_obj(path("soup.obj"), soup); }, {"not finite"});
-  expect_error<InputError>([&] { write_off(path("soup.off"), soup); }, {"not finite"});
+  expect_error<InputError>([&] { write_model(path("soup.obj"), {soup}); }, {"not finite"});
+  expect_error<InputError>([&] { write_model(path("soup.off"), {soup}); }, {"not finite"});
   EXPECT_TRUE(names().empty());
 }
 
 // The numbers of elements are those that the models' descriptions give.
-struct Model {
+struct Sample {
   const char* file;
   std::size_t points, polygons, polylines;
 };
 
-class ModelFile : public ::testing::TestWithParam<Model> {};
+class SampleFile : public ::testing::TestWithParam<Sample> {};
 
-TEST_P(ModelFile, HasItsElements) {
+TEST_P(SampleFile, HasItsElements) {
   const std::string file = std::string(FLBC_MODELS_DIR) + "/" + GetParam().file;
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
-  const PolygonSoup soup = read_obj(file);
+  const PolygonSoup soup = read_polygons(file);
   EXPECT_EQ(soup.points.size(), GetParam().points);
   EXPECT_EQ(soup.polygons.size(), GetParam().polygons);
   EXPECT_EQ(soup.polylines.size(), GetParam().polylines);
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, ModelFile,
-    ::testing::Values(Model{"3d/horse_cage.obj", 51, 98, 0}, Model{"3d/arm_cage.obj", 58, 112, 0},
-                      Model{"3d/armadillo_cage.obj", 110, 216, 0},
-                      Model{"2d/woody_model.obj", 694, 1267, 0},
-                      Model{"2d/woody-control-edgeset.obj", 26, 0, 1},
-                      Model{"2d/LBClogo-control-edgeset.obj", 6, 0, 1},
-                      Model{"defective/inconsistent_orientation_cage.obj", 8, 12, 0}));
+    All, SampleFile,
+    ::testing::Values(Sample{"3d/horse_cage.obj", 51, 98, 0}, Sample{"3d/arm_cage.obj", 58, 112, 0},
+                      Sample{"3d/armadillo_cage.obj", 110, 216, 0},
+                      Sample{"2d/woody_model.obj", 694, 1267, 0},
+                      Sample{"2d/woody-control-edgeset.obj", 26, 0, 1},
+                      Sample{"2d/LBClogo-control-edgeset.obj", 6, 0, 1},
+                      Sample{"defective/inconsistent_orientation_cage.obj", 8, 12, 0}));
 
 }  // namespace
 }  // namespace flbc::io

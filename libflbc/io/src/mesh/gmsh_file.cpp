@@ -244,14 +244,17 @@ void write_gmsh_4(TextWriter& writer, const DomainMesh<3>& mesh) {
 
 }  // namespace
 
-DomainMesh<3> read_gmsh(const std::string& path) {
+DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>*) {
   return GmshReader(path).read();
 }
 
-void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh, GmshVersion version) {
-  TextWriter writer(out);
-  version == GmshVersion::k41 ? write_gmsh_4(writer, mesh) : write_gmsh_2(writer, mesh);
-  writer.flush();
+void write_gmsh(const std::string& path, const DomainMesh<3>& mesh, const std::vector<VertexField>&,
+                GmshVersion version) {
+  write_file(path, [&](std::ostream& out) {
+    TextWriter writer(out);
+    version == GmshVersion::k41 ? write_gmsh_4(writer, mesh) : write_gmsh_2(writer, mesh);
+    writer.flush();
+  });
 }
 
 }  // namespace flbc::io

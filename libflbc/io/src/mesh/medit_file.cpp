@@ -3,6 +3,7 @@
 // a reference number. Vertices are numbered from 1. Numbers per vertex have a file of their own,
 // .sol, of the same form.
 #include <algorithm>
+#include <filesystem>
 
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
@@ -102,9 +103,7 @@ std::vector<VertexField> read_solution(TextReader& reader, Index num_vertices) {
   return fields;
 }
 
-}  // namespace
-
-DomainMesh<3> read_medit(const std::string& path) {
+DomainMesh<3> read_medit_mesh(const std::string& path) {
   TextReader reader(path, read_file(path), {'#', false});
   read_header(reader);
   DomainMesh<3> mesh;
@@ -163,7 +162,7 @@ std::vector<VertexField> read_medit_solution(const std::string& path, Index num_
   reader.fail("the file has no section SolAtVertices");
 }
 
-void write_medit(std::ostream& out, const DomainMesh<3>& mesh) {
+void write_medit_mesh(std::ostream& out, const DomainMesh<3>& mesh) {
   TextWriter writer(out);
   writer << "MeshVersionFormatted 2\nDimension 3\n";
   writer << "Vertices\n" << mesh.num_vertices() << "\n";
@@ -198,6 +197,33 @@ void write_medit_solution(std::ostream& out, const std::vector<VertexField>& fie
   }
   writer << "End\n";
   writer.flush();
+}
+
+std::string solution_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".sol").string();
+}
+
+}  // namespace
+
+DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fields) {
+  auto mesh = read_medit_mesh(path);
+  const std::string solution = solution_path(path);
+  if (fields && std::filesystem::exists(solution)) {
+    *fields = read_medit_solution(solution, mesh.num_vertices());
+  }
+  return mesh;
+}
+
+void write_medit(const std::string& path, const DomainMesh<3>& mesh,
+                 const std::vector<VertexField>& fields, GmshVersion) {
+  // Neither of the two files appears if one of them cannot be written.
+  write_file(path, [&](std::ostream& out) {
+    write_medit_mesh(out, mesh);
+    out.flush();
+    if (!out || fields.empty()) return;
+    write_file(solution_path(path),
+               [&](std::ostream& solution) { write_medit_solution(solution, fields); });
+  });
 }
 
 }  // namespace flbc::io

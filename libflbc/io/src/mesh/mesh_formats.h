@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -15,28 +14,27 @@
 
 namespace flbc::io {
 
-DomainMesh<3> read_medit(const std::string& path);
-
-//! The scalars per vertex in a .sol file of MEDIT's.
-std::vector<VertexField> read_medit_solution(const std::string& path, Index num_vertices);
-
-DomainMesh<3> read_gmsh(const std::string& path);
-
-//! \param path the .node or the .ele file; the other one lies beside it
-DomainMesh<3> read_tetgen(const std::string& path);
-
-//! \param fields  receives the scalars per vertex; null passes them over
+//! \param fields  receive the scalars per vertex, where the format has them; null passes them over
+DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>* fields);
+DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fields);
+DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>* fields);
 template <int Dim>
 DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fields);
+//! \param path  the .node or the .ele file; the other one lies beside it
+DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>* fields);
 
-void write_medit(std::ostream& out, const DomainMesh<3>& mesh);
-void write_medit_solution(std::ostream& out, const std::vector<VertexField>& fields);
-void write_gmsh(std::ostream& out, const DomainMesh<3>& mesh, GmshVersion version);
-void write_tetgen(const std::string& path, const DomainMesh<3>& mesh);
-
+//! \param fields  empty where the format has none \param version  of interest to Gmsh
+void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
+                     const std::vector<VertexField>& fields, GmshVersion version);
+void write_medit(const std::string& path, const DomainMesh<3>& mesh,
+                 const std::vector<VertexField>& fields, GmshVersion version);
+void write_gmsh(const std::string& path, const DomainMesh<3>& mesh,
+                const std::vector<VertexField>& fields, GmshVersion version);
+void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
+                  const std::vector<VertexField>& fields, GmshVersion version);
 template <int Dim>
-void write_vtu(std::ostream& out, const DomainMesh<Dim>& mesh,
-               const std::vector<VertexField>& fields);
+void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
+               const std::vector<VertexField>& fields, GmshVersion version);
 
 //! Writes `first + index` of each vertex of a cell, each after a blank, and a line break.
 template <int Dim>

@@ -2,25 +2,16 @@
 #include "flbc/io/mesh_io.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <ostream>
 #include <set>
 
 #include "base/messages.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model_file.h"
+#include "formats/format_table.h"
 #include "mesh/mesh_formats.h"
 
 namespace flbc::io {
 namespace {
-
-template <int Dim>
-[[noreturn]] void fail_extension(const char* action, const std::string& path,
-                                 const char* extensions) {
-  throw OptionError(std::string("cannot ") + action + " a " + std::to_string(Dim) + "D mesh as \"" +
-                    path + "\": the extension must be " + extensions);
-}
 
 DomainMesh<2> from_soup(const std::string& path, const PolygonSoup& soup) {
   DomainMesh<2> mesh;
@@ -58,39 +49,15 @@ PolygonSoup to_soup(const DomainMesh<2>& mesh) {
   return soup;
 }
 
-std::string solution_path(const std::string& path) {
-  return std::filesystem::path(path).replace_extension(".sol").string();
-}
-
-DomainMesh<3> read_medit_with(const std::string& path, std::vector<VertexField>* fields) {
-  auto mesh = read_medit(path);
-  const std::string solution = solution_path(path);
-  if (fields && std::filesystem::exists(solution)) {
-    *fields = read_medit_solution(solution, mesh.num_vertices());
-  }
-  return mesh;
-}
-
-// \param fields  may be null
 template <int Dim>
-DomainMesh<Dim> parse(const std::string& path, std::vector<VertexField>* fields) {
-  const std::string extension = extension_of(path);
-  if (extension == "vtu") return read_vtu<Dim>(path, fields);
-  if constexpr (Dim == 2) {
-    if (extension == "obj") return from_soup(path, read_obj(path));
-    if (extension == "off") return from_soup(path, read_off(path));
-    fail_extension<Dim>("read", path, ".obj, .off or .vtu");
-  } else {
-    if (extension == "mesh") return read_medit_with(path, fields);
-    if (extension == "node" || extension == "ele") return read_tetgen(path);
-    if (extension == "msh") return read_gmsh(path);
-    fail_extension<Dim>("read", path, ".mesh, .node, .ele, .msh or .vtu");
-  }
+const MeshFormat<Dim>& mesh_format(const std::string& path, const std::string& action) {
+  const std::string phrase = action + " a " + std::to_string(Dim) + "D mesh as";
+  return format_of(path, kMesh<Dim>, phrase.c_str()).template mesh<Dim>();
 }
 
 template <int Dim>
 DomainMesh<Dim> read_and_validate(const std::string& path, std::vector<VertexField>* fields) {
-  DomainMesh<Dim> mesh = parse<Dim>(path, fields);
+  DomainMesh<Dim> mesh = mesh_format<Dim>(path, "read").read(path, fields);
   try {
     normalize_and_validate(mesh);
   } catch (const InputError& error) {
@@ -120,6 +87,15 @@ void check_fields(const std::string& path, const std::vector<VertexField>& field
 
 }  // namespace
 
+DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>*) {
+  return from_soup(path, read_polygons(path));
+}
+
+void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
+                     const std::vector<VertexField>&, GmshVersion) {
+  write_model(path, {to_soup(mesh)});
+}
+
 template <int Dim>
 DomainMesh<Dim> read_domain(const std::string& path) {
   return read_and_validate<Dim>(path, nullptr);
@@ -136,37 +112,13 @@ DomainMesh<Dim> read_domain(const std::string& path, std::vector<VertexField>& f
 template <int Dim>
 void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
                   const std::vector<VertexField>& fields, GmshVersion gmsh_version) {
-  const std::string extension = extension_of(path);
+  const auto& format = mesh_format<Dim>(path, "write");
   check_fields(path, fields, mesh.num_vertices());
-  if (extension == "vtu") {
-    return write_file(path, [&](std::ostream& out) { write_vtu(out, mesh, fields); });
+  if (!fields.empty() && !format.keeps_fields) {
+    throw OptionError("cannot write fields with \"" + path +
+                      "\": this format has no place for them");
   }
-  if constexpr (Dim == 3) {
-    if (extension == "mesh") {
-      // Neither of the two files appears if one of them cannot be written.
-      return write_file(path, [&](std::ostream& out) {
-        write_medit(out, mesh);
-        out.flush();
-        if (!out || fields.empty()) return;
-        write_file(solution_path(path),
-                   [&](std::ostream& solution) { write_medit_solution(solution, fields); });
-      });
-    }
-  }
-  if (!fields.empty()) {
-    fail_extension<Dim>("write fields with", path, Dim == 2 ? ".vtu" : ".vtu or .mesh");
-  }
-  if constexpr (Dim == 2) {
-    if (extension == "obj") return write_obj(path, to_soup(mesh));
-    if (extension == "off") return write_off(path, to_soup(mesh));
-    fail_extension<Dim>("write", path, ".obj, .off or .vtu");
-  } else {
-    if (extension == "node" || extension == "ele") return write_tetgen(path, mesh);
-    if (extension == "msh") {
-      return write_file(path, [&](std::ostream& out) { write_gmsh(out, mesh, gmsh_version); });
-    }
-    fail_extension<Dim>("write", path, ".mesh, .node, .ele, .msh or .vtu");
-  }
+  format.write(path, mesh, fields, gmsh_version);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                          \

@@ -90,14 +90,15 @@ void write_elements(std::ostream& out, const DomainMesh<3>& mesh) {
 
 }  // namespace
 
-DomainMesh<3> read_tetgen(const std::string& path) {
+DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>*) {
   DomainMesh<3> mesh;
   const std::int64_t first = read_nodes(with_extension(path, "node"), mesh);
   read_elements(with_extension(path, "ele"), first, mesh);
   return mesh;
 }
 
-void write_tetgen(const std::string& path, const DomainMesh<3>& mesh) {
+void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
+                  const std::vector<VertexField>&, GmshVersion) {
   // The .ele file gets its name only once the nodes are safely written, so that a failure leaves
   // neither of the two.
   write_file(with_extension(path, "node"), [&](std::ostream& nodes) {

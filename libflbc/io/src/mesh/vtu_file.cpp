@@ -2,6 +2,7 @@
 // Writes VTK's XML format for unstructured grids, as text.
 #include <ostream>
 
+#include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
 
 namespace flbc::io {
@@ -86,21 +87,25 @@ void write_fields(TextWriter& writer, const std::vector<VertexField>& fields) {
 }  // namespace
 
 template <int Dim>
-void write_vtu(std::ostream& out, const DomainMesh<Dim>& mesh,
-               const std::vector<VertexField>& fields) {
-  TextWriter writer(out);
-  writer << "<?xml version=\"1.0\"?>\n"
-         << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-         << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.num_vertices()
-         << "\" NumberOfCells=\"" << mesh.num_cells() << "\">\n";
-  write_points(writer, mesh);
-  write_cells(writer, mesh);
-  write_fields(writer, fields);
-  writer << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  writer.flush();
+void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
+               const std::vector<VertexField>& fields, GmshVersion) {
+  write_file(path, [&](std::ostream& out) {
+    TextWriter writer(out);
+    writer << "<?xml version=\"1.0\"?>\n"
+           << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.num_vertices()
+           << "\" NumberOfCells=\"" << mesh.num_cells() << "\">\n";
+    write_points(writer, mesh);
+    write_cells(writer, mesh);
+    write_fields(writer, fields);
+    writer << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    writer.flush();
+  });
 }
 
-template void write_vtu(std::ostream&, const DomainMesh<2>&, const std::vector<VertexField>&);
-template void write_vtu(std::ostream&, const DomainMesh<3>&, const std::vector<VertexField>&);
+template void write_vtu(const std::string&, const DomainMesh<2>&, const std::vector<VertexField>&,
+                        GmshVersion);
+template void write_vtu(const std::string&, const DomainMesh<3>&, const std::vector<VertexField>&,
+                        GmshVersion);
 
 }  // namespace flbc::io

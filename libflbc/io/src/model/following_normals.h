@@ -3,7 +3,7 @@
 //! Normals of a model while its vertices move.
 #pragma once
 
-#include "flbc/io/model_file.h"
+#include "flbc/io/model.h"
 
 namespace flbc::io {
 

@@ -9,21 +9,20 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "formats/format_table.h"
 #include "model/following_normals.h"
-#include "model/model_scan.h"
 #include "text/text_writer.h"
 
 namespace flbc::io {
 namespace {
 
-ModelScan scan(const std::string& path) {
-  const auto extension = extension_of(path);
-  if (extension == "obj") return scan_obj(path);
-  if (extension == "off") return scan_off(path);
-  if (extension == "ply") return scan_ply(path);
-  if (extension == "stl") return scan_stl(path);
-  if (extension == "om") return scan_om(path);
-  throw OptionError(path + ": expected a file ending in .obj, .off, .ply, .stl or .om");
+ModelScan scan(const std::string& path, Extent extent) {
+  // Standard input has no extension.
+  const auto& format = format_of(path == "-" ? "-.obj" : path, Content::kModel, "read a model as");
+  ModelScan scan;
+  scan.text = read_file(path);
+  format.model.read(path, extent, scan);
+  return scan;
 }
 
 template <class Scalar>
@@ -79,11 +78,85 @@ PointList<3> in_space(const PolygonSoup& soup, const PointList<Dim>& points) {
   return result;
 }
 
+template <class Matrix>
+bool are_single(const Matrix& numbers) {
+  return numbers.template cast<float>().template cast<double>() == numbers;
+}
+
+bool are_single(const std::vector<Vector<3>>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const auto& point) { return are_single<Vector<3>>(point); });
+}
+
+// Levels written as decimals with a few digits are meant to be these levels.
+bool are_levels(const PointList<3>& colors) {
+  constexpr double kDigits = 1e-3;
+  const Eigen::ArrayXXd levels = 255 * colors.array();
+  return ((levels - levels.round()).abs() <= kDigits).all();
+}
+
+bool has_larger_polygons(const Model& model) {
+  const auto& polygons = model.soup.polygons;
+  return std::any_of(polygons.begin(), polygons.end(),
+                     [](const auto& polygon) { return polygon.size() > 3; });
+}
+
+class Losses {
+ public:
+  Losses(const Model& model, const Format& format)
+      : model_(model), format_(format), phrases_(model.others) {}
+
+  std::vector<std::string> find() {
+    const auto kept = format_.model.attributes;
+    add_if(kept != Attributes::kCorners && !model_.soup.polylines.empty(), "polylines");
+    if (format_.extension == "stl") add_losses_of_stl();
+    if (kept == Attributes::kNone) add_all_attributes();
+    if (kept == Attributes::kVertices) add_losses_of_vertices();
+    return phrases_;
+  }
+
+ private:
+  void add_if(bool is_lost, const char* phrase) {
+    if (is_lost) phrases_.emplace_back(phrase);
+  }
+
+  void add_losses_of_stl() {
+    add_if(true, "the order of the vertices");
+    add_if(!are_single(model_.soup.points), "coordinates beyond single precision");
+    add_if(has_larger_polygons(model_), "polygons (they are cut into triangles)");
+  }
+
+  void add_all_attributes() {
+    const auto& attributes = model_.attributes;
+    add_if(attributes.colors.cols() > 0, "colours");
+    add_if(attributes.normals.cols() > 0, "normals of vertices");
+    add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
+  }
+
+  // Of formats whose attributes belong to vertices.
+  void add_losses_of_vertices() {
+    const auto texture = texture_coordinates_at_vertices(model_);
+    add_if(!normals_at_vertices(model_), "normals (they differ between corners of a vertex)");
+    add_if(!texture, "texture coordinates (they differ between corners of a vertex)");
+    add_if(format_.extension == "om" && texture && !are_single(*texture),
+           "texture coordinates beyond single precision");
+    add_if(!are_levels(model_.attributes.colors), "colours beyond 256 levels");
+  }
+
+  const Model& model_;
+  const Format& format_;
+  std::vector<std::string> phrases_;
+};
+
 }  // namespace
+
+PolygonSoup read_polygons(const std::string& path) {
+  return scan(path, Extent::kGeometry).model.soup;
+}
 
 struct ModelFile::Content {
   explicit Content(const std::string& path)
-      : file(scan(path)), normals(file.model, file.face_normals) {}
+      : file(scan(path, Extent::kEverything)), normals(file.model, file.face_normals) {}
 
   ModelScan file;
   FollowingNormals normals;
@@ -149,5 +222,18 @@ template void ModelFile::write<2>(std::ostream&, const PointList<2>&) const;
 template void ModelFile::write<3>(std::ostream&, const PointList<3>&) const;
 template Model ModelFile::moved<2>(const PointList<2>&) const;
 template Model ModelFile::moved<3>(const PointList<3>&) const;
+
+std::vector<std::string> losses(const Model& model, const std::string& path) {
+  const auto content = holds(path, {Content::kModel}) ? Content::kModel : Content::kMesh2D;
+  return Losses(model, format_of(path, content, "write a model as")).find();
+}
+
+void write_model(const std::string& path, const Model& model) {
+  const auto& format = format_of(path, Content::kModel, "write a model as");
+  if (!format.model.write) {
+    throw OptionError(path + ": this format is written by OpenMesh (flbc::openmesh)");
+  }
+  write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
+}
 
 }  // namespace flbc::io

@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "flbc/io/model_file.h"
+#include "flbc/io/model.h"
+#include "text/text_reader.h"
 
 namespace flbc::io {
 
@@ -36,6 +37,9 @@ struct Site {
   Index index;        //!< of the vertex, normal or polygon
 };
 
+//! How much of a file is read.
+enum class Extent : std::uint8_t { kGeometry, kEverything };
+
 //! A file, read.
 struct ModelScan {
   std::string text{};           //!< the whole file
@@ -44,18 +48,47 @@ struct ModelScan {
   std::vector<Site> sites{};    //!< in the order of the file
 };
 
-//! Appends the sites of three numbers.
-inline void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
-                      Index index) {
-  for (std::uint8_t d = 0; d < 3; ++d) scan.sites.push_back({places[d], kind, d, index});
-}
+//! Three numbers in a row.
+struct PlacedNumbers {
+  std::array<NumberPlace, 3> places;
+  Vector<3> values = Vector<3>::Zero();
+};
 
-//! Read a file. \throws as ModelFile does
-ModelScan scan_obj(const std::string& path);
-ModelScan scan_off(const std::string& path);
-ModelScan scan_ply(const std::string& path);
-ModelScan scan_stl(const std::string& path);
-ModelScan scan_om(const std::string& path);
+//! Reads the next three numbers on this line. One that is missing is 0, and its place is right
+//! after the one before.
+//! \param reader  of a file of `size` bytes
+//! \param needed  an error if there are fewer
+PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed);
+
+//! Appends the sites of three numbers.
+void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
+               Index index);
+
+//! Has texture coordinates and normals that are columns v belong to vertices v.
+void refer_to_vertices(Model& model);
+
+//! Adds a phrase to what else is in the file, once.
+void add_other(Model& model, const std::string& phrase);
+
+//! The nearest of the 256 levels of a colour, from 0 to 1.
+int level_of(double intensity);
+
+//! Attributes for formats that have them at vertices, no columns where a model has none.
+struct VertexAttributes {
+  explicit VertexAttributes(const Model& model);
+
+  PointList<3> normals;
+  PointList<2> texture;
+  const PointList<3>& colors;
+};
+
+//! Read a file, whose text `scan` has; .ply, .stl and .om are read to every extent.
+//! \throws as ModelFile does
+void read_obj(const std::string& path, Extent extent, ModelScan& scan);
+void read_off(const std::string& path, Extent extent, ModelScan& scan);
+void read_ply(const std::string& path, Extent extent, ModelScan& scan);
+void read_stl(const std::string& path, Extent extent, ModelScan& scan);
+void read_om(const std::string& path, Extent extent, ModelScan& scan);
 
 //! Write a model.
 void write_obj(std::ostream& out, const Model& model);

@@ -1,142 +1,272 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <system_error>
 
-#include "flbc/io/files.h"
-#include "flbc/io/polygon_file.h"
-#include "text/text_reader.h"
+#include "model/model_scan.h"
 #include "text/text_writer.h"
 
 namespace flbc::io {
 namespace {
 
-// Faces may stand before their vertices, so whether an index is too large shows only at the end of
-// the file; the largest one and its line are enough to tell.
-class LargestIndex {
+// References to a list that may stand after them in the file, so that whether one is too large
+// shows only at its end; the largest one and its line are enough to tell.
+class References {
  public:
-  void see(Index index, std::int64_t line) {
-    if (index <= index_) return;
-    index_ = index;
-    line_ = line;
+  explicit References(const char* things) : things_(things) {}
+
+  // \param number  from 1, or backwards from the latest of `seen` if negative; 0 = none
+  // \param digits  the number as it stands in the file, if it may be too large for its type
+  // \return from 0, -1 = none
+  Index resolve(const TextReader& reader, std::int64_t number, std::size_t seen,
+                std::string_view digits = {}) {
+    const std::int64_t index = number >= 0 ? number - 1 : static_cast<std::int64_t>(seen) + number;
+    if ((number < 0 && index < 0) || index >= std::numeric_limits<Index>::max()) {
+      reader.fail("the index " + (digits.empty() ? std::to_string(number) : quoted(digits)) +
+                  " is out of range; there are " + std::to_string(seen) + " " + things_ +
+                  " before this line");
+    }
+    if (index > largest_) {
+      largest_ = index;
+      line_ = reader.line();
+    }
+    return static_cast<Index>(index);
   }
-  void check(const TextReader& reader, std::size_t num_points) const {
-    if (index_ < static_cast<std::int64_t>(num_points)) return;
-    reader.fail_at(line_,
-                   out_of_range_message(std::int64_t{index_} + 1, "vertices", 1, num_points));
+
+  void check(const TextReader& reader, std::size_t count) const {
+    if (largest_ < static_cast<std::int64_t>(count)) return;
+    reader.fail_at(line_, out_of_range_message(largest_ + 1, things_, 1, count));
   }
 
  private:
-  Index index_ = -1;
+  const char* things_;
+  std::int64_t largest_ = -1;
   std::int64_t line_ = 1;
 };
 
-bool is_integer(std::string_view text) {
-  std::int64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, value);
-  return parsed.ec == std::errc() && parsed.ptr == end;
+// The numbers of "i", "i/t", "i/t/n" or "i//n"; 0 stands for one that is missing.
+struct Corner {
+  std::int64_t vertex = 0;
+  std::int64_t texture_coordinate = 0;
+  std::int64_t normal = 0;
+};
+
+Corner parse_corner(const TextReader& reader, std::string_view word) {
+  Corner corner;
+  std::string_view rest = word;
+  for (auto* const number : {&corner.vertex, &corner.texture_coordinate, &corner.normal}) {
+    const std::size_t slash = rest.find('/');
+    const std::string_view digits = rest.substr(0, slash);
+    const bool is_vertex = number == &corner.vertex;
+    if (is_vertex || !digits.empty()) {
+      const char* const end = digits.data() + digits.size();
+      const auto [stop, error] = std::from_chars(digits.data(), end, *number);
+      const bool is_huge = error == std::errc::result_out_of_range;
+      if (stop != end || error == std::errc::invalid_argument || (is_huge && !is_vertex)) break;
+      constexpr auto kHuge = std::numeric_limits<std::int64_t>::max();
+      if (is_huge) *number = digits[0] == '-' ? -kHuge : kHuge;
+    }
+    if (slash == std::string_view::npos) return corner;
+    rest.remove_prefix(slash + 1);
+  }
+  reader.fail_expected("a vertex index", word);
 }
 
-// Texture and normal indices are of no use here, but a word like "3/x" means a damaged file.
-bool are_optional_indices(std::string_view text) {
-  for (int part = 0; part < 2; ++part) {
-    const std::size_t slash = text.find('/');
-    const std::string_view digits = text.substr(0, slash);
-    if (!digits.empty() && !is_integer(digits)) return false;
-    if (slash == std::string_view::npos) return true;
-    text.remove_prefix(slash + 1);
-  }
-  return false;
+template <int Dim>
+PointList<Dim> to_matrix(const std::vector<Vector<Dim>>& columns) {
+  PointList<Dim> matrix(Dim, columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) matrix.col(k) = columns[k];
+  return matrix;
 }
 
-// "i", "i/t", "i/t/n" or "i//n"; i counts from 1, or backwards from the latest vertex if negative.
-Index parse_corner(const TextReader& reader, std::string_view word, std::size_t num_points) {
-  const std::size_t slash = word.find('/');
-  const std::string_view digits = word.substr(0, slash);
-  std::int64_t number = 0;
-  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool is_number =
-      parsed.ec != std::errc::invalid_argument && parsed.ptr == digits.data() + digits.size() &&
-      (slash == std::string_view::npos || are_optional_indices(word.substr(slash + 1)));
-  if (!is_number) reader.fail_expected("a vertex index", word);
-  if (number == 0 && parsed.ec == std::errc()) {
-    reader.fail("the index 0 is out of range; vertices are numbered from 1");
+class ObjReader {
+ public:
+  ObjReader(const std::string& path, Extent extent, ModelScan& scan)
+      : scan_(scan),
+        model_(scan.model),
+        reads_attributes_(extent == Extent::kEverything),
+        reader_(path, scan.text, {'#', true}) {}
+
+  void run() {
+    while (reader_.next_line()) read_line(reader_.word());
+    if (model_.soup.points.empty()) {
+      reader_.fail("the file ends without a vertex (\"v\" line)");
+    }
+    vertices_.check(reader_, model_.soup.points.size());
+    if (!reads_attributes_) return;
+    to_texture_coordinates_.check(reader_, texture_coordinates_.size());
+    to_normals_.check(reader_, normals_.size());
+    model_.attributes.texture_coordinates = to_matrix<2>(texture_coordinates_);
+    model_.attributes.normals = to_matrix<3>(normals_);
+    finish_colors();
+    if (scan_.text.find('#') != std::string::npos) add_other(model_, "comments");
   }
-  const std::int64_t index =
-      number > 0 ? number - 1 : static_cast<std::int64_t>(num_points) + number;
-  if (parsed.ec != std::errc() || index < 0 || index >= std::numeric_limits<Index>::max()) {
-    reader.fail("the index " + quoted(digits) + " is out of range; there are " +
-                std::to_string(num_points) + " vertices before this line");
+
+ private:
+  void read_line(std::string_view keyword) {
+    if (keyword == "v") {
+      read_vertex();
+    } else if (keyword == "f") {
+      read_corners("a face", 3, model_.soup.polygons.emplace_back());
+    } else if (keyword == "l") {
+      read_corners("a polyline", 2, model_.soup.polylines.emplace_back());
+    } else if (!reads_attributes_) {
+      return;
+    } else if (keyword == "vt" || keyword == "vn") {
+      const std::int64_t line = reader_.line();
+      keyword == "vt" ? read_texture_coordinate() : read_normal();
+      if (reader_.line() == line) return;
+      // Where it is passed over, the rest would be a line of its own.
+      reader_.fail(
+          "a texture coordinate (\"vt\") or normal (\"vn\") is continued on another line; it must "
+          "be on one");
+    } else {
+      add_other(model_, "lines with " + quoted(keyword));
+    }
   }
-  return static_cast<Index>(index);
+
+  // Coordinates, of which planar curves lack z, maybe a weight, or a colour with or without alpha.
+  void read_vertex() {
+    const auto numbers = next_numbers(reader_, scan_.text.size(), 2);
+    add(numbers.places, TripleKind::kPoint, model_.soup.points.size());
+    model_.soup.points.push_back(numbers.values);
+    std::vector<double> others;
+    while (reader_.has_word()) others.push_back(reader_.number());
+    if (others.size() == 3 || others.size() == 4) {
+      colors_.emplace_back(others[0], others[1], others[2]);
+    }
+    most_others_ = std::max(most_others_, others.size());
+  }
+
+  void read_corners(const char* element, std::size_t at_least, std::vector<Index>& vertices) {
+    const std::int64_t line = reader_.line();
+    const bool is_face = at_least == 3;
+    std::vector<CornerReferences> references;
+    while (reader_.has_word()) {
+      const std::string_view word = reader_.word();
+      const Corner corner = parse_corner(reader_, word);
+      if (corner.vertex == 0) {
+        reader_.fail("the index 0 is out of range; vertices are numbered from 1");
+      }
+      const std::size_t slash = word.find('/');
+      vertices.push_back(vertices_.resolve(reader_, corner.vertex, model_.soup.points.size(),
+                                           word.substr(0, slash)));
+      if (!reads_attributes_) continue;
+      if (is_face) references.push_back(resolve(corner));
+      if (!is_face && slash != std::string_view::npos) {
+        add_other(model_, "texture coordinates of polylines");
+      }
+    }
+    if (vertices.size() < at_least) {
+      reader_.fail_at(line, std::string(element) + " needs at least " + std::to_string(at_least) +
+                                " vertices, found " + std::to_string(vertices.size()));
+    }
+    if (reads_attributes_ && is_face) model_.attributes.corners.push_back(std::move(references));
+  }
+
+  CornerReferences resolve(const Corner& corner) {
+    return {to_texture_coordinates_.resolve(reader_, corner.texture_coordinate,
+                                            texture_coordinates_.size()),
+            to_normals_.resolve(reader_, corner.normal, normals_.size())};
+  }
+
+  void read_texture_coordinate() {
+    const double u = reader_.number();
+    texture_coordinates_.emplace_back(u, reader_.has_word() ? reader_.number() : 0);
+    if (reader_.has_word()) add_other(model_, "third texture coordinates");
+  }
+
+  void read_normal() {
+    const auto numbers = next_numbers(reader_, scan_.text.size(), 3);
+    add(numbers.places, TripleKind::kNormal, normals_.size());
+    normals_.push_back(numbers.values);
+  }
+
+  void add(const std::array<NumberPlace, 3>& places, TripleKind kind, std::size_t index) {
+    if (reads_attributes_) add_sites(scan_, places, kind, static_cast<Index>(index));
+  }
+
+  // Numbers beyond [0, 1] mean something else.
+  void finish_colors() {
+    const bool are_colors = colors_.size() == model_.soup.points.size() &&
+                            std::all_of(colors_.begin(), colors_.end(), [](const Vector<3>& color) {
+                              return color.minCoeff() >= 0 && color.maxCoeff() <= 1;
+                            });
+    if (are_colors) {
+      model_.attributes.colors = to_matrix<3>(colors_);
+      if (most_others_ > 3) add_other(model_, "transparency");
+    } else if (most_others_ > 0) {
+      add_other(model_, "numbers after the coordinates of vertices");
+    }
+  }
+
+  ModelScan& scan_;
+  Model& model_;
+  bool reads_attributes_;
+  TextReader reader_;
+  std::size_t most_others_ = 0;  // numbers after the coordinates of a vertex
+  std::vector<Vector<2>> texture_coordinates_;
+  std::vector<Vector<3>> normals_;
+  std::vector<Vector<3>> colors_;
+  References vertices_{"vertices"};
+  References to_texture_coordinates_{"texture coordinates"};
+  References to_normals_{"normals"};
+};
+
+void write_corner(TextWriter& writer, Index vertex, const CornerReferences& references) {
+  writer << " " << std::int64_t{vertex} + 1;
+  const auto [texture, normal] = references;
+  if (texture < 0 && normal < 0) return;
+  writer << "/";
+  if (texture >= 0) writer << std::int64_t{texture} + 1;
+  if (normal >= 0) writer << "/" << std::int64_t{normal} + 1;
 }
 
-std::vector<Index> read_corners(TextReader& reader, const char* what, std::size_t at_least,
-                                std::size_t num_points, LargestIndex& largest) {
-  const std::int64_t line = reader.line();
-  std::vector<Index> corners;
-  while (reader.has_word()) {
-    corners.push_back(parse_corner(reader, reader.word(), num_points));
-    largest.see(corners.back(), reader.line());
+void write_vertices(TextWriter& writer, const Model& model) {
+  const auto& [texture_coordinates, normals, colors, corners] = model.attributes;
+  for (std::size_t v = 0; v < model.soup.points.size(); ++v) {
+    const Vector<3>& p = model.soup.points[v];
+    writer << "v " << p[0] << " " << p[1] << " " << p[2];
+    if (colors.cols() > 0) {
+      for (const double intensity : colors.col(v)) writer << " " << intensity;
+    }
+    writer << "\n";
   }
-  if (corners.size() < at_least) {
-    reader.fail_at(line, std::string(what) + " needs at least " + std::to_string(at_least) +
-                             " vertices, found " + std::to_string(corners.size()));
+  for (const auto& t : texture_coordinates.colwise()) {
+    writer << "vt " << t[0] << " " << t[1] << "\n";
   }
-  return corners;
-}
-
-// Planar curves may lack z. After x, y, z a weight or a colour may follow.
-Vector<3> read_point(TextReader& reader) {
-  Vector<3> point;
-  point[0] = reader.number();
-  point[1] = reader.number();
-  point[2] = 0;
-  if (reader.has_word()) point[2] = reader.number();
-  while (reader.has_word()) reader.number();
-  return point;
+  for (const auto& n : normals.colwise()) {
+    writer << "vn " << n[0] << " " << n[1] << " " << n[2] << "\n";
+  }
 }
 
 }  // namespace
 
-PolygonSoup read_obj(const std::string& path) {
-  TextReader reader(path, read_file(path), {'#', true});
-  PolygonSoup soup;
-  LargestIndex largest;
-  while (reader.next_line()) {
-    const std::string_view keyword = reader.word();
-    if (keyword == "v") {
-      soup.points.push_back(read_point(reader));
-    } else if (keyword == "f") {
-      soup.polygons.push_back(read_corners(reader, "a face", 3, soup.points.size(), largest));
-    } else if (keyword == "l") {
-      soup.polylines.push_back(read_corners(reader, "a polyline", 2, soup.points.size(), largest));
-    }
-  }
-  if (soup.points.empty()) reader.fail("the file ends without a vertex (\"v\" line)");
-  largest.check(reader, soup.points.size());
-  return soup;
+void read_obj(const std::string& path, Extent extent, ModelScan& scan) {
+  ObjReader(path, extent, scan).run();
 }
 
-void write_obj(const std::string& path, const PolygonSoup& soup) {
-  write_file(path, [&](std::ostream& out) {
-    TextWriter writer(out);
-    for (const Vector<3>& p : soup.points) {
-      writer << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+void write_obj(std::ostream& out, const Model& model) {
+  TextWriter writer(out);
+  write_vertices(writer, model);
+  for (const auto& polyline : model.soup.polylines) {
+    writer << "l";
+    for (const Index vertex : polyline) writer << " " << std::int64_t{vertex} + 1;
+    writer << "\n";
+  }
+  const auto& corners = model.attributes.corners;
+  for (std::size_t f = 0; f < model.soup.polygons.size(); ++f) {
+    const auto& polygon = model.soup.polygons[f];
+    writer << "f";
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      write_corner(writer, polygon[k], corners.empty() ? CornerReferences{} : corners[f][k]);
     }
-    const auto write_all = [&](const char* keyword, const auto& elements) {
-      for (const std::vector<Index>& corners : elements) {
-        writer << keyword;
-        for (const Index corner : corners) writer << " " << std::int64_t{corner} + 1;
-        writer << "\n";
-      }
-    };
-    write_all("l", soup.polylines);
-    write_all("f", soup.polygons);
-    writer.flush();
-  });
+    writer << "\n";
+  }
+  writer.flush();
 }
 
 }  // namespace flbc::io

@@ -22,7 +22,7 @@ class TextReader;
 //! Parse a file's content; `path` is for messages.
 WeightMatrix read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
-WeightMatrix read_npy(const std::string& path, const std::string& content);
+WeightMatrix read_npy(const std::string& path, std::string content);
 
 void write_mtx(std::ostream& out, const WeightMatrix& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);

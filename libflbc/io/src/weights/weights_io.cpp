@@ -6,15 +6,10 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "weights/weights_formats.h"
+#include "formats/format_table.h"
 
 namespace flbc::io {
 namespace {
-
-[[noreturn]] void fail_extension(const char* action, const std::string& path) {
-  throw OptionError(std::string("cannot ") + action + " weights as \"" + path +
-                    "\": the extension must be .mtx, .dmat or .npy");
-}
 
 // A reader would refuse them, so they are not written in the first place.
 void check_finite(const WeightMatrix& weights) {
@@ -30,22 +25,14 @@ void check_finite(const WeightMatrix& weights) {
 }  // namespace
 
 WeightMatrix read_weights(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension == "mtx") return read_mtx(path, read_file(path));
-  if (extension == "dmat") return read_dmat(path, read_file(path));
-  if (extension == "npy") return read_npy(path, read_file(path));
-  fail_extension("read", path);
+  const auto& format = format_of(path, Content::kWeights, "read weights as");
+  return format.weights.read(path, read_file(path));
 }
 
 void write_weights(const std::string& path, const WeightMatrix& weights) {
-  const std::string extension = extension_of(path);
-  const auto write = extension == "mtx"    ? write_mtx
-                     : extension == "dmat" ? write_dmat
-                     : extension == "npy"  ? write_npy
-                                           : nullptr;
-  if (!write) fail_extension("write", path);
+  const auto& format = format_of(path, Content::kWeights, "write weights as");
   check_finite(weights);
-  write_file(path, [&](std::ostream& out) { write(out, weights); });
+  write_file(path, [&](std::ostream& out) { format.weights.write(out, weights); });
 }
 
 }  // namespace flbc::io

@@ -10,7 +10,7 @@
 
 namespace flbc::io {
 
-WeightMatrix read_npy(const std::string& path, const std::string& content) {
+WeightMatrix read_npy(const std::string& path, std::string content) {
   const NpyHeader header = read_npy_header(path, content);
   const BinaryBlock block{path, content, header.size};
   const bool by_point = !header.fortran_order;

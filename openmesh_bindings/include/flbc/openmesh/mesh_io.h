@@ -5,15 +5,15 @@
 
 #include <string>
 
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model.h"
 
 namespace flbc::openmesh {
 
-//! Reads .ply and .om (by io::ModelFile, exactly, because OpenMesh's readers crash on damaged files)
-//! and any other format OpenMesh reads. Polygons stay polygons, and faces that no half-edge mesh
-//! could hold (non-manifold edges) are kept, so that a cage's defects can be named instead of
+//! Reads .ply and .om (by io::ModelFile, exactly, because OpenMesh's readers crash on damaged
+//! files) and any other format OpenMesh reads. Polygons stay polygons, and faces that no half-edge
+//! mesh could hold (non-manifold edges) are kept, so that a cage's defects can be named instead of
 //! vanishing. OpenMesh's readers keep single precision only; read .obj and .off exactly with
-//! io::read_obj and io::read_off. Corners of .stl files are merged where they coincide.
+//! io::read_polygons. Corners of .stl files are merged where they coincide.
 //! \throws IoError if the file cannot be opened, InputError if it makes no sense
 io::PolygonSoup read_polygons(const std::string& path);
 

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "flbc/cage.h"
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model.h"
 
 namespace flbc::io {
 

@@ -1,33 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Model files whose vertices move: everything else in them stays as it was.
+//! Model files: reading them exactly, moving their vertices, writing them in other formats.
 #pragma once
 
 #include <iosfwd>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "flbc/io/obj_attributes.h"
-#include "flbc/io/polygon_file.h"
+#include "flbc/io/model.h"
 
 namespace flbc::io {
 
-//! What is in a model file: polygons with what their vertices and corners carry.
-struct Model {
-  PolygonSoup soup{};
-  //! Where a file has attributes of vertices, those of vertex v are columns v.
-  SurfaceAttributes attributes{};
-  std::vector<std::string> others{};  //!< what else is in the file, as phrases for messages
-  bool is_text = true;  //!< whether the file is text, where its format leaves a choice
-};
+//! Reads what cages need of a model file: points, polygons and polylines, exactly as they stand.
+//! Attributes are passed over, so that damage there is none here.
+//! \param path  a file as ModelFile reads it; "-" is standard input, as .obj
+//! \throws IoError; InputError naming file and line, byte or element; OptionError for another
+//! extension
+PolygonSoup read_polygons(const std::string& path);
 
 //! A file in which the coordinates of the vertices can be exchanged.
 class ModelFile {
  public:
-  //! Reads .obj, .off, .ply, .stl or .om (OpenMesh, up to version 2.2). Corners of .stl files that
-  //! coincide are one vertex, as OpenMesh has it: numbered as they first occur.
+  //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl or .om (OpenMesh, up to version
+  //! 2.2). Corners of .stl files that coincide are one vertex: numbered as they first occur.
   //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
   //! extension
   explicit ModelFile(const std::string& path);
@@ -61,11 +57,6 @@ class ModelFile {
   struct Content;
   std::unique_ptr<const Content> content_;
 };
-
-//! Attributes of vertices, a column per vertex; 0 where a vertex is in no polygon. Empty if the
-//! model has none; nothing if some vertex has not the same value at all its corners.
-std::optional<PointList<2>> texture_coordinates_at_vertices(const Model& model);
-std::optional<PointList<3>> normals_at_vertices(const Model& model);
 
 //! What a file of the format that `path` names would not keep of a model, a phrase each.
 std::vector<std::string> losses(const Model& model, const std::string& path);

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "model/model_attributes.h"
 #include "model/ply_reader.h"
 #include "text/text_reader.h"
 
@@ -220,11 +218,8 @@ class PlyScanner {
 
 }  // namespace
 
-ModelScan scan_ply(const std::string& path) {
-  ModelScan scan;
-  scan.text = read_file(path);
+void read_ply(const std::string& path, Extent, ModelScan& scan) {
   PlyScanner(path, scan).run();
-  return scan;
 }
 
 }  // namespace flbc::io

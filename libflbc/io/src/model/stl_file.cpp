@@ -9,11 +9,7 @@
 #include <unordered_map>
 
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "model/model_attributes.h"
 #include "model/model_scan.h"
-#include "text/text_place.h"
-#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -125,12 +121,11 @@ class StlScanner {
       }
       if (keyword == "facet") {
         reader.word();  // normal
-        begin_triangle(next_numbers(reader, scan_.text));
+        begin_triangle(next_numbers(reader, scan_.text.size(), 0));
         corners = 0;
       } else if (keyword == "vertex") {
         if (++corners > 3) reader.fail("a facet has more than 3 vertices");
-        auto numbers = next_numbers(reader, scan_.text);
-        if (numbers.places[2].size == 0) reader.fail("a vertex needs 3 coordinates");
+        auto numbers = next_numbers(reader, scan_.text.size(), 3);
         for (int d = 0; d < 3; ++d) {
           const auto& place = numbers.places[d];
           numbers.values[d] =
@@ -173,11 +168,8 @@ class StlScanner {
 
 }  // namespace
 
-ModelScan scan_stl(const std::string& path) {
-  ModelScan scan;
-  scan.text = read_file(path);
+void read_stl(const std::string& path, Extent, ModelScan& scan) {
   StlScanner(path, scan).run();
-  return scan;
 }
 
 }  // namespace flbc::io

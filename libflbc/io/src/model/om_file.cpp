@@ -3,11 +3,8 @@
 #include <string>
 
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "model/model_attributes.h"
 #include "model/model_scan.h"
 #include "model/om_reader.h"
-#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -129,11 +126,8 @@ class OmScanner {
 
 }  // namespace
 
-ModelScan scan_om(const std::string& path) {
-  ModelScan scan;
-  scan.text = read_file(path);
+void read_om(const std::string& path, Extent, ModelScan& scan) {
   OmScanner(path, scan).run();
-  return scan;
 }
 
 }  // namespace flbc::io

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "flbc/errors.h"
-#include "model/model_attributes.h"
 #include "model/model_scan.h"
 #include "text/text_writer.h"
 
@@ -43,17 +42,6 @@ class PlyNumbers {
   TextWriter& writer_;
   bool is_text_;
   bool is_first_ = true;
-};
-
-struct VertexAttributes {
-  explicit VertexAttributes(const Model& model)
-      : normals(normals_at_vertices(model).value_or(PointList<3>())),
-        texture(texture_coordinates_at_vertices(model).value_or(PointList<2>())),
-        colors(model.attributes.colors) {}
-
-  PointList<3> normals;
-  PointList<2> texture;
-  const PointList<3>& colors;
 };
 
 void write_header(TextWriter& writer, const Model& model, const VertexAttributes& attributes,

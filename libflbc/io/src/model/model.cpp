@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/model_attributes.h"
-
-#include <algorithm>
-#include <cmath>
+#include "flbc/io/model.h"
 
 namespace flbc::io {
 namespace {
@@ -48,27 +45,6 @@ std::optional<PointList<2>> texture_coordinates_at_vertices(const Model& model) 
 
 std::optional<PointList<3>> normals_at_vertices(const Model& model) {
   return at_vertices(model.attributes.normals, model, &CornerReferences::normal);
-}
-
-void refer_to_vertices(Model& model) {
-  const bool has_texture = model.attributes.texture_coordinates.cols() > 0;
-  const bool has_normals = model.attributes.normals.cols() > 0;
-  if (!has_texture && !has_normals) return;
-  for (const auto& polygon : model.soup.polygons) {
-    auto& corners = model.attributes.corners.emplace_back();
-    for (const Index vertex : polygon) {
-      corners.push_back({has_texture ? vertex : -1, has_normals ? vertex : -1});
-    }
-  }
-}
-
-void add_other(Model& model, const std::string& phrase) {
-  auto& others = model.others;
-  if (std::find(others.begin(), others.end(), phrase) == others.end()) others.push_back(phrase);
-}
-
-int level_of(double intensity) {
-  return static_cast<int>(std::lround(255 * std::clamp(intensity, 0.0, 1.0)));
 }
 
 }  // namespace flbc::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What model files hold, whatever their format.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/types.h"
+
+namespace flbc::io {
+
+//! A file's points, polylines and polygons as they stand, indices from 0.
+struct PolygonSoup {
+  std::vector<Vector<3>> points;             //!< missing third coordinates are 0
+  std::vector<std::vector<Index>> polygons;  //!< vertices in order, the first not repeated
+  std::vector<std::vector<Index>>
+      polylines;  //!< vertices in order; closed if the last is the first
+};
+
+//! What a polygon's corner refers to beside its vertex; -1 = nothing.
+struct CornerReferences {
+  Index texture_coordinate = -1;
+  Index normal = -1;
+};
+
+//! The attributes of a surface. All lists are empty where there are none.
+struct SurfaceAttributes {
+  PointList<2> texture_coordinates{};  //!< 2 x T, as in the file: the second one points up
+  PointList<3> normals{};              //!< 3 x N, of any length
+  //! 3 x P in [0, 1]; empty unless every vertex has a colour.
+  PointList<3> colors{};
+  std::vector<std::vector<CornerReferences>> corners{};  //!< by polygon and corner
+};
+
+//! Polygons with what their vertices and corners carry.
+struct Model {
+  PolygonSoup soup{};
+  //! Where a file has attributes of vertices, those of vertex v are columns v.
+  SurfaceAttributes attributes{};
+  std::vector<std::string> others{};  //!< what else is in the file, as phrases for messages
+  bool is_text = true;  //!< whether the file is text, where its format leaves a choice
+};
+
+//! Texture coordinates as an attribute of vertices.
+//! \return 2 x P, 0 where a vertex is in no polygon; empty if the model has none; nothing if some
+//! vertex has not the same value at all its corners
+std::optional<PointList<2>> texture_coordinates_at_vertices(const Model& model);
+
+//! Normals as an attribute of vertices.
+//! \return 3 x P, likewise
+std::optional<PointList<3>> normals_at_vertices(const Model& model);
+
+}  // namespace flbc::io

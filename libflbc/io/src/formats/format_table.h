@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The table of all formats with their readers and writers.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flbc/io/formats.h"
+#include "flbc/io/mesh_io.h"
+#include "model/model_scan.h"
+
+namespace flbc::io {
+
+//! To what a format attaches colours, normals and texture coordinates.
+enum class Attributes { kNone, kVertices, kCorners };
+
+//! Readers and writers of models.
+struct ModelFormat {
+  void (*read)(const std::string& path, Extent extent, ModelScan& scan) = nullptr;
+  void (*write)(std::ostream& out, const Model& model) = nullptr;
+  Attributes attributes = Attributes::kNone;
+};
+
+//! Readers and writers of meshes of the interior.
+template <int Dim>
+struct MeshFormat {
+  DomainMesh<Dim> (*read)(const std::string& path, std::vector<VertexField>* fields) = nullptr;
+  void (*write)(const std::string& path, const DomainMesh<Dim>& mesh,
+                const std::vector<VertexField>& fields, GmshVersion version) = nullptr;
+  bool keeps_fields = false;
+};
+
+//! Readers and writers of weights.
+struct WeightFormat {
+  WeightMatrix (*read)(const std::string& path, std::string content) = nullptr;
+  void (*write)(std::ostream& out, const WeightMatrix& weights) = nullptr;
+};
+
+//! Where a pointer is null, there is no such content.
+struct Format {
+  std::string_view extension;
+  ModelFormat model{};
+  MeshFormat<2> mesh_2d{};
+  MeshFormat<3> mesh_3d{};
+  WeightFormat weights{};
+
+  template <int Dim>
+  const auto& mesh() const {
+    if constexpr (Dim == 2) {
+      return mesh_2d;
+    } else {
+      return mesh_3d;
+    }
+  }
+};
+
+//! The format of a file.
+//! \param action  what is to be done, for the message
+//! \throws OptionError naming all that would do if it does not hold such content
+const Format& format_of(const std::string& path, Content content, const char* action);
+
+}  // namespace flbc::io

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/formats.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "formats/format_table.h"
+#include "mesh/mesh_formats.h"
+#include "weights/weights_formats.h"
+
+namespace flbc::io {
+namespace {
+
+// Triangles in the plane are polygons.
+constexpr MeshFormat<2> kTriangles{read_triangles, write_triangles};
+template <int Dim>
+constexpr MeshFormat<Dim> kVtu{read_vtu<Dim>, write_vtu<Dim>, true};
+constexpr MeshFormat<3> kTetGen{read_tetgen, write_tetgen};
+
+constexpr Format kFormats[] = {
+    {"obj", {read_obj, write_obj, Attributes::kCorners}, kTriangles},
+    {"off", {read_off, write_off, Attributes::kVertices}, kTriangles},
+    {"ply", {read_ply, write_ply, Attributes::kVertices}},
+    {"stl", {read_stl, write_stl}},
+    {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it: flbc::openmesh
+    {"vtu", {}, kVtu<2>, kVtu<3>},
+    {"mesh", {}, {}, {read_medit, write_medit, true}},
+    {"node", {}, {}, kTetGen},
+    {"ele", {}, {}, kTetGen},
+    {"msh", {}, {}, {read_gmsh, write_gmsh}},
+    {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
+    {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
+    {"npy", {}, {}, {}, {read_npy, write_npy}},
+    {"txt"},  // flbc/io/weights_triplets.h
+};
+
+bool has(const Format& format, Content content) {
+  switch (content) {
+    case Content::kModel:
+      return format.model.read;
+    case Content::kMesh2D:
+      return format.mesh_2d.read;
+    case Content::kMesh3D:
+      return format.mesh_3d.read;
+    case Content::kWeights:
+      return format.weights.read;
+    case Content::kTriplets:
+      return format.extension == "txt";
+    case Content::kColors:
+      return format.model.attributes != Attributes::kNone;
+    case Content::kFields:
+      return format.mesh_2d.keeps_fields || format.mesh_3d.keeps_fields;
+  }
+  return false;
+}
+
+bool has_one(const Format& format, std::initializer_list<Content> contents) {
+  return std::any_of(contents.begin(), contents.end(),
+                     [&](Content content) { return has(format, content); });
+}
+
+const Format* find(const std::string& path) {
+  const auto extension = extension_of(path);
+  const auto* const found =
+      std::find_if(std::begin(kFormats), std::end(kFormats),
+                   [&](const Format& format) { return format.extension == extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+}  // namespace
+
+bool holds(const std::string& path, std::initializer_list<Content> contents) {
+  const auto* const format = find(path);
+  return format && has_one(*format, contents);
+}
+
+std::string extensions_of(std::initializer_list<Content> contents) {
+  std::vector<std::string> names;
+  for (const auto& format : kFormats) {
+    if (has_one(format, contents)) names.push_back("." + std::string(format.extension));
+  }
+  std::string list = names.front();
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    list += (k + 1 < names.size() ? ", " : " or ") + names[k];
+  }
+  return list;
+}
+
+const Format& format_of(const std::string& path, Content content, const char* action) {
+  if (holds(path, {content})) return *find(path);
+  throw OptionError("cannot " + std::string(action) + " \"" + path +
+                    "\": cannot tell the format; the file must end in " + extensions_of({content}));
+}
+
+}  // namespace flbc::io
