@@ -36,6 +36,7 @@ class OffReader {
       reader_.next_line_of("vertices", v, num_points);
       read_vertex(v);
     }
+    if (reads_attributes_) finish_colors();
     for (Index f = 0; f < num_polygons; ++f) {
       reader_.next_line_of("faces", f, num_polygons);
       read_polygon(num_points);
@@ -44,7 +45,6 @@ class OffReader {
       reader_.fail_expected("the end of the file after the last face", reader_.word());
     }
     if (!reads_attributes_) return;
-    finish_colors();
     refer_to_vertices(model_);
     if (scan_.text.find('#') != std::string::npos) add_other(model_, "comments");
   }
