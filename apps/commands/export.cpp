@@ -103,12 +103,12 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
   const auto& points = model.points();
+  const auto surface = model.surface();
   const auto weights = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(weights, rest.cols(), points.cols(), files);
   check_reproduction(SparseWeights(weights), rest, points, files);
 
-  const auto surface = model.surface();
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, arguments.options, animation);
   });

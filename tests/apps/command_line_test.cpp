@@ -189,8 +189,8 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
   expect_failure("solve " + cage + o + " --embed", 1, "--model");
   expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat, .npy");
-  expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off, .vtu");
+  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat or .npy");
+  expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off or .vtu");
   expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
     expect_failure("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
