@@ -116,7 +116,8 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
   check_fields(path, fields, mesh.num_vertices());
   if (!fields.empty() && !format.keeps_fields) {
     throw OptionError("cannot write fields with \"" + path +
-                      "\": this format has no place for them");
+                      "\": this format has no place for them, " +
+                      extensions_of({Content::kFields}) + " has");
   }
   format.write(path, mesh, fields, gmsh_version);
 }
