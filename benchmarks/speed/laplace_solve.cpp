@@ -94,7 +94,7 @@ void run(const Arguments& arguments) {
   const PanelCholesky<Scalar> cholesky(matrix);
   const double factor_seconds = seconds() - start;
 
-  const std::size_t stride = row_stride(arguments.columns);
+  const std::size_t stride = padded(arguments.columns);
   AlignedArray<Scalar> rows(cholesky.size() * stride);
   std::vector<double> times;
   for (int repetition = 0; repetition < arguments.repeat; ++repetition) {

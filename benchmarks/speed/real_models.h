@@ -9,6 +9,7 @@
 
 #include "flbc/lbc_problem.h"
 #include "flbc/meshing.h"
+#include "flbc/quality.h"
 
 namespace flbc::bench {
 
@@ -41,19 +42,6 @@ inline DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
 }
 inline DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
   return tetrahedralize(cage, {vertices});
-}
-
-//! The paper's error (5): the mean squared difference over interior vertices and control points.
-template <int Dim>
-double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b) {
-  double sum = 0;
-  Index interior = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] >= 0) continue;
-    sum += (a.col(v) - b.col(v)).squaredNorm();
-    ++interior;
-  }
-  return sum / (static_cast<double>(interior) * static_cast<double>(a.rows()));
 }
 
 }  // namespace flbc::bench

@@ -207,7 +207,7 @@ TYPED_TEST(PanelCholeskyTest, SlicesTouchNothingElse) {
 
 // The loops for every instruction set this processor has, on one factor.
 TYPED_TEST(PanelCholeskyTest, EveryKernelSolvesTheSameSystem) {
-  const auto list = panel::supported_kernels<TypeParam>();
+  const auto list = supported_kernels<panel::Kernel<TypeParam>>();
   ASSERT_GE(list.size, 1);
   for (const auto& [name, matrix] : matrices()) {
     for (int k = 0; k < list.size; ++k) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
@@ -127,6 +128,19 @@ TYPED_TEST(WeightSplittingTest, IsTheSameForAnyNumberOfThreads) {
   const auto one = run(1);
   EXPECT_EQ((run(2) - one).cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ((run(4) - one).cwiseAbs().maxCoeff(), 0);
+}
+
+// (5) of the paper, by the judge's own sum.
+TYPED_TEST(WeightSplittingTest, SquaredErrorIsTheMeanOverInteriorVertices) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto a = harmonic_coordinates(problem);
+  WeightMatrix b = a;
+  b.array() += Eigen::ArrayXXd::Random(b.rows(), b.cols());
+  const double expected = mean_squared_difference(problem.mesh, a, b);
+  EXPECT_NEAR(flbc::squared_error(problem, a, b), expected, 1e-12 * expected);
+  EXPECT_THROW(flbc::squared_error(problem, a, b.leftCols(1)), InputError);
 }
 
 // Whatever the penalty is changed to on the way, the duals survive and the optimum stays.

@@ -31,6 +31,7 @@
 #include "flbc/meshing_options.h"
 #include "flbc/non_negative.h"
 #include "flbc/options.h"
+#include "flbc/padded_rows.h"
 #include "flbc/poisson_reduction.h"
 #include "flbc/poses.h"
 #include "flbc/published_penalty.h"

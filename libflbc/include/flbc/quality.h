@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/domain_mesh.h"
+#include "flbc/lbc_problem.h"
 
 namespace flbc {
 
@@ -42,5 +43,13 @@ double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
 //! \return in units of the mesh^(Dim - 1)
 template <int Dim>
 double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights);
+
+//! The paper's error (5): the mean of (a - b)^2 over interior vertices and control points.
+//! \param a  weights, n x V
+//! \param b  weights to compare with, usually the optimum, n x V
+//! \return 0 if there are no interior vertices
+//! \throws InputError if the sizes do not belong together
+template <int Dim>
+double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b);
 
 }  // namespace flbc

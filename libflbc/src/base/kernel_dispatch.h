@@ -2,28 +2,68 @@
 //! \file
 //! Which of the copies of an inner loop, compiled for several instruction sets, this processor is
 //! given.
+//!
+//! A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it by
+//! FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the set's
+//! name, has a table `kKernel<...>` in the namespace of that name and hands it out by
+//! FLBC_DEFINE_KERNEL.
 #pragma once
 
 namespace flbc {
 
+enum class InstructionSet { baseline, avx2, avx512 };
+
+//! The table compiled for one instruction set.
+template <class Kernel, InstructionSet set>
+const Kernel& kernel_for();
+
+//! The tables this processor can run, the best one first.
 template <class Kernel>
-const Kernel& choose_kernel([[maybe_unused]] const Kernel& avx512,
-                            [[maybe_unused]] const Kernel& avx2, const Kernel& baseline) {
+struct KernelList {
+  const Kernel* kernels[3];
+  int size;
+};
+
+template <class Kernel>
+KernelList<Kernel> supported_kernels() {
+  KernelList<Kernel> list{};
 #ifdef FLBC_WITH_X86_KERNELS
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq")) {
-    return avx512;
+    list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx512>();
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx2>();
+  }
 #endif
-  return baseline;
+  list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::baseline>();
+  return list;
+}
+
+//! The best table for this processor.
+template <class Kernel>
+const Kernel& select_kernel() {
+  return *supported_kernels<Kernel>().kernels[0];
 }
 
 }  // namespace flbc
 
-//! The best of the kernels of this name in the namespaces of the instruction sets.
-#ifdef FLBC_WITH_X86_KERNELS
-#define FLBC_CHOOSE_KERNEL(name) choose_kernel(avx512::name, avx2::name, baseline::name)
-#else
-#define FLBC_CHOOSE_KERNEL(name) choose_kernel(baseline::name, baseline::name, baseline::name)
-#endif
+//! Within namespace flbc: the kernel space::Kernel<arguments> exists for every instruction set.
+#define FLBC_DECLARE_KERNEL(space, ...)                                                      \
+  template <>                                                                                \
+  const space::Kernel<__VA_ARGS__>&                                                          \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::baseline>();                        \
+  template <>                                                                                \
+  const space::Kernel<__VA_ARGS__>&                                                          \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx2>();                            \
+  template <>                                                                                \
+  const space::Kernel<__VA_ARGS__>&                                                          \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx512>();
+
+//! Within namespace flbc: the copy for the instruction set this file is compiled for.
+#define FLBC_DEFINE_KERNEL(space, ...)                                              \
+  template <>                                                                       \
+  const space::Kernel<__VA_ARGS__>&                                                 \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::FLBC_ISA>() {              \
+    return space::FLBC_ISA::kKernel<__VA_ARGS__>;                                   \
+  }

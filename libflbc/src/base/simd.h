@@ -12,12 +12,12 @@
 #include <immintrin.h>
 #endif
 
+#include "flbc/padded_rows.h"
+
 namespace flbc {
 namespace {
 
-//! Rows of control points are padded to a multiple of this, and aligned to as many numbers.
-constexpr std::size_t kRowLanes = 8;
-
+//! Rows are aligned to as many numbers as they are padded to.
 template <class Scalar, int Lanes>
 struct PackOf {
   typedef Scalar type

@@ -62,11 +62,26 @@ double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights)
                                     [](Index, const auto& lengths) { return lengths.sum(); });
 }
 
+template <int Dim>
+double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b) {
+  check_size(a, problem.num_control_points(), problem.mesh.num_vertices());
+  check_size(b, problem.num_control_points(), problem.mesh.num_vertices());
+  double sum = 0;
+  Index interior = 0;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.boundary_index[v] >= 0) continue;
+    sum += (a.col(v) - b.col(v)).squaredNorm();
+    ++interior;
+  }
+  return interior > 0 ? sum / (static_cast<double>(interior) * static_cast<double>(a.rows())) : 0;
+}
+
 #define FLBC_INSTANTIATE(Dim)                                                                     \
   template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
                                    const WeightMatrix&);                                          \
   template double objective(const DomainMesh<Dim>&, const Eigen::MatrixXd&, const WeightMatrix&); \
-  template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);
+  template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);                   \
+  template double squared_error(const LbcProblem<Dim>&, const WeightMatrix&, const WeightMatrix&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -61,7 +61,7 @@ multigrid::Level<Scalar> Multigrid<Scalar>::LevelData::view() const {
 template <class Scalar>
 Multigrid<Scalar>::Multigrid(RowMatrix matrix, std::size_t stride)
     : stride_(stride),
-      kernel_(multigrid::select_kernel<Scalar>()),
+      kernel_(select_kernel<multigrid::Kernel<Scalar>>()),
       size_(static_cast<Index>(matrix.rows())) {
   const auto entries = static_cast<double>(matrix.nonZeros());
   complexity_ = 1;

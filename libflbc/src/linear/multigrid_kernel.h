@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/kernel_dispatch.h"
+
 namespace flbc::multigrid {
 
 //! A sparse matrix by rows, columns ascending.
@@ -49,8 +51,9 @@ struct Kernel {
   Sweep ascend;
 };
 
-//! The best kernel for this processor.
-template <class Scalar>
-const Kernel<Scalar>& select_kernel();
-
 }  // namespace flbc::multigrid
+
+namespace flbc {
+FLBC_DECLARE_KERNEL(multigrid, float)
+FLBC_DECLARE_KERNEL(multigrid, double)
+}  // namespace flbc

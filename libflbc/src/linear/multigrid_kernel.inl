@@ -116,9 +116,13 @@ void ascend(const Level<Scalar>& level, const Vectors<Scalar>& vectors) {
   smooth_backward(level, vectors);
 }
 
+template <class Scalar>
+constexpr Kernel<Scalar> kKernel{descend<Scalar>, ascend<Scalar>};
+
 }  // namespace
-
-extern const Kernel<float> kFloat{descend<float>, ascend<float>};
-extern const Kernel<double> kDouble{descend<double>, ascend<double>};
-
 }  // namespace flbc::multigrid::FLBC_ISA
+
+namespace flbc {
+FLBC_DEFINE_KERNEL(multigrid, float)
+FLBC_DEFINE_KERNEL(multigrid, double)
+}  // namespace flbc

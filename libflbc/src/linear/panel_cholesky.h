@@ -10,15 +10,11 @@
 #include <Eigen/SparseCore>
 
 #include "base/aligned_array.h"
+#include "flbc/padded_rows.h"
 #include "flbc/types.h"
 #include "linear/panel_kernel.h"
 
 namespace flbc {
-
-//! The length of a row in the arrays of the solver that has room for so many right-hand sides.
-constexpr std::size_t row_stride(std::size_t columns) {
-  return (columns + 7) / 8 * 8;
-}
 
 //! A range of columns.
 struct Slice {
@@ -42,7 +38,7 @@ class PanelCholesky {
   //! others \throws SolverError naming the size if the matrix is not positive definite
   explicit PanelCholesky(
       const Eigen::SparseMatrix<double>& matrix,
-      const panel::Kernel<Scalar>& kernel = *panel::supported_kernels<Scalar>().kernels[0]);
+      const panel::Kernel<Scalar>& kernel = select_kernel<panel::Kernel<Scalar>>());
 
   //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/kernel_dispatch.h"
+
 namespace flbc::panel {
 
 //! Columns in a panel: with so many the rows of a panel stay in the nearest cache while it is used,
@@ -45,13 +47,9 @@ struct Kernel {
   Sweep backward;
 };
 
-//! The kernels this processor can run, the best one first.
-template <class Scalar>
-struct KernelList {
-  const Kernel<Scalar>* kernels[3];
-  int size;
-};
-template <class Scalar>
-KernelList<Scalar> supported_kernels();
-
 }  // namespace flbc::panel
+
+namespace flbc {
+FLBC_DECLARE_KERNEL(panel, float)
+FLBC_DECLARE_KERNEL(panel, double)
+}  // namespace flbc

@@ -151,13 +151,16 @@ inline void backward_piece(const Scalar* entries, const std::int32_t* below, std
 }
 
 // Applies a step to the columns begin .. end - 1 in pieces of two registers, one, or, where a
-// register holds more than 8 numbers, a half.
+// register holds more than 8 numbers, a half. Two at once in single precision only: double serves
+// set-up, and its copies would double the time this file takes to compile.
 template <class Scalar, class Step>
 [[gnu::always_inline]] inline void for_pieces(std::size_t begin, std::size_t end, Step step) {
-  using Pair = Chunk<Scalar, kRegisterBytes, 2>;
   using Single = Chunk<Scalar, kRegisterBytes, 1>;
   std::size_t i = begin;
-  for (; i + Pair::kWidth <= end; i += Pair::kWidth) step(Pair{}, i);
+  if constexpr (sizeof(Scalar) == sizeof(float)) {
+    using Pair = Chunk<Scalar, kRegisterBytes, 2>;
+    for (; i + Pair::kWidth <= end; i += Pair::kWidth) step(Pair{}, i);
+  }
   for (; i + Single::kWidth <= end; i += Single::kWidth) step(Single{}, i);
   if constexpr (Single::kWidth > 8) {
     if (i < end) step(Chunk<Scalar, kRegisterBytes / 2, 1>{}, i);
@@ -233,11 +236,15 @@ void backward(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, st
   }
 }
 
+template <class Scalar>
+constexpr Kernel<Scalar> kKernel{forward<Scalar>, backward<Scalar>};
+
 }  // namespace
-
-extern const Kernel<float> kFloat{forward<float>, backward<float>};
-extern const Kernel<double> kDouble{forward<double>, backward<double>};
-
 }  // namespace flbc::panel::FLBC_ISA
+
+namespace flbc {
+FLBC_DEFINE_KERNEL(panel, float)
+FLBC_DEFINE_KERNEL(panel, double)
+}  // namespace flbc
 
 #undef FLBC_UNROLL

@@ -75,7 +75,7 @@ template <int Dim>
 WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values,
                                           const Eigen::MatrixXd& divergence) const {
   const Eigen::Index k = boundary_values.rows();
-  const std::size_t stride = row_stride(k);
+  const std::size_t stride = padded(k);
   AlignedArray<double> rows(interior_.size() * stride);
   const auto row_of = [&](std::size_t i) {
     return Eigen::Map<Eigen::VectorXd>(rows.data() + interior_solver_->position()[i] * stride, k);

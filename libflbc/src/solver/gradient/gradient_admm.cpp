@@ -32,13 +32,13 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
                                         double relaxation, const std::vector<Period<Dim>>& periods,
                                         StateStorage* storage)
     : problem_(problem),
-      kernel_(select_kernel<Scalar, Dim>()),
+      kernel_(select_kernel<Kernel<Scalar, Dim>>()),
       n_(problem.num_control_points()),
-      stride_(static_cast<std::size_t>((n_ + kLanes - 1) / kLanes * kLanes)),
+      stride_(padded(static_cast<std::size_t>(n_))),
       penalty_(penalty),
       relaxation_(relaxation),
       num_periods_(periods.size()),
-      copies_(Dim + 2 + static_cast<double>(periods.size())) {
+      M_(Dim + 2 + static_cast<double>(periods.size())) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto facets = static_cast<std::size_t>(problem.topology.num_facets());
   const auto state = [&](StateArray array, std::size_t elements, std::size_t components) {
@@ -134,33 +134,33 @@ Change GradientAdmm<Scalar, Dim>::iterate(int count) {
   if (num_periods_ > 0) {
     Change change;
     for (int k = 0; k < count; ++k) {
-      update_duals(arrays);
+      xyz_steps(arrays);
       const double period_change = update_periods();
-      change = update_gradients(arrays);
+      change = g_step(arrays);
       change.dual = noted_change() + period_change;
     }
     return change;
   }
-  update_duals(arrays);
+  xyz_steps(arrays);
   for (int k = 1; k < count; ++k) sweep(arrays, k == count - 1);
-  Change change = update_gradients(arrays);
+  Change change = g_step(arrays);
   change.dual = noted_change();
   return change;
 }
 
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::update_duals(const Arrays<Scalar, Dim>& arrays) {
+void GradientAdmm<Scalar, Dim>::xyz_steps(const Arrays<Scalar, Dim>& arrays) {
   parallel_blocks(problem_.topology.num_facets(),
-                  [&](Index begin, Index end) { kernel_.update_facets(arrays, begin, end); });
+                  [&](Index begin, Index end) { kernel_.xy_step(arrays, begin, end); });
   parallel_blocks(problem_.mesh.num_cells(),
-                  [&](Index begin, Index end) { kernel_.update_tv_duals(arrays, begin, end); });
+                  [&](Index begin, Index end) { kernel_.z_step(arrays, begin, end); });
 }
 
 template <class Scalar, int Dim>
-Change GradientAdmm<Scalar, Dim>::update_gradients(const Arrays<Scalar, Dim>& arrays) {
+Change GradientAdmm<Scalar, Dim>::g_step(const Arrays<Scalar, Dim>& arrays) {
   return parallel_sum(problem_.mesh.num_cells(), Change{}, [&](Index begin, Index end) {
     const FlushDenormals scope;
-    return kernel_.update_gradients(arrays, begin, end);
+    return kernel_.g_step(arrays, begin, end);
   });
 }
 
@@ -174,7 +174,7 @@ void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool no
     note ? kernel_.sweep_and_note(arrays, path) : kernel_.sweep(arrays, path, slots_[p].data());
   }
   parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
-    kernel_.update_listed_facets(arrays, sweep_.seams.data() + begin, end - begin, note);
+    kernel_.listed_xy_step(arrays, sweep_.seams.data() + begin, end - begin, note);
   });
 }
 
@@ -192,13 +192,13 @@ template <class Scalar, int Dim>
 Residuals GradientAdmm<Scalar, Dim>::residuals(const Change& change) const {
   // The paper's duals, stepped with the new G, differ from the ones kept here by G_before - G, and
   // that difference is orthogonal to what the G-step leaves (docs/method.md): Pythagoras.
-  const double primal = relaxation_ == 1 ? change.dual - copies_ * change.lead : change.dual;
-  return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(copies_ * change.gradient)};
+  const double primal = relaxation_ == 1 ? change.dual - M_ * change.lead : change.dual;
+  return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
 }
 
 template <class Scalar, int Dim>
 double GradientAdmm<Scalar, Dim>::num_residual_components() const {
-  return static_cast<double>(n_) * Dim * copies_ * problem_.mesh.num_cells();
+  return static_cast<double>(n_) * Dim * M_ * problem_.mesh.num_cells();
 }
 
 template <class Scalar, int Dim>
@@ -232,27 +232,29 @@ double GradientAdmm<Scalar, Dim>::state_scalars_per_cell() const {
 
 template <class Scalar, int Dim>
 Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
-  return {stride_,
-          gradient_.data(),
-          extrapolated_.data(),
-          tv_dual_.data(),
-          period_dual_.data(),
-          facet_dual_.data(),
-          cell_change_.data(),
-          facet_change_.data(),
-          data_.radius.data(),
-          data_.boundary_slope.data(),
-          data_.tangents.data(),
-          problem_.topology.sides.data(),
-          data_.boundary_index.data(),
-          problem_.topology.cell_facets.data(),
-          period_fields_.data(),
-          num_periods_,
-          static_cast<std::size_t>(problem_.mesh.num_cells()),
-          static_cast<Scalar>(1 / copies_),
-          data_.basis.data(),
-          data_.target.data(),
-          static_cast<Scalar>(relaxation_)};
+  Arrays<Scalar, Dim> arrays;
+  arrays.stride = stride_;
+  arrays.gradient = gradient_.data();
+  arrays.extrapolated = extrapolated_.data();
+  arrays.tv_dual = tv_dual_.data();
+  arrays.period_dual = period_dual_.data();
+  arrays.facet_dual = facet_dual_.data();
+  arrays.cell_change = cell_change_.data();
+  arrays.facet_change = facet_change_.data();
+  arrays.radius = data_.radius.data();
+  arrays.boundary_slope = data_.boundary_slope.data();
+  arrays.tangents = data_.tangents.data();
+  arrays.sides = problem_.topology.sides.data();
+  arrays.boundary_index = data_.boundary_index.data();
+  arrays.cell_facets = problem_.topology.cell_facets.data();
+  arrays.period_fields = period_fields_.data();
+  arrays.num_periods = num_periods_;
+  arrays.num_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
+  arrays.inverse_M = static_cast<Scalar>(1 / M_);
+  arrays.basis = data_.basis.data();
+  arrays.target = data_.target.data();
+  arrays.relaxation = static_cast<Scalar>(relaxation_);
+  return arrays;
 }
 
 template class GradientAdmm<float, 2>;

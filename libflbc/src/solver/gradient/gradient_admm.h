@@ -23,11 +23,20 @@ struct Residuals {
   double dual;
 };
 
-//! The iteration, allocated once. Without over-relaxation its gradients are the paper's G, iterate
-//! by iterate. The paper keeps X, Y, Z and a dual for each; but projecting on a constraint changes
-//! a vector only along the constrained direction, so writing the dual steps relative to the
-//! extrapolated gradients 2 G - G_before leaves one number per tangent direction of a facet and one
-//! vector per cell. docs/method.md derives it.
+//! The iteration, allocated once. The paper minimises (7) over gradients G subject to (8), (9) and
+//! (10), with copies X = G S_X, Y = G S_Y, Z = G and a scaled dual u = lambda / mu for each:
+//!
+//!     X-step:  x_b = p - b (b . p - h_b),  p = g - u      boundary facets, tangential values (9)
+//!     Y-step:  y_e = q_e +- d,  q = g - u                 interior facets, equal tangentially (10)
+//!     Z-step:  z_s = a, shortened by phi A / mu, a = g - u                     the objective (7)
+//!     G-step:  r_s = mean of its M copies x + u, y + u, z + u;  g_s = r_s, projected on (8)   (11)
+//!     duals:   u += x - g, u += y - g, u += z - g
+//!
+//! Without over-relaxation the gradients here are the paper's G, iterate by iterate. But projecting
+//! on a constraint changes a vector only along the constrained direction, so writing the dual steps
+//! relative to the extrapolated gradients 2 G - G_before leaves one number per tangent direction of
+//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. docs/method.md
+//! derives it.
 //!
 //! On domains with holes it has the period constraints besides, which the paper lacks.
 template <class Scalar, int Dim>
@@ -84,9 +93,9 @@ class GradientAdmm {
 
  private:
   void set_up_periods(const std::vector<Period<Dim>>& periods, StateStorage* storage);
-  void update_duals(const Arrays<Scalar, Dim>& arrays);
+  void xyz_steps(const Arrays<Scalar, Dim>& arrays);
   void sweep(const Arrays<Scalar, Dim>& arrays, bool note);
-  Change update_gradients(const Arrays<Scalar, Dim>& arrays);
+  Change g_step(const Arrays<Scalar, Dim>& arrays);
   double update_periods();
   double noted_change() const;
   Arrays<Scalar, Dim> make_arrays();
@@ -98,7 +107,7 @@ class GradientAdmm {
   const double penalty_;
   const double relaxation_;
   const std::size_t num_periods_;
-  const double copies_;  // M of (11): a gradient's copies in Z, in X or Y per facet, per period
+  const double M_;  // of (11): a gradient's copies in Z, in X or Y per facet, and per period
   // state
   AlignedArray<Scalar> gradient_;
   AlignedArray<Scalar> extrapolated_;

@@ -4,16 +4,19 @@
 //! instruction sets; nothing here may depend on headers whose inline functions could then clash, so
 //! there is no Eigen.
 //!
-//! Every array is element-major, then component, then `stride` control points contiguous (n padded
-//! to a multiple of kLanes; the padding stays zero).
+//! Every array is element-major, then component, then `stride` control points contiguous (n, padded
+//! with zeros).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "base/kernel_dispatch.h"
+#include "flbc/padded_rows.h"
+
 namespace flbc::gradient {
 
-constexpr int kLanes = 8;
+constexpr int kLanes = kRowLanes;
 
 //! State and data of the iteration. Scaled duals u = lambda / mu in the compact form: the dual of a
 //! facet's constraint is one tangential vector (Dim - 1 components), positive on its first side.
@@ -39,7 +42,7 @@ struct Arrays {
   const Scalar* period_fields;        // P x F x Dim, no control points
   std::size_t num_periods;            // P: boundary components - 1
   std::size_t num_cells;              // F
-  Scalar inverse_copies;              // 1 / M of (11)
+  Scalar inverse_M;                   // 1 / M, see (11): the mean of a gradient's M copies
   const Scalar* basis;                // (Dim + 1): orthonormal basis Q of [1; c]
   const Scalar* target;  // Dim x (Dim + 1) numbers: Q^T g for every g that satisfies (8)
   Scalar relaxation;
@@ -91,16 +94,16 @@ struct Kernel {
   using State = const Arrays<Scalar, Dim>&;
 
   //! X- and Y-step with their dual step, for facets begin .. end-1.
-  void (*update_facets)(State, std::int32_t begin, std::int32_t end);
+  void (*xy_step)(State, std::int32_t begin, std::int32_t end);
 
   //! The same for some facets; their changes are noted only if `noted`.
-  void (*update_listed_facets)(State, const std::int32_t* facets, std::size_t count, bool noted);
+  void (*listed_xy_step)(State, const std::int32_t* facets, std::size_t count, bool noted);
 
   //! Z-step with its dual step, for cells begin .. end-1.
-  void (*update_tv_duals)(State, std::int32_t begin, std::int32_t end);
+  void (*z_step)(State, std::int32_t begin, std::int32_t end);
 
   //! G-step, for cells begin .. end-1. \return changes of the gradients and their leads
-  Change (*update_gradients)(State, std::int32_t begin, std::int32_t end);
+  Change (*g_step)(State, std::int32_t begin, std::int32_t end);
 
   //! G-step, and the next iteration's Z-, X- and Y-step. `slots` holds extrapolated gradients
   //! meanwhile, num_slots x Dim.
@@ -110,8 +113,11 @@ struct Kernel {
   void (*sweep_and_note)(State, const SweepPath& path);
 };
 
-//! The best kernel for this processor.
-template <class Scalar, int Dim>
-const Kernel<Scalar, Dim>& select_kernel();
-
 }  // namespace flbc::gradient
+
+namespace flbc {
+FLBC_DECLARE_KERNEL(gradient, float, 2)
+FLBC_DECLARE_KERNEL(gradient, float, 3)
+FLBC_DECLARE_KERNEL(gradient, double, 2)
+FLBC_DECLARE_KERNEL(gradient, double, 3)
+}  // namespace flbc

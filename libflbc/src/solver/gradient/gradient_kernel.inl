@@ -21,29 +21,29 @@ const Scalar* extrapolated_of(const Arrays<Scalar, Dim>& arrays, std::int32_t ce
 
 // On the boundary there is no second cell, and nobody asks for it.
 template <bool note, class Scalar, int Dim>
-inline void update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
+inline void xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
   const std::int32_t first = arrays.sides[2 * facet];
   const std::int32_t second = arrays.sides[2 * facet + 1];
-  const double change = update_facet<note>(arrays, facet, extrapolated_of(arrays, first),
+  const double change = xy_step_at<note>(arrays, facet, extrapolated_of(arrays, first),
                                            extrapolated_of(arrays, second < 0 ? first : second));
   if constexpr (note) arrays.facet_change[facet] = change;
 }
 
 template <class Scalar, int Dim>
-void update_facets(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
-  for (std::int32_t facet = begin; facet < end; ++facet) update_facet<true>(arrays, facet);
+void xy_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+  for (std::int32_t facet = begin; facet < end; ++facet) xy_step_at<true>(arrays, facet);
 }
 
 template <class Scalar, int Dim>
-void update_listed_facets(const Arrays<Scalar, Dim>& arrays, const std::int32_t* facets,
+void listed_xy_step(const Arrays<Scalar, Dim>& arrays, const std::int32_t* facets,
                           std::size_t count, bool noted) {
   for (std::size_t k = 0; k < count; ++k) {
-    noted ? update_facet<true>(arrays, facets[k]) : update_facet<false>(arrays, facets[k]);
+    noted ? xy_step_at<true>(arrays, facets[k]) : xy_step_at<false>(arrays, facets[k]);
   }
 }
 
 template <class Scalar, int Dim>
-void update_tv_duals(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+void z_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
   for (std::int32_t cell = begin; cell < end; ++cell) {
     const Scalar* extrapolated = extrapolated_of(arrays, cell);
     SquareSum<Scalar, true> change;
@@ -54,17 +54,17 @@ void update_tv_duals(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std:
           for (int d = 0; d < Dim; ++d) {
             e[d] = load_pack<kCount>(extrapolated + d * arrays.stride + i);
           }
-          update_tv_dual<kCount>(arrays, cell, i, e, change);
+          z_step_at<kCount>(arrays, cell, i, e, change);
         });
     arrays.cell_change[cell] = change.total();
   }
 }
 
 template <class Scalar, int Dim>
-Change update_gradients(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
+Change g_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
   Change change;
   for (std::int32_t cell = begin; cell < end; ++cell) {
-    change += update_cell<true, false, false>(
+    change += g_step_at<true, false, false>(
         arrays, cell, arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride);
   }
   return change;
@@ -109,9 +109,9 @@ void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slo
     if (k + kVisitsAhead < path.num_visits) {
       prefetch_cell(arrays, path.visits[k + kVisitsAhead].cell);
     }
-    update_cell<false, true, false>(arrays, visit.cell, extrapolated(visit.place));
+    g_step_at<false, true, false>(arrays, visit.cell, extrapolated(visit.place));
     for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
-      update_facet<false>(arrays, closing->facet, extrapolated(closing->first),
+      xy_step_at<false>(arrays, closing->facet, extrapolated(closing->first),
                           extrapolated(closing->second));
     }
   }
@@ -124,24 +124,25 @@ void sweep_and_note(const Arrays<Scalar, Dim>& arrays, const SweepPath& path) {
     const Visit visit = path.visits[k];
     Scalar* extrapolated = arrays.extrapolated + std::size_t(visit.cell) * Dim * arrays.stride;
     arrays.cell_change[visit.cell] =
-        update_cell<false, true, true>(arrays, visit.cell, extrapolated).dual;
+        g_step_at<false, true, true>(arrays, visit.cell, extrapolated).dual;
     for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
-      update_facet<true>(arrays, closing->facet);
+      xy_step_at<true>(arrays, closing->facet);
     }
   }
 }
 
 template <class Scalar, int Dim>
 constexpr Kernel<Scalar, Dim> kKernel{
-    update_facets<Scalar, Dim>,   update_listed_facets<Scalar, Dim>,
-    update_tv_duals<Scalar, Dim>, update_gradients<Scalar, Dim>,
+    xy_step<Scalar, Dim>,   listed_xy_step<Scalar, Dim>,
+    z_step<Scalar, Dim>, g_step<Scalar, Dim>,
     sweep<Scalar, Dim>,           sweep_and_note<Scalar, Dim>};
 
 }  // namespace
-
-extern const Kernel<float, 2> kFloat2 = kKernel<float, 2>;
-extern const Kernel<float, 3> kFloat3 = kKernel<float, 3>;
-extern const Kernel<double, 2> kDouble2 = kKernel<double, 2>;
-extern const Kernel<double, 3> kDouble3 = kKernel<double, 3>;
-
 }  // namespace flbc::gradient::FLBC_ISA
+
+namespace flbc {
+FLBC_DEFINE_KERNEL(gradient, float, 2)
+FLBC_DEFINE_KERNEL(gradient, float, 3)
+FLBC_DEFINE_KERNEL(gradient, double, 2)
+FLBC_DEFINE_KERNEL(gradient, double, 3)
+}  // namespace flbc

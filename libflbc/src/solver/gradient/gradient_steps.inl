@@ -6,7 +6,7 @@
 // (9), (10): the boundary facet's dual grows by the violation of t . g = h, the interior facet's by
 // half the jump of the tangential gradient. \return the squared change, for each side
 template <bool note, class Scalar, int Dim>
-inline double update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet,
+inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet,
                            const Scalar* first, const Scalar* second) {
   constexpr int kTangents = Dim - 1;
   const std::size_t stride = arrays.stride;
@@ -53,7 +53,7 @@ inline double update_facet(const Arrays<Scalar, Dim>& arrays, std::int32_t facet
 // Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` on the ball of radius
 // phi A / mu.
 template <int lanes, bool note, class Scalar, int Dim>
-[[gnu::always_inline]] inline void update_tv_dual(const Arrays<Scalar, Dim>& arrays,
+[[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays,
                                                   std::int32_t cell, std::size_t i,
                                                   const PackN<Scalar, lanes>* extrapolated,
                                                   SquareSum<Scalar, note>& change) {
@@ -123,7 +123,7 @@ template <int lanes, class Scalar, int Dim>
   }
   for (int d = 0; d < Dim; ++d) {
     const P gradient = load_pack<lanes>(arrays.gradient + row + d * stride);
-    average[d] = gradient + arrays.inverse_copies * average[d];
+    average[d] = gradient + arrays.inverse_M * average[d];
   }
 }
 
@@ -211,7 +211,7 @@ template <bool note, class Scalar, int Dim>
 // iteration's Z-step. \param extrapolated  where it is to go; what is there is needed to note the
 // lead. \return the changes, of the dual only with `then_tv`
 template <bool note_gradient, bool then_tv, bool note_tv, class Scalar, int Dim>
-inline Change update_cell(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
+inline Change g_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
                           Scalar* extrapolated) {
   const std::size_t stride = arrays.stride;
   Scalar* gradient = arrays.gradient + std::size_t(cell) * Dim * stride;
@@ -236,7 +236,7 @@ inline Change update_cell(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
           store_pack<kCount>(gradient + d * stride + i, old + arrays.relaxation * step);
           change.gradient.template add<kCount>(step);
         }
-        if constexpr (then_tv) update_tv_dual<kCount>(arrays, cell, i, e, dual_change);
+        if constexpr (then_tv) z_step_at<kCount>(arrays, cell, i, e, dual_change);
       });
   Change result;
   if constexpr (note_tv) result.dual = dual_change.total();

@@ -3,8 +3,6 @@
 //! Packs of control points of two widths, and sums over their lanes. Included by
 //! gradient_steps.inl within its namespace of the instruction set.
 
-static_assert(kLanes == kRowLanes);
-
 template <class Scalar>
 using Pack = PackN<Scalar, kLanes>;
 

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/kernel_dispatch.h"
+
 namespace flbc::splitting {
 
 template <class Scalar, int Dim>
@@ -59,22 +61,25 @@ struct Kernel {
   //! Residual of the Laplace equation alone: the start from harmonic coordinates.
   SliceLoop harmonic_residual;
   //! W-step with its dual step; writes the residual anew.
-  SliceLoop update_vertices;
+  SliceLoop w_step;
   //! Z-step with its dual step; adds to the residual.
-  SliceLoop update_cells;
-  //! update_vertices and update_cells, which also add up the violation of the constraints.
-  SliceLoop update_vertices_measured;
-  SliceLoop update_cells_measured;
+  SliceLoop z_step;
+  //! w_step and z_step, which also add up the violation of the constraints.
+  SliceLoop w_step_measured;
+  SliceLoop z_step_measured;
   //! Y-step after the solve: adds the correction, projects rows. \return squared change of weights
-  RowLoop update_weights;
+  RowLoop y_step;
   //! The dual of the total variation, scale_s clip(2 x - y), F x Dim rows.
   FluxLoop flux;
   BalanceLoop balance;
   RescaleLoop rescale_duals;
 };
 
-//! The best kernel for this processor.
-template <class Scalar, int Dim>
-const Kernel<Scalar, Dim>& select_kernel();
-
 }  // namespace flbc::splitting
+
+namespace flbc {
+FLBC_DECLARE_KERNEL(splitting, float, 2)
+FLBC_DECLARE_KERNEL(splitting, float, 3)
+FLBC_DECLARE_KERNEL(splitting, double, 2)
+FLBC_DECLARE_KERNEL(splitting, double, 3)
+}  // namespace flbc

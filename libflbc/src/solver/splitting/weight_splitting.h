@@ -4,8 +4,8 @@
 //! unknowns and solves a global linear system in each iteration.
 #pragma once
 
+#include <functional>
 #include <limits>
-#include <vector>
 
 #include "base/aligned_array.h"
 #include "flbc/cell_field.h"
@@ -13,16 +13,10 @@
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"
 #include "solver/splitting/error_estimate.h"
+#include "solver/splitting/splitting_data.h"
 #include "solver/splitting/splitting_kernel.h"
 
 namespace flbc::splitting {
-
-//! Weights of the quadratic terms of the augmented Lagrangian, relative to the penalty. They do not
-//! change the solution but decide how soon it is reached.
-struct Metric {
-  Eigen::VectorXd cell;    //!< m_s > 0 of |z_s - grad w|^2, F
-  Eigen::VectorXd vertex;  //!< k_v > 0 of |u_v - w_v|^2, V; empty: w may be negative
-};
 
 //! What an iteration did.
 struct Step {
@@ -41,10 +35,10 @@ struct Residuals {
 //! dual u) per constraint instead of two. Minimises sum phi A |z| over w with z = grad w, and
 //! w >= 0 if the metric says so:
 //!
-//!     x = grad w,  p = clip(2 x - y) to radius phi A / (rho m),  y += alpha (x - y - p)
-//!     u = max(0, 2 w - q),  q += alpha (u - w)
-//!     solve (sum m grad^T grad + k) delta = Div m (y - x) + k (q - w)
-//!     w += delta, rows projected on { sum w = 1, sum w c = x }
+//!     Z-step:  x = grad w,  p = clip(2 x - y) to radius phi A / (rho m),  y += alpha (x - y - p)
+//!     W-step:  u = max(0, 2 w - q),  q += alpha (u - w)
+//!     Y-step:  solve (sum m grad^T grad + k) delta = Div m (y - x) + k (q - w),
+//!              w += delta, rows projected on { sum w = 1, sum w c = x }
 //!
 //! The projection replaces the null-space parametrisation W = Y M + H of (2): the system matrix
 //! acts on columns, M on rows, so Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, and M^T M = I
@@ -93,7 +87,7 @@ class WeightSplitting {
   const Scalar* data() const { return weights_.data(); }
 
   //! To compare weights of different iterations.
-  WeightHistory<Scalar> history() const { return {vertices_, stride_}; }
+  WeightHistory<Scalar> history() const { return {data_.vertices, stride_}; }
 
   //! q - w, n x V, zero on the boundary; empty if w may be negative.
   WeightMatrix vertex_dual() const;
@@ -110,20 +104,16 @@ class WeightSplitting {
   double state_scalars_per_cell() const;
 
  private:
-  void set_up_rows(StateStorage* storage);
-  void set_up_cells();
-  void set_up_constraints();
-  void set_radius_scale();
+  //! A step on one slice of the control points.
+  using SliceLoop = std::function<void(const Arrays<Scalar, Dim>&, Columns)>;
+
   void set_weights(const WeightMatrix& weights);
   void set_boundary_weights();
   void remember_start();
-  template <class CellVectors>
-  void set_states(Scalar add, const WeightMatrix& weights, const CellVectors& cell_vectors);
+  void set_states(Scalar add, const WeightMatrix& weights, const VectorsAt<Dim>& cell_vectors);
   Arrays<Scalar, Dim> arrays();
-  template <class Body>
-  void for_slices(const Body& body);
-  template <class Body>
-  double run(const Body& residual);
+  void for_slices(const SliceLoop& body);
+  double run(const SliceLoop& residual);
   double weight_change_norm2(const AlignedArray<Scalar>& before) const;
 
   const LbcProblem<Dim>& problem_;
@@ -133,9 +123,8 @@ class WeightSplitting {
   const Metric metric_;
   double penalty_;
   const double relaxation_;
-  std::vector<Index> vertices_;   // interior vertices in the factor's order
-  std::vector<Index> cell_rows_;  // per corner of a cell its row, boundary vertices share the last
   SpdSolver<Scalar> solver_;
+  SplittingData<Scalar, Dim> data_;
   // state
   AlignedArray<Scalar> weights_;
   AlignedArray<Scalar> cell_state_;
@@ -145,15 +134,6 @@ class WeightSplitting {
   AlignedArray<Scalar> flux_;
   AlignedArray<double> violation_;
   AlignedArray<Scalar> violation_sum_;
-  // data
-  AlignedArray<Scalar> phi_;
-  AlignedArray<Scalar> basis_;
-  std::vector<Scalar> hat_gradients_;
-  std::vector<Scalar> cell_metric_;
-  std::vector<Scalar> vertex_metric_;
-  std::vector<Scalar> measures_;
-  std::vector<Scalar> radius_scale_;
-  std::vector<Scalar> row_target_;
 };
 
 }  // namespace flbc::splitting

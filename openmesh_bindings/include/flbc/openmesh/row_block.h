@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "flbc/openmesh/rows_view.h"
+#include "flbc/padded_rows.h"
 
 namespace flbc::openmesh {
 
@@ -31,9 +32,8 @@ class RowBlock {
   RowBlock() = default;
   //! No elements yet. \throws std::bad_alloc if already one could not be addressed
   RowBlock(std::size_t components, std::size_t width) : components_(components), width_(width) {
-    constexpr std::size_t kPack = 8;
     if (width > kMostNumbers) throw std::bad_alloc();
-    stride_ = (width + kPack - 1) / kPack * kPack;
+    stride_ = padded(width);
     if (stride_ > 0 && components > kMostNumbers / stride_) throw std::bad_alloc();
   }
   RowBlock(const RowBlock& block) : RowBlock(block.components_, block.width_) {

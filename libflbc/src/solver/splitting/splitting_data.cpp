@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/splitting/splitting_data.h"
+
+#include <algorithm>
+
+#include "mesh/cell_geometry.h"
+#include "problem/barycentric_constraints.h"
+
+namespace flbc::splitting {
+
+template <int Dim>
+Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
+  std::vector<Index> unknown(problem.mesh.num_vertices(), -1);
+  Index count = 0;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.boundary_index[v] < 0) unknown[v] = count++;
+  }
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(static_cast<std::size_t>(problem.mesh.num_cells()) * (Dim + 1) * (Dim + 2) / 2);
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const auto hat = cell_geometry(problem.mesh, s).hat_gradients;
+    for (int a = 0; a <= Dim; ++a) {
+      for (int b = 0; b <= Dim; ++b) {
+        const Index row = unknown[problem.mesh.cells(a, s)];
+        const Index column = unknown[problem.mesh.cells(b, s)];
+        if (column < 0 || row < column) continue;
+        entries.emplace_back(row, column, metric.cell[s] * hat.col(a).dot(hat.col(b)));
+      }
+    }
+  }
+  for (Index v = 0; v < problem.mesh.num_vertices() && metric.vertex.size() > 0; ++v) {
+    if (unknown[v] >= 0) entries.emplace_back(unknown[v], unknown[v], metric.vertex[v]);
+  }
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+namespace {
+
+template <class Scalar, int Dim>
+void set_up_rows(const LbcProblem<Dim>& problem, const Metric& metric,
+                 const std::vector<Index>& position, SplittingData<Scalar, Dim>& data) {
+  const auto boundary_row = static_cast<Index>(position.size());
+  std::vector<Index> row_of(problem.mesh.num_vertices(), boundary_row);
+  data.vertices.resize(boundary_row);
+  Index unknown = 0;
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.boundary_index[v] >= 0) continue;
+    row_of[v] = position[unknown++];
+    data.vertices[row_of[v]] = v;
+  }
+  data.cell_rows.resize(problem.mesh.cells.size());
+  for (std::size_t corner = 0; corner < data.cell_rows.size(); ++corner) {
+    data.cell_rows[corner] = row_of[problem.mesh.cells.data()[corner]];
+  }
+  if (metric.vertex.size() == 0) return;
+  for (const Index v : data.vertices) {
+    data.vertex_metric.push_back(static_cast<Scalar>(metric.vertex[v]));
+  }
+}
+
+template <class Scalar, int Dim>
+void set_up_cells(const LbcProblem<Dim>& problem, const Metric& metric, std::size_t stride,
+                  SplittingData<Scalar, Dim>& data) {
+  const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
+  const Index n = problem.num_control_points();
+  // A cell's phi may be as good as zero, which must not take radii into the denormal range.
+  constexpr double kSmallestPhi = 1e-10;
+  data.phi = AlignedArray<Scalar>(cells * stride);
+  data.hat_gradients.resize(cells * Dim * Dim);
+  data.cell_metric.resize(cells);
+  data.measures.resize(cells);
+  data.radius_scale.resize(cells);
+#pragma omp parallel for schedule(static)
+  for (std::size_t s = 0; s < cells; ++s) {
+    const auto geometry = cell_geometry(problem.mesh, static_cast<Index>(s));
+    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim>>(data.hat_gradients.data() + s * Dim * Dim) =
+        geometry.hat_gradients.template rightCols<Dim>().template cast<Scalar>();
+    data.measures[s] = static_cast<Scalar>(geometry.measure);
+    data.cell_metric[s] = static_cast<Scalar>(metric.cell[s]);
+    for (Index i = 0; i < n; ++i) {
+      data.phi[s * stride + i] = static_cast<Scalar>(std::max(problem.phi(i, s), kSmallestPhi));
+    }
+  }
+}
+
+template <class Scalar, int Dim>
+void set_up_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
+                        SplittingData<Scalar, Dim>& data) {
+  const Index n = problem.num_control_points();
+  const BarycentricConstraints<Dim> constraints(problem.cage.points);
+  data.basis = AlignedArray<Scalar>((Dim + 1) * stride);
+  for (int k = 0; k <= Dim; ++k) {
+    for (Index i = 0; i < n; ++i) {
+      data.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
+    }
+  }
+  data.row_target.resize(data.vertices.size() * (Dim + 1));
+  for (std::size_t row = 0; row < data.vertices.size(); ++row) {
+    Eigen::Map<Eigen::Matrix<Scalar, Dim + 1, 1>>(data.row_target.data() + row * (Dim + 1)) =
+        constraints.weight_target(problem.mesh.points.col(data.vertices[row]))
+            .template cast<Scalar>();
+  }
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+void SplittingData<Scalar, Dim>::set_radius_scale(const Metric& metric, double penalty) {
+  for (std::size_t s = 0; s < radius_scale.size(); ++s) {
+    radius_scale[s] = static_cast<Scalar>(static_cast<double>(measures[s]) /
+                                          (penalty * metric.cell[static_cast<Index>(s)]));
+  }
+}
+
+template <class Scalar, int Dim>
+SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>& problem, const Metric& metric,
+                                               const std::vector<Index>& position,
+                                               std::size_t stride) {
+  SplittingData<Scalar, Dim> data;
+  set_up_rows(problem, metric, position, data);
+  set_up_cells(problem, metric, stride, data);
+  set_up_constraints(problem, stride, data);
+  return data;
+}
+
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
+  template struct SplittingData<Scalar, Dim>;                                             \
+  template SplittingData<Scalar, Dim> make_splitting_data(                                \
+      const LbcProblem<Dim>&, const Metric&, const std::vector<Index>&, std::size_t);
+FLBC_INSTANTIATE(float, 2)
+FLBC_INSTANTIATE(float, 3)
+FLBC_INSTANTIATE(double, 2)
+FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
+template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<2>&, const Metric&);
+template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<3>&, const Metric&);
+
+}  // namespace flbc::splitting
