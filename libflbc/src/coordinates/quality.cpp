@@ -67,13 +67,10 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
   check_size(a, problem.num_control_points(), problem.mesh.num_vertices());
   check_size(b, problem.num_control_points(), problem.mesh.num_vertices());
   double sum = 0;
-  Index interior = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] >= 0) continue;
-    sum += (a.col(v) - b.col(v)).squaredNorm();
-    ++interior;
-  }
-  return interior > 0 ? sum / (static_cast<double>(interior) * static_cast<double>(a.rows())) : 0;
+  const auto interior = problem.boundary.interior_vertices();
+  for (const Index v : interior) sum += (a.col(v) - b.col(v)).squaredNorm();
+  if (interior.empty()) return 0;
+  return sum / (static_cast<double>(interior.size()) * static_cast<double>(a.rows()));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                     \

@@ -12,9 +12,7 @@ template <int Dim>
 Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
   std::vector<Index> unknown(problem.mesh.num_vertices(), -1);
   Index count = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] < 0) unknown[v] = count++;
-  }
+  for (const Index v : problem.boundary.interior_vertices()) unknown[v] = count++;
   std::vector<Eigen::Triplet<double, Index>> entries;
   entries.reserve(static_cast<std::size_t>(problem.mesh.num_cells()) * (Dim + 1) * (Dim + 2) / 2);
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
@@ -45,8 +43,7 @@ void set_up_rows(const LbcProblem<Dim>& problem, const Metric& metric,
   std::vector<Index> row_of(problem.mesh.num_vertices(), boundary_row);
   data.vertices.resize(boundary_row);
   Index unknown = 0;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] >= 0) continue;
+  for (const Index v : problem.boundary.interior_vertices()) {
     row_of[v] = position[unknown++];
     data.vertices[row_of[v]] = v;
   }

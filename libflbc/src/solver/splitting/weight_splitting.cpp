@@ -213,11 +213,7 @@ WeightMatrix WeightSplitting<Scalar, Dim>::weights() const {
     for (Index i = 0; i < n_; ++i) weights(i, v) = static_cast<double>(weights_[v * stride_ + i]);
   }
   // Boundary values are known better than single precision holds them.
-  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
-    auto column = weights.col(problem_.boundary.vertices[b]);
-    column.setZero();
-    problem_.boundary.scatter(static_cast<Index>(b), column);
-  }
+  problem_.boundary.impose_on(weights);
   return weights;
 }
 
