@@ -3,15 +3,12 @@
 # and without inlining one set's code could be linked into another's.
 include_guard(DIRECTORY)
 set(flbc_kernel_flags -O3 -fno-math-errno -fno-trapping-math -Wno-psabi)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  target_compile_definitions(flbc PRIVATE FLBC_WITH_X86_KERNELS)
-endif()
 
 # One kernel of the core: NAME_baseline.cpp and, on x86-64, NAME_avx2.cpp and NAME_avx512.cpp.
 function(flbc_add_kernel name)
   set(flags_baseline "")
-  set(flags_avx2 -mavx2 -mfma)
-  set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mfma)
+  set(flags_avx2 -mavx2 -mfma -mf16c)
+  set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mfma -mf16c)
   set(sets baseline)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND sets avx2 avx512)

@@ -27,12 +27,12 @@ struct KernelList {
 template <class Kernel>
 KernelList<Kernel> supported_kernels() {
   KernelList<Kernel> list{};
-#ifdef FLBC_WITH_X86_KERNELS
+#ifdef __x86_64__
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx512>();
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx2>();
   }
 #endif
