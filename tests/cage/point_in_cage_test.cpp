@@ -21,11 +21,11 @@ TYPED_TEST_SUITE(InsideTest, Dimensions);
 
 // The true answer for a nest of boxes around the origin with the given half sides.
 template <int Dim>
-Side expected(const Vector<Dim>& point, const std::vector<double>& halves) {
+Containment expected(const Vector<Dim>& point, const std::vector<double>& halves) {
   const double radius = point.template lpNorm<Eigen::Infinity>();
   int enclosing = 0;
   for (double half : halves) enclosing += radius < half;
-  return enclosing % 2 == 1 ? Side::kInside : Side::kOutside;
+  return enclosing % 2 == 1 ? Containment::kInside : Containment::kOutside;
 }
 
 TYPED_TEST(InsideTest, NestsOfBoxesWhateverTheirOrientation) {
@@ -59,15 +59,15 @@ TYPED_TEST(InsideTest, PointsOnTheCage) {
   for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
     Vector<Dim> middle = Vector<Dim>::Zero();
     for (int k = 0; k < Dim; ++k) middle += cage.points.col(cage.facets(k, facet)) / Dim;
-    EXPECT_EQ(locator.locate(middle), Side::kOnCage);
-    EXPECT_EQ(locator.locate(middle * (1 + 1e-10)), Side::kOnCage);
-    EXPECT_EQ(locator.locate(middle * (1 - 1e-6)), Side::kInside);
-    EXPECT_EQ(locator.locate(middle * (1 + 1e-6)), Side::kOutside);
+    EXPECT_EQ(locator.locate(middle), Containment::kOnCage);
+    EXPECT_EQ(locator.locate(middle * (1 + 1e-10)), Containment::kOnCage);
+    EXPECT_EQ(locator.locate(middle * (1 - 1e-6)), Containment::kInside);
+    EXPECT_EQ(locator.locate(middle * (1 + 1e-6)), Containment::kOutside);
   }
   for (Index corner = 0; corner < cage.size(); ++corner) {
-    EXPECT_EQ(locator.locate(cage.points.col(corner)), Side::kOnCage);
-    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 - 1e-6)), Side::kInside);
-    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 + 1e-6)), Side::kOutside);
+    EXPECT_EQ(locator.locate(cage.points.col(corner)), Containment::kOnCage);
+    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 - 1e-6)), Containment::kInside);
+    EXPECT_EQ(locator.locate(cage.points.col(corner) * (1 + 1e-6)), Containment::kOutside);
   }
 }
 

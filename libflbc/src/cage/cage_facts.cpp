@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
+#include "flbc/bounding_box.h"
 
 #include <algorithm>
 #include <limits>
@@ -41,7 +41,7 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
   std::vector<char> is_outside(num_points);  // not bool: neighbours are written at the same time
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < num_points; ++p) {
-    is_outside[p] = locator.locate(points.col(p)) == Side::kOutside;
+    is_outside[p] = locator.locate(points.col(p)) == Containment::kOutside;
   }
   std::vector<Index> outside;
   for (Index p = 0; p < num_points; ++p) {

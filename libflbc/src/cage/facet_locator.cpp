@@ -44,7 +44,7 @@ FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
     if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
       continue;
     }
-    // What is outside the facet or due to rounding is cut off, so that a point on an edge or at a
+    // Coordinates outside the facet or due to rounding are cut off, so that a point on an edge or at a
     // corner has exact zeros elsewhere.
     Vector<Dim> coordinates;
     coordinates.template tail<Dim - 1>() = facet.to_coordinates * (point - facet.corners.col(0));

@@ -55,7 +55,7 @@ bool is_in_others(const OrientedCage<Dim>& oriented, Index shell, Index facet_of
   }
   others.facets.conservativeResize(Dim, count);
   const CageLocator<Dim> locator(others, 0);
-  return locator.locate(all.points.col(all.facets(0, facet_of_shell))) == Side::kInside;
+  return locator.locate(all.points.col(all.facets(0, facet_of_shell))) == Containment::kInside;
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ CageLocator<Dim>::CageLocator(const Cage<Dim>& cage, double tolerance)
 }
 
 template <int Dim>
-Side CageLocator<Dim>::locate(const Vector<Dim>& point) const {
-  if (is_on_cage(point)) return Side::kOnCage;
-  return is_enclosed(point) ? Side::kInside : Side::kOutside;
+Containment CageLocator<Dim>::locate(const Vector<Dim>& point) const {
+  if (is_on_cage(point)) return Containment::kOnCage;
+  return is_enclosed(point) ? Containment::kInside : Containment::kOutside;
 }
 
 template <int Dim>

@@ -8,7 +8,7 @@
 
 namespace flbc {
 
-enum class Side { kInside, kOutside, kOnCage };
+enum class Containment { kInside, kOutside, kOnCage };
 
 //! Connected component of each facet: loops in 2D, shells in 3D, numbered from 0 in the order of
 //! their first facets.
@@ -24,7 +24,7 @@ class CageLocator {
   //! \param tolerance  a point no farther than this from a facet is on the cage
   CageLocator(const Cage<Dim>& cage, double tolerance);
 
-  Side locate(const Vector<Dim>& point) const;
+  Containment locate(const Vector<Dim>& point) const;
 
  private:
   bool is_on_cage(const Vector<Dim>& point) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "certificate/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
@@ -69,7 +70,7 @@ class AdmissibleFlux {
     sum.magnitude += factor * magnitude;
   }
 
-  // What rounding may have added to a sum over the cells at a vertex.
+  // Rounding errors in a sum over the cells at a vertex.
   static double slack(const Rounded& sum, Index num_cells) {
     return (num_cells + 4 * Dim) * kEpsilon * sum.magnitude;
   }
@@ -114,19 +115,14 @@ void vertex_costs(const AdmissibleFlux<Scalar, Dim>& flux, Index vertex, std::ve
 }
 
 template <class Scalar, int Dim>
-void check_sizes(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                 const WeightMatrix& weights) {
+void check_flux_and_weights(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+                            const WeightMatrix& weights) {
   const Index n = problem.num_control_points();
   if (flux.n != n || flux.stride < static_cast<std::size_t>(n)) {
     throw InputError("a flux for " + std::to_string(flux.n) +
                      " control points does not belong to a cage with " + std::to_string(n));
   }
-  if (weights.rows() != n || weights.cols() != problem.mesh.num_vertices()) {
-    throw InputError("weights for " + std::to_string(weights.cols()) + " vertices and " +
-                     std::to_string(weights.rows()) + " control points do not belong to " +
-                     std::to_string(problem.mesh.num_vertices()) + " vertices and " +
-                     std::to_string(n) + " control points");
-  }
+  check_size(weights, n, problem.mesh.num_vertices());
 }
 
 // The weights with the known values on the boundary and feasible columns inside.
@@ -143,7 +139,7 @@ WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights)
 template <class Scalar, int Dim>
 double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
                    const WeightMatrix& weights) {
-  check_sizes(problem, flux, weights);
+  check_flux_and_weights(problem, flux, weights);
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
   // In long double, so that the sum over vertices adds no error that counts.
   const auto sum = parallel_sum(
@@ -172,7 +168,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
 template <class Scalar, int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
                     const WeightMatrix& weights) {
-  check_sizes(problem, flux, weights);
+  check_flux_and_weights(problem, flux, weights);
   const WeightMatrix feasible = made_feasible(problem, weights);
   Certificate certificate;
   certificate.objective = objective(problem.mesh, problem.phi, feasible);

@@ -14,7 +14,7 @@ namespace {
 
 // Distances and values relative to 1 below which a pivot would be rounding.
 constexpr double kLeastPivot = 1e-9;
-// How far from affine dependence a control point must be to be taken for its weight.
+// Minimum pivot for a control point to enter the initial basis.
 constexpr double kIndependent = 1e-6;
 constexpr double kDependent = 1e-13;
 // Negative values of basic variables that rounding explains.

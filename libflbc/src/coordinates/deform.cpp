@@ -12,7 +12,7 @@ namespace {
 // Below this many points waking threads up takes longer than the work.
 constexpr Eigen::Index kParallelPoints = 2000;
 
-void check_sizes(Eigen::Index in_weights, Eigen::Index in_pose) {
+void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
   if (in_weights == in_pose) return;
   throw InputError("the weights are for " + std::to_string(in_weights) +
                    " control points, but the pose has " + std::to_string(in_pose));
@@ -22,7 +22,7 @@ void check_sizes(Eigen::Index in_weights, Eigen::Index in_pose) {
 
 template <int Dim>
 PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points) {
-  check_sizes(weights.rows(), control_points.cols());
+  check_pose(weights.rows(), control_points.cols());
   // A coordinate per column: the sums then run over contiguous numbers.
   const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
   const Eigen::Index count = weights.cols();
@@ -62,7 +62,7 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
 
 template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points) {
-  check_sizes(weights.num_control_points(), control_points.cols());
+  check_pose(weights.num_control_points(), control_points.cols());
   const Eigen::Index count = weights.num_points();
   PointList<Dim> points(Dim, count);
   const auto* starts = weights.starts().data();

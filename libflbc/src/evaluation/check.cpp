@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "cage/facet_locator.h"
 #include "evaluation/check_mesh.h"
 #include "evaluation/extremes.h"
@@ -18,13 +19,13 @@ namespace {
 constexpr double kCoincidence = 1e-10;  // of the cage's size: a point that near is at the place
 constexpr double kRounding = 1e-12;     // a weight not more than this below 0 is not negative
 
-// What one sweep over all weights finds out; partial ones are added up in the order of points.
+// Counts and extremes of weights; those of parts are added up in the order of points.
 template <int Dim>
-struct Sweep {
+struct WeightExtremes {
   std::int64_t non_finite = 0, negative = 0, influences = 0, finite_points = 0;
   Extreme<Dim> first_non_finite, min_weight, max_weight, partition, reproduction, most_influences;
 
-  Sweep& operator+=(const Sweep& next) {
+  WeightExtremes& operator+=(const WeightExtremes& next) {
     non_finite += next.non_finite;
     negative += next.negative;
     influences += next.influences;
@@ -40,32 +41,33 @@ struct Sweep {
 };
 
 template <int Dim, class Column>
-void add_non_finite(Sweep<Dim>& sweep, const Column& column, Index p, const Vector<Dim>& place) {
+void add_non_finite(WeightExtremes<Dim>& extremes, const Column& column, Index p,
+                    const Vector<Dim>& place) {
   for (Index i = 0; i < column.size(); ++i) {
     if (std::isfinite(column[i])) continue;
-    ++sweep.non_finite;
-    if (sweep.first_non_finite.point < 0) sweep.first_non_finite = {column[i], p, i, place};
+    ++extremes.non_finite;
+    if (extremes.first_non_finite.point < 0) extremes.first_non_finite = {column[i], p, i, place};
   }
 }
 
 template <int Dim>
-void add_point(Sweep<Dim>& sweep, const Cage<Dim>& cage, double size, Index p,
+void add_point(WeightExtremes<Dim>& extremes, const Cage<Dim>& cage, double size, Index p,
                const Vector<Dim>& place, const WeightMatrix& weights) {
   const auto column = weights.col(p);
-  if (!column.allFinite()) return add_non_finite(sweep, column, p, place);
-  ++sweep.finite_points;
+  if (!column.allFinite()) return add_non_finite(extremes, column, p, place);
+  ++extremes.finite_points;
   Index lowest = 0, highest = 0;
   const double least = column.minCoeff(&lowest);
   const double most = column.maxCoeff(&highest);
   const auto influences = (column.array().abs() > kInfluenceThreshold).count();
   const Vector<Dim> error = cage.points * column - place;
-  sweep.negative += (column.array() < -kRounding).count();
-  sweep.influences += influences;
-  keep_smaller(sweep.min_weight, {least, p, lowest, place});
-  keep_larger(sweep.max_weight, {most, p, highest, place});
-  keep_larger(sweep.partition, {std::abs(column.sum() - 1), p, -1, place});
-  keep_larger(sweep.reproduction, {error.norm() / size, p, -1, place});
-  keep_larger(sweep.most_influences, {static_cast<double>(influences), p, -1, place});
+  extremes.negative += (column.array() < -kRounding).count();
+  extremes.influences += influences;
+  keep_smaller(extremes.min_weight, {least, p, lowest, place});
+  keep_larger(extremes.max_weight, {most, p, highest, place});
+  keep_larger(extremes.partition, {std::abs(column.sum() - 1), p, -1, place});
+  keep_larger(extremes.reproduction, {error.norm() / size, p, -1, place});
+  keep_larger(extremes.most_influences, {static_cast<double>(influences), p, -1, place});
 }
 
 // A point on the cage and the weights that it must have.
@@ -141,46 +143,36 @@ std::vector<KnownWeights<Dim>> to_known_weights(const BoundaryValues<Dim>& bound
 }
 
 template <int Dim>
-void check_sizes(const Cage<Dim>& cage, const PointList<Dim>& points, const WeightMatrix& weights) {
-  if (weights.rows() != cage.size()) {
-    throw InputError("there are weights for " + std::to_string(weights.rows()) +
-                     " control points, but the cage has " + std::to_string(cage.size()));
-  }
-  if (weights.cols() != points.cols()) {
-    throw InputError("there are weights of " + std::to_string(weights.cols()) +
-                     " points, but there are " + std::to_string(points.cols()) + " points");
-  }
-}
-
-template <int Dim>
 WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                                  const WeightMatrix& weights,
                                  const std::vector<KnownWeights<Dim>>& known) {
   const double size = bounding_box_diagonal(cage.points);
   const auto num_points = static_cast<Index>(points.cols());
-  const auto sweep = parallel_sum(num_points, Sweep<Dim>(), [&](Index begin, Index end) {
-    Sweep<Dim> part;
-    for (Index p = begin; p < end; ++p) add_point<Dim>(part, cage, size, p, points.col(p), weights);
-    return part;
-  });
+  const auto extremes =
+      parallel_sum(num_points, WeightExtremes<Dim>(), [&](Index begin, Index end) {
+        WeightExtremes<Dim> part;
+        for (Index p = begin; p < end; ++p)
+          add_point<Dim>(part, cage, size, p, points.col(p), weights);
+        return part;
+      });
 
   WeightCheck<Dim> check;
   check.points = num_points;
   check.control_points = cage.size();
-  check.non_finite = sweep.non_finite;
-  check.first_non_finite = sweep.first_non_finite;
-  check.negative = sweep.negative;
-  check.min_weight = sweep.min_weight;
-  check.max_weight = sweep.max_weight;
-  check.partition = sweep.partition;
-  check.reproduction = sweep.reproduction;
-  check.influences = sweep.most_influences;
-  check.quality.min_weight = sweep.min_weight.value;
-  check.quality.max_partition_error = sweep.partition.value;
-  check.quality.max_reproduction_error = sweep.reproduction.value;
+  check.non_finite = extremes.non_finite;
+  check.first_non_finite = extremes.first_non_finite;
+  check.negative = extremes.negative;
+  check.min_weight = extremes.min_weight;
+  check.max_weight = extremes.max_weight;
+  check.partition = extremes.partition;
+  check.reproduction = extremes.reproduction;
+  check.influences = extremes.most_influences;
+  check.quality.min_weight = extremes.min_weight.value;
+  check.quality.max_partition_error = extremes.partition.value;
+  check.quality.max_reproduction_error = extremes.reproduction.value;
   check.quality.mean_influences =
-      static_cast<double>(sweep.influences) /
-      static_cast<double>(std::max<std::int64_t>(1, sweep.finite_points));
+      static_cast<double>(extremes.influences) /
+      static_cast<double>(std::max<std::int64_t>(1, extremes.finite_points));
   measure_known_weights(check, points, weights, known);
   return check;
 }
@@ -190,24 +182,24 @@ WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& po
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
                                const WeightMatrix& weights) {
-  check_sizes(cage, points, weights);
+  check_size(weights, cage.size(), points.cols());
   return check_at_points(cage, points, weights, find_points_on_cage(cage, points));
 }
 
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights) {
-  check_sizes(cage, domain.points, weights);
+  check_size(weights, cage.size(), domain.num_vertices());
   const auto problem = make_problem(cage, domain, DistanceScheme::kConstant);
   auto check = check_at_points(cage, domain.points, weights, to_known_weights(problem.boundary));
   check.mesh = check_on_mesh(problem, domain, weights, check.quality.mean_influences);
   return check;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                        \
-  template WeightCheck<Dim> check_weights(const Cage<Dim>&, const PointList<Dim>&,   \
-                                          const WeightMatrix&);                      \
-  template WeightCheck<Dim> check_weights(const Cage<Dim>&, const DomainMesh<Dim>&,  \
+#define FLBC_INSTANTIATE(Dim)                                                       \
+  template WeightCheck<Dim> check_weights(const Cage<Dim>&, const PointList<Dim>&,  \
+                                          const WeightMatrix&);                     \
+  template WeightCheck<Dim> check_weights(const Cage<Dim>&, const DomainMesh<Dim>&, \
                                           const WeightMatrix&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

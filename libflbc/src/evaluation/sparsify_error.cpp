@@ -10,7 +10,7 @@
 namespace flbc {
 namespace {
 
-void check_sizes(const WeightMatrix& before, const WeightMatrix& after) {
+void check_same_size(const WeightMatrix& before, const WeightMatrix& after) {
   if (before.rows() == after.rows() && before.cols() == after.cols()) return;
   throw InputError("weights of " + std::to_string(before.cols()) + " points and " +
                    std::to_string(before.rows()) + " control points cannot be compared with " +
@@ -27,7 +27,7 @@ Influences count_influences(const WeightMatrix& weights) {
 }
 
 ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after) {
-  check_sizes(before, after);
+  check_same_size(before, after);
   if (before.size() == 0) return {};
   const auto difference = (after - before).eval();
   return {std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size())),
@@ -37,7 +37,7 @@ ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after) {
 template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
                              const WeightMatrix& after) {
-  check_sizes(before, after);
+  check_same_size(before, after);
   if (before.size() == 0 || poses.empty()) return {};
   const WeightMatrix difference = after - before;
   double sum = 0, max = 0;

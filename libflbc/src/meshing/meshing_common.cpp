@@ -46,9 +46,9 @@ template <int Dim>
 void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, double tolerance) {
   const CageLocator<Dim> locator(cage, tolerance);
   for (Index i = 0; i < embedded.cols(); ++i) {
-    const Side location = locator.locate(embedded.col(i));
-    if (location == Side::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
-    if (location == Side::kOnCage) {
+    const Containment location = locator.locate(embedded.col(i));
+    if (location == Containment::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
+    if (location == Containment::kOnCage) {
       refuse_point<Dim>(embedded, i, "it lies on the cage, where it must lie strictly inside");
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What both meshers do before and after the foreign library's work.
+// Steps of both meshers before and after the foreign library's work.
 #pragma once
 
 #include "flbc/cage.h"

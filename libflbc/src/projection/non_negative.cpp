@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/messages.h"
+#include "base/shape_checks.h"
 #include "flbc/errors.h"
 #include "projection/nearest_point_in_hull.h"
 #include "projection/weight_projection.h"
@@ -16,12 +17,7 @@ namespace {
 template <int Dim>
 void check_input(const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const WeightMatrix& weights, const std::vector<Index>& columns) {
-  if (weights.rows() != control_points.cols() || weights.cols() != points.cols()) {
-    throw InputError("weights for " + std::to_string(weights.cols()) + " points and " +
-                     std::to_string(weights.rows()) + " control points do not belong to " +
-                     std::to_string(points.cols()) + " points and " +
-                     std::to_string(control_points.cols()) + " control points");
-  }
+  check_size(weights, control_points.cols(), points.cols());
   if (control_points.cols() == 0) throw InputError("there are no control points");
   for (Eigen::Index i = 0; i < control_points.cols(); ++i) {
     if (!control_points.col(i).allFinite()) {

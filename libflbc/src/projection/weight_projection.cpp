@@ -16,7 +16,7 @@ namespace {
 
 // Errors of sum and reproduction, the latter relative to the cage's size, that rounding explains.
 constexpr double kExact = 4e-14;
-// What a few more steps may still improve.
+// Violation that a few more steps may still improve.
 constexpr double kPolished = 2e-15;
 // Distances from the hull, relative to the size, that rounding of someone else's points explains.
 constexpr double kOutside = 1e-9;

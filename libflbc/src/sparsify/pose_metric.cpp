@@ -10,7 +10,7 @@
 namespace flbc {
 namespace {
 
-// What the expectation counts beside given poses.
+// Weight of the expectation beside given poses.
 constexpr double kGeneral = 0.1;
 
 // The sum of the expectations over all poses of both kinds, each of which displaces by about a

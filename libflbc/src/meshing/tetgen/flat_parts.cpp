@@ -86,7 +86,7 @@ void refuse_slits(const Cage<3>& cage, const DomainMesh<3>& mesh,
   for (const Simplex& face : faces) {
     Vector<3> centre = Vector<3>::Zero();
     for (Index corner : face) centre += mesh.points.col(corner) / 3;
-    if (locator.locate(centre) != Side::kOnCage) refuse_flat_cell(centre);
+    if (locator.locate(centre) != Containment::kOnCage) refuse_flat_cell(centre);
   }
 }
 

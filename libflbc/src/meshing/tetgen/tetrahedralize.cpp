@@ -88,7 +88,7 @@ PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
   const CageLocator<3> locator(cage, 0);
   PointList<3> cavities(3, 0);
   for (const auto& [region, point] : points_in_regions(filled)) {
-    if (locator.locate(point) != Side::kOutside) continue;
+    if (locator.locate(point) != Containment::kOutside) continue;
     cavities.conservativeResize(3, cavities.cols() + 1);
     cavities.rightCols<1>() = point;
   }

@@ -9,19 +9,22 @@ namespace flbc::distance {
 namespace {
 
 // An edge of a boundary facet.
-struct Side {
+struct FacetAtEdge {
   Index low, high;  // its vertices
   Index apex;       // the facet's third vertex
   Index inside;     // the vertex of the cell behind it
 
-  bool is_on_same_edge(const Side& other) const { return low == other.low && high == other.high; }
-  bool operator<(const Side& other) const {
+  bool is_on_same_edge(const FacetAtEdge& other) const {
+    return low == other.low && high == other.high;
+  }
+  bool operator<(const FacetAtEdge& other) const {
     return low != other.low ? low < other.low : high < other.high;
   }
 };
 
-std::vector<Side> boundary_sides(const DomainMesh<3>& mesh, const MeshTopology<3>& topology) {
-  std::vector<Side> sides;
+std::vector<FacetAtEdge> boundary_sides(const DomainMesh<3>& mesh,
+                                        const MeshTopology<3>& topology) {
+  std::vector<FacetAtEdge> sides;
   for (Index f = 0; f < topology.num_facets(); ++f) {
     if (!topology.is_boundary(f)) continue;
     const Index cell = topology.sides(0, f);
@@ -37,7 +40,7 @@ std::vector<Side> boundary_sides(const DomainMesh<3>& mesh, const MeshTopology<3
 }
 
 // Whether the other facet turns away from the inside, by more than rounding.
-bool is_reflex(const DomainMesh<3>& mesh, const Side& side, const Side& other) {
+bool is_reflex(const DomainMesh<3>& mesh, const FacetAtEdge& side, const FacetAtEdge& other) {
   constexpr double kFlat = 1e-6;
   const auto edge = [&](Index v) -> Vector<3> {
     return (mesh.points.col(v) - mesh.points.col(side.low)).normalized();
