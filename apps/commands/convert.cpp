@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc convert: weights or meshes from one format to another.
 #include <cmath>
+#include <iostream>
 #include <memory>
 
 #include "commands/commands.h"
 #include "commands/exit_status.h"
-#include "files/convert_mesh.h"
 #include "files/convert_weights.h"
+#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
@@ -52,6 +53,20 @@ void check_arguments(const ConvertArguments& arguments) {
   auto inputs = files_of_model(files.input);
   inputs.insert(inputs.end(), {files.cage, files.points});
   for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
+}
+
+// What the new format does not keep is told.
+void convert_mesh(const std::string& input, const std::string& output, bool quiet) {
+  const auto convert = [&](const auto& any) {
+    {
+      const HeldSignals held;
+      naming(input, [&] { any.write(output, any.points(), {}, 0); });
+    }
+    if (quiet) return;
+    std::cerr << output << ": " << any.points().cols() << " vertices\n";
+    any.print_losses();
+  };
+  std::visit(convert, load_any_model({input, output, false, true}));
 }
 
 }  // namespace

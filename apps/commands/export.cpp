@@ -15,7 +15,6 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "gltf/skin.h"
-#include "poses/animation.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
 
@@ -63,11 +62,13 @@ void check_files(const ExportArguments& arguments, const CageFiles& poses) {
 template <int Dim>
 gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFiles& poses,
                                  const PointList<Dim>& rest) {
-  if (arguments.keyframes.empty()) {
-    return load_animation<Dim>(poses, arguments.frames_per_second, rest);
+  const auto& keyframes = arguments.keyframes;
+  const auto num_control_points = static_cast<Index>(rest.cols());
+  if (keyframes.empty()) {
+    return animation_of(load_poses<Dim>(poses, arguments.frames_per_second), num_control_points);
   }
-  auto animation = load_animation<Dim>(arguments.keyframes, rest);
-  naming(arguments.keyframes, [&] { gltf::validate(animation, rest.cols()); });
+  const auto animation = animation_of(load_keyframes<Dim>(keyframes, rest), num_control_points);
+  naming(keyframes, [&] { gltf::validate(animation, rest.cols()); });
   return animation;
 }
 

@@ -3,9 +3,9 @@
 
 #include <iostream>
 
-#include "files/convert_mesh.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"

@@ -50,20 +50,6 @@ void set_field(std::vector<io::VertexField>& fields, const Eigen::VectorXd& valu
   fields.push_back({kField, values});
 }
 
-// In a plane, triangles are a surface too.
-template <int Dim>
-io::Model to_model(const PointList<Dim>& points, const FacetList<3>& triangles) {
-  io::Model model;
-  for (const auto& point : points.colwise()) {
-    model.soup.points.push_back(Vector<3>::Zero());
-    model.soup.points.back().template head<Dim>() = point;
-  }
-  for (const auto& cell : triangles.colwise()) {
-    model.soup.polygons.emplace_back(cell.begin(), cell.end());
-  }
-  return model;
-}
-
 void save(const std::string& path, const io::Model& model) {
 #ifdef FLBC_WITH_OPENMESH
   if (io::extension_of(path) == "om") return openmesh::write_om(path, model);
@@ -139,7 +125,7 @@ MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
   points_ = mesh_.points;
   if (holds(file_.output, {Content::kFields})) return;
   for (const auto& field : fields_) losses_.push_back("field \"" + field.name + "\"");
-  if (Dim == 2) find_losses(to_model<Dim>(points_, mesh_.cells.template topRows<3>()));
+  if (Dim == 2) find_losses({io::to_polygons(mesh_)});
 }
 
 template <int Dim>
@@ -162,7 +148,8 @@ EdgeList MovableModel<Dim>::edges() const {
 template <int Dim>
 gltf::Surface MovableModel<Dim>::surface() const {
   return naming(file_.model, [&] {
-    return model_ ? gltf::surface_of_model<Dim>(*model()) : gltf::surface_of_domain(mesh_);
+    if (model_) return gltf::surface_of_model<Dim>(*model());
+    return gltf::surface_of_model<Dim>({io::to_polygons(mesh_)});
   });
 }
 
@@ -182,7 +169,7 @@ void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& poi
   }
   if (is_model_file(path)) {
     auto model =
-        model_ ? model_->moved(points) : to_model<Dim>(points, mesh_.cells.template topRows<3>());
+        model_ ? model_->moved(points) : io::Model{io::to_polygons<Dim>({points, mesh_.cells})};
     if (file_.shows_displacement) model.attributes.colors = colors_of(lengths, largest);
     return save(path, model);
   }
@@ -220,6 +207,13 @@ AnyModel load_any_model(const MovedFile& file) {
                        no_tetrahedra.what() + ")");
     }
   }
+}
+
+Index count_vertices(const std::string& path) {
+  if (is_model_file(path)) return static_cast<Index>(io::read_polygons(path).points.size());
+  require_mesh_readable(path);
+  return std::visit([](const auto& any) { return static_cast<Index>(any.points().cols()); },
+                    load_any_model({path, path}));
 }
 
 template void require_formats_of<2>(const MovedFile&);

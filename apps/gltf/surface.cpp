@@ -170,38 +170,7 @@ Surface surface_of_model(const io::Model& model) {
   return surface;
 }
 
-template <int Dim>
-Surface surface_of_domain(const DomainMesh<Dim>& mesh) {
-  io::Model model;
-  auto& soup = model.soup;
-  for (const auto& point : mesh.points.colwise()) {
-    soup.points.push_back(Vector<3>::Zero());
-    soup.points.back().template head<Dim>() = point;
-  }
-  if constexpr (Dim == 2) {
-    for (const auto& cell : mesh.cells.colwise())
-      soup.polygons.emplace_back(cell.begin(), cell.end());
-  } else {
-    // The facet opposite to each vertex of a positively oriented cell, seen from outside.
-    constexpr Index kFacets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    const auto topology = build_topology(mesh);
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      for (int k = 0; k < 4; ++k) {
-        if (!topology.is_boundary(topology.cell_facets(k, s))) continue;
-        const auto& facet = kFacets[k];
-        soup.polygons.push_back(
-            {mesh.cells(facet[0], s), mesh.cells(facet[1], s), mesh.cells(facet[2], s)});
-      }
-    }
-  }
-  return surface_of_model<Dim>(model);
-}
-
-#define FLBC_INSTANTIATE(Dim)                               \
-  template Surface surface_of_model<Dim>(const io::Model&); \
-  template Surface surface_of_domain(const DomainMesh<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template Surface surface_of_model<2>(const io::Model&);
+template Surface surface_of_model<3>(const io::Model&);
 
 }  // namespace flbc::gltf

@@ -6,7 +6,6 @@
 
 #include <vector>
 
-#include "flbc/domain_mesh.h"
 #include "flbc/io/model.h"
 
 namespace flbc::gltf {
@@ -28,10 +27,5 @@ struct Surface {
 //! \throws InputError if no triangle is left
 template <int Dim>
 Surface surface_of_model(const io::Model& model);
-
-//! The triangles of a 2D mesh, the boundary of a 3D one.
-//! \param mesh  positively oriented (normalize_and_validate)
-template <int Dim>
-Surface surface_of_domain(const DomainMesh<Dim>& mesh);
 
 }  // namespace flbc::gltf

@@ -45,12 +45,27 @@ PointList<Dim> load_control_points(const std::string& path) {
 }
 
 template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files) {
+std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second) {
   std::vector<Pose<Dim>> poses;
   for (std::size_t k = 0; k < files.paths.size(); ++k) {
-    poses.push_back({files.paths[k], files.numbers[k], load_control_points<Dim>(files.paths[k])});
+    poses.push_back({files.paths[k], files.numbers[k], load_control_points<Dim>(files.paths[k]),
+                     static_cast<double>(k) / frames_per_second});
   }
   return poses;
+}
+
+template <int Dim>
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num_control_points) {
+  gltf::Animation<Dim> animation;
+  for (const auto& pose : poses) {
+    if (pose.points.cols() != num_control_points) {
+      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
+                       " vertices, but the cage has " + std::to_string(num_control_points));
+    }
+    animation.times.push_back(pose.time);
+    animation.poses.push_back(pose.points);
+  }
+  return animation;
 }
 
 template <int Dim>
@@ -65,16 +80,18 @@ std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<D
                        " control points, but the rest cage has " + std::to_string(rest.cols()));
     }
     poses.push_back({path + ", keyframe " + std::to_string(number), number,
-                     rest + keyframe.displacements.template topRows<Dim>()});
+                     rest + keyframe.displacements.template topRows<Dim>(), keyframe.time});
   }
   return poses;
 }
 
-template PointList<2> load_control_points(const std::string&);
-template PointList<3> load_control_points(const std::string&);
-template std::vector<Pose<2>> load_poses(const CageFiles&);
-template std::vector<Pose<3>> load_poses(const CageFiles&);
-template std::vector<Pose<2>> load_keyframes(const std::string&, const PointList<2>&);
-template std::vector<Pose<3>> load_keyframes(const std::string&, const PointList<3>&);
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template PointList<Dim> load_control_points(const std::string&);                           \
+  template std::vector<Pose<Dim>> load_poses(const CageFiles&, double);                      \
+  template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&); \
+  template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&, Index);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::app

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flbc/types.h"
+#include "gltf/skin.h"
 
 namespace flbc::app {
 
@@ -17,6 +18,7 @@ struct Pose {
   std::string name;         //!< the file, for keyframes with the number: for messages
   std::int64_t number;      //!< in the names of sequences
   PointList<Dim> points{};  //!< Dim x n
+  double time = 0;          //!< in seconds
 };
 
 //! The files behind the patterns, each once per mention, and their numbers: those of the pattern if
@@ -35,11 +37,17 @@ int dimension_of_cage(const std::string& path);
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path);
 
-//! One pose per file.
+//! One pose per file, `frames_per_second` of them in a second, the first one at 0.
 template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files);
+std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second = 1);
 
-//! One pose per keyframe; in 2D displacements along z are passed over.
+//! The poses at their times.
+//! \param num_control_points  of the cage at rest
+//! \throws InputError if a pose has another number of control points
+template <int Dim>
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num_control_points);
+
+//! One pose per keyframe, at its time; in 2D displacements along z are passed over.
 //! \throws InputError if the file is for another number of control points than `rest` (Dim x n) has
 template <int Dim>
 std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest);

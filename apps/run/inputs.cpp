@@ -3,7 +3,6 @@
 
 #include "files/load.h"
 #include "flbc/errors.h"
-#include "poses/animation.h"
 #include "poses/file_sequence.h"
 #include "run/names.h"
 
@@ -15,32 +14,23 @@ template <int Dim>
 void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs<Dim>& inputs) {
   const auto files = find_cages(arguments.deformed);
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
-  inputs.poses = load_poses<Dim>(files);
-  if (inputs.poses.empty()) return;
+  if (files.paths.empty()) return;
   // From where the cage rests: to a single pose within a second, through several as a video.
   constexpr double kVideo = 24;
   double rate = arguments.frames_per_second;
-  if (rate == 0) rate = inputs.poses.size() == 1 ? 1 : kVideo;
+  if (rate == 0) rate = files.paths.size() == 1 ? 1 : kVideo;
+  inputs.poses = load_poses<Dim>(files, rate);
+  inputs.animation = animation_of(inputs.poses, cage.size());
   auto& [times, poses] = inputs.animation;
-  poses.push_back(cage.points);
-  for (const auto& pose : inputs.poses) {
-    if (pose.points.cols() != cage.size()) {
-      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
-                       " vertices, but " + arguments.settings.cage + " has " +
-                       std::to_string(cage.size()));
-    }
-    poses.push_back(pose.points);
-  }
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    times.push_back(static_cast<double>(k) / rate);
-  }
+  times.push_back(static_cast<double>(poses.size()) / rate);
+  poses.insert(poses.begin(), cage.points);
 }
 
 template <int Dim>
 void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInputs<Dim>& inputs) {
   inputs.files.push_back(path);
   inputs.poses = load_keyframes<Dim>(path, cage.points);
-  inputs.animation = load_animation<Dim>(path, cage.points);
+  inputs.animation = animation_of(inputs.poses, cage.size());
   naming(path, [&] { gltf::validate(inputs.animation, cage.size()); });
 }
 

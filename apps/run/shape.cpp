@@ -28,7 +28,7 @@ Shape<Dim> shape_of(const DomainMesh<Dim>& domain) {
   Shape<Dim> shape{"domain", domain_extension<Dim>()};
   shape.points = domain.points;
   shape.edges = edges_of_cells(domain);
-  shape.surface = gltf::surface_of_domain(domain);
+  shape.surface = gltf::surface_of_model<Dim>({io::to_polygons(domain)});
   return shape;
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "flbc/errors.h"
+#include "flbc/io/mesh_io.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"
 
@@ -164,7 +165,7 @@ TEST(SurfaceOfModel, In2DAllTrianglesFaceUp) {
 
 TEST(SurfaceOfDomain, TrianglesOfThePlane) {
   const auto sample = make_sample<2>(Shape::kRing, 3, 0.2);
-  const auto surface = gltf::surface_of_domain(sample.mesh);
+  const auto surface = gltf::surface_of_model<2>({io::to_polygons(sample.mesh)});
   EXPECT_EQ(surface.triangles, sample.mesh.cells);
   EXPECT_EQ(surface.sources.size(), sample.mesh.num_vertices());
 }
@@ -172,7 +173,7 @@ TEST(SurfaceOfDomain, TrianglesOfThePlane) {
 TEST(SurfaceOfDomain, BoundaryOfTetrahedraIsClosedAndEnclosesThem) {
   const auto sample = make_sample<3>(Shape::kRing, 3, 0.2);
   const auto& mesh = sample.mesh;
-  const auto surface = gltf::surface_of_domain(mesh);
+  const auto surface = gltf::surface_of_model<3>({io::to_polygons(mesh)});
   EXPECT_LT(surface.sources.size(), mesh.num_vertices());
   // Every edge is passed once in either direction.
   std::map<std::pair<Index, Index>, int> passes;

@@ -36,19 +36,6 @@ DomainMesh<2> from_soup(const std::string& path, const PolygonSoup& soup) {
   return mesh;
 }
 
-PolygonSoup to_soup(const DomainMesh<2>& mesh) {
-  PolygonSoup soup;
-  soup.points.reserve(static_cast<std::size_t>(mesh.num_vertices()));
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    soup.points.emplace_back(mesh.points(0, v), mesh.points(1, v), 0.0);
-  }
-  soup.polygons.reserve(static_cast<std::size_t>(mesh.num_cells()));
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    soup.polygons.push_back({mesh.cells(0, s), mesh.cells(1, s), mesh.cells(2, s)});
-  }
-  return soup;
-}
-
 template <int Dim>
 const MeshFormat<Dim>& mesh_format(const std::string& path, const std::string& action) {
   const std::string phrase = action + " a " + std::to_string(Dim) + "D mesh as";
@@ -93,7 +80,33 @@ DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>*)
 
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
                      const std::vector<VertexField>&, GmshVersion) {
-  write_model(path, {to_soup(mesh)});
+  write_model(path, {to_polygons(mesh)});
+}
+
+template <int Dim>
+PolygonSoup to_polygons(const DomainMesh<Dim>& mesh) {
+  PolygonSoup soup;
+  for (const auto& point : mesh.points.colwise()) {
+    soup.points.push_back(Vector<3>::Zero());
+    soup.points.back().template head<Dim>() = point;
+  }
+  if constexpr (Dim == 2) {
+    for (const auto& cell : mesh.cells.colwise()) {
+      soup.polygons.emplace_back(cell.begin(), cell.end());
+    }
+  } else {
+    // The facet opposite to each vertex of a positively oriented cell, seen from outside.
+    constexpr Index kFacets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    const auto topology = build_topology(mesh);
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      for (int k = 0; k < 4; ++k) {
+        if (!topology.is_boundary(topology.cell_facets(k, s))) continue;
+        const auto& [a, b, c] = kFacets[k];
+        soup.polygons.push_back({mesh.cells(a, s), mesh.cells(b, s), mesh.cells(c, s)});
+      }
+    }
+  }
+  return soup;
 }
 
 template <int Dim>
@@ -123,6 +136,7 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                          \
+  template PolygonSoup to_polygons(const DomainMesh<Dim>&);                            \
   template DomainMesh<Dim> read_domain(const std::string&);                            \
   template DomainMesh<Dim> read_domain(const std::string&, std::vector<VertexField>&); \
   template void write_domain(const std::string&, const DomainMesh<Dim>&,               \

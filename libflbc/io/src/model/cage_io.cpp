@@ -3,7 +3,7 @@
 
 #include "base/messages.h"
 #include "flbc/errors.h"
-#include "model/polygon_triangles.h"
+#include "flbc/io/cut_polygon.h"
 
 namespace flbc::io {
 namespace {
@@ -38,8 +38,8 @@ bool is_flat(const PolygonSoup& soup) {
 FacetList<3> triangles_of_polygons(const PolygonSoup& soup) {
   std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
   for (const auto& polygon : soup.polygons) {
-    const auto parts = PolygonCutter(soup.points, polygon).cut();
-    triangles.insert(triangles.end(), parts.begin(), parts.end());
+    const auto parts = cut_polygon(soup.points, polygon);
+    triangles.insert(triangles.end(), parts.colwise().begin(), parts.colwise().end());
   }
   FacetList<3> facets(3, triangles.size());
   for (std::size_t f = 0; f < triangles.size(); ++f) facets.col(f) = triangles[f];

@@ -1,19 +1,117 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/cut_polygon.h"
 
+#include <algorithm>
 #include <numeric>
 
-#include "model/polygon_triangles.h"
+#include <Eigen/Geometry>
 
 namespace flbc::io {
+namespace {
 
-FacetList<3> cut_polygon(const std::vector<Vector<3>>& corners) {
-  PolygonCutter::Polygon polygon(corners.size());
-  std::iota(polygon.begin(), polygon.end(), 0);
-  const auto triangles = PolygonCutter(corners, polygon).cut();
+// One polygon, seen along the normal of the plane nearest to it.
+class PolygonCutter {
+ public:
+  using Polygon = std::vector<Index>;
+  using Triangle = Eigen::Matrix<Index, 3, 1>;
+
+  PolygonCutter(const std::vector<Vector<3>>& points, const Polygon& polygon)
+      : points_(points), rest_(polygon) {
+    const Vector<3>& origin = points[polygon[0]];
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+      normal_ += (points[polygon[k]] - origin).cross(points[polygon[k + 1]] - origin);
+    }
+    normal_.stableNormalize();
+  }
+
+  // Along the shorter diagonal if the polygon is a convex quadrangle, fanwise if it is convex
+  // otherwise, else by cutting off ears; fanwise too what has no ears, which is no sound polygon.
+  std::vector<Triangle> cut() {
+    std::vector<Triangle> triangles;
+    if (is_convex()) {
+      if (rest_.size() == 4 && length(1, 3) < length(0, 2)) {
+        std::rotate(rest_.begin(), rest_.begin() + 1, rest_.end());
+      }
+    } else {
+      cut_ears(triangles);
+    }
+    for (std::size_t k = 1; k + 1 < rest_.size(); ++k) {
+      triangles.emplace_back(rest_[0], rest_[k], rest_[k + 1]);
+    }
+    return triangles;
+  }
+
+ private:
+  std::size_t after(std::size_t corner, std::size_t steps = 1) const {
+    return (corner + steps) % rest_.size();
+  }
+
+  double length(std::size_t a, std::size_t b) const {
+    return (points_[rest_[a]] - points_[rest_[b]]).norm();
+  }
+
+  // Twice the signed area of a triangle as it is seen.
+  double area(Index a, Index b, Index c) const {
+    return (points_[b] - points_[a]).cross(points_[c] - points_[a]).dot(normal_);
+  }
+
+  // Whether the polygon turns left at the corner after `corner`, by more than rounding.
+  bool turns_left(std::size_t corner) const {
+    constexpr double kStraight = 1e-9;
+    const std::size_t next = after(corner), last = after(corner, 2);
+    return area(rest_[corner], rest_[next], rest_[last]) >
+           kStraight * length(corner, next) * length(next, last);
+  }
+
+  bool is_convex() const {
+    for (std::size_t k = 0; k < rest_.size(); ++k) {
+      if (!turns_left(k)) return false;
+    }
+    return true;
+  }
+
+  // Whether nothing of the polygon is in the way of cutting off the corner after `corner`.
+  bool is_ear(std::size_t corner) const {
+    if (!turns_left(corner)) return false;
+    const Index a = rest_[corner], b = rest_[after(corner)], c = rest_[after(corner, 2)];
+    return std::none_of(rest_.begin(), rest_.end(), [&](Index p) {
+      return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 &&
+             area(c, a, p) >= 0;
+    });
+  }
+
+  // Going on behind the last ear avoids fans of slivers.
+  void cut_ears(std::vector<Triangle>& triangles) {
+    std::size_t corner = 0;
+    for (std::size_t tried = 0; rest_.size() > 3 && tried < rest_.size(); ++tried) {
+      corner = after(corner);
+      if (!is_ear(corner)) continue;
+      const std::size_t tip = after(corner);
+      triangles.emplace_back(rest_[corner], rest_[tip], rest_[after(tip)]);
+      rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(tip));
+      corner = tip < corner ? corner - 1 : corner;
+      tried = 0;
+    }
+  }
+
+  const std::vector<Vector<3>>& points_;
+  Polygon rest_;
+  Vector<3> normal_ = Vector<3>::Zero();
+};
+
+}  // namespace
+
+FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon) {
+  const auto triangles = PolygonCutter(points, polygon).cut();
   FacetList<3> result(3, triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) result.col(t) = triangles[t];
   return result;
+}
+
+FacetList<3> cut_polygon(const std::vector<Vector<3>>& corners) {
+  std::vector<Index> polygon(corners.size());
+  std::iota(polygon.begin(), polygon.end(), 0);
+  return cut_polygon(corners, polygon);
 }
 
 }  // namespace flbc::io

@@ -24,6 +24,9 @@ WeightMatrix read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
 WeightMatrix read_npy(const std::string& path, std::string content);
 
+//! A reader would refuse weights that are not finite. \throws InputError naming the first one
+void check_finite(const WeightMatrix& weights);
+
 void write_mtx(std::ostream& out, const WeightMatrix& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);

@@ -9,9 +9,7 @@
 #include "formats/format_table.h"
 
 namespace flbc::io {
-namespace {
 
-// A reader would refuse them, so they are not written in the first place.
 void check_finite(const WeightMatrix& weights) {
   for (Eigen::Index v = 0; v < weights.cols(); ++v) {
     if (weights.col(v).allFinite()) continue;
@@ -21,8 +19,6 @@ void check_finite(const WeightMatrix& weights) {
                      std::to_string(v) + " is not finite");
   }
 }
-
-}  // namespace
 
 WeightMatrix read_weights(const std::string& path) {
   const auto& format = format_of(path, Content::kWeights, "read weights as");

@@ -13,6 +13,7 @@
 #include "flbc/io/files.h"
 #include "text/text_reader.h"
 #include "text/text_writer.h"
+#include "weights/weights_formats.h"
 
 namespace flbc::io {
 namespace {
@@ -91,6 +92,7 @@ WeightMatrix read_weight_triplets(const std::string& path) {
 
 void write_weight_triplets(const std::string& path, const WeightMatrix& weights) {
   if (weights.size() == 0) throw InputError("cannot write \"" + path + "\": there are no weights");
+  check_finite(weights);
   write_file(path, [&](std::ostream& out) {
     TextWriter writer(out);
     writer << "# CONTROL_POINT POINT WEIGHT\n";
@@ -98,10 +100,6 @@ void write_weight_triplets(const std::string& path, const WeightMatrix& weights)
       for (Eigen::Index i = 0; i < weights.rows(); ++i) {
         const bool is_last = v == weights.cols() - 1 && i == weights.rows() - 1;
         const double weight = weights(i, v);
-        if (!std::isfinite(weight)) {
-          throw InputError("the weight of control point " + std::to_string(i) + " at point " +
-                           std::to_string(v) + " is not finite");
-        }
         // -0 differs from what is missing.
         if (weight != 0 || std::signbit(weight) || is_last) {
           writer << i << " " << v << " " << weight << "\n";

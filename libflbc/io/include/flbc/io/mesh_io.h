@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/io/model.h"
 
 namespace flbc::io {
 
@@ -31,6 +32,12 @@ DomainMesh<Dim> read_domain(const std::string& path);
 //! \param fields  replaced; empty for other formats and where there are none
 template <int Dim>
 DomainMesh<Dim> read_domain(const std::string& path, std::vector<VertexField>& fields);
+
+//! The triangles of a 2D mesh, the boundary of a 3D one seen from outside.
+//! \param mesh  positively oriented (normalize_and_validate)
+//! \return all vertices with their numbers; z = 0 in 2D
+template <int Dim>
+PolygonSoup to_polygons(const DomainMesh<Dim>& mesh);
 
 //! Writes by extension. 2D: .obj, .off, .vtu. 3D: .mesh, .node (with .ele beside it) or .ele, .msh,
 //! .vtu. Coordinates have 17 digits. Fields go into .vtu, and beside .mesh into a .sol file; where
