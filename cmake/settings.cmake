@@ -9,3 +9,4 @@ option(FLBC_WITH_CHOLMOD "Factor with CHOLMOD (LGPL-2.1 / GPL-2) instead of Eige
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 set(CMAKE_CXX_EXTENSIONS OFF)
 include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)

@@ -12,7 +12,7 @@ constexpr int kMoreTrials = 3;
 // Control points tried as newcomers at a time.
 constexpr std::size_t kNewcomers = 8;
 // Slopes that rounding explains.
-constexpr double kFlat = 1e-9;
+constexpr double kLeastSlope = 1e-9;
 
 }  // namespace
 
@@ -89,7 +89,7 @@ void SupportSelection<Dim>::find_newcomers(const std::vector<bool>& may_enter,
   const Eigen::VectorXd& slopes = qp_.slopes(weights);
   newcomers_.clear();
   for (Index i = 0; i < static_cast<Index>(slopes.size()); ++i) {
-    if (!(slopes[i] < -kFlat) || !may_enter[i]) continue;
+    if (!(slopes[i] < -kLeastSlope) || !may_enter[i]) continue;
     if (std::binary_search(weights.support.begin(), weights.support.end(), i)) continue;
     newcomers_.push_back({-qp_.gain(i), i});
   }

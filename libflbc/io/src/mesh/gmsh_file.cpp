@@ -60,7 +60,7 @@ class GmshReader {
     const std::string version(reader_.word());
     is_version_4_ = version == "4.1";
     if (!is_version_4_ && version != "2" && version.substr(0, 2) != "2.") {
-      reader_.fail("version " + quoted(version) + " is not supported, only 2.2 and 4.1");
+      reader_.fail("version " + in_quotes(version) + " is not supported, only 2.2 and 4.1");
     }
     if (reader_.integer() != 0) {
       reader_.fail("binary Gmsh files are not supported; save the mesh as text");
@@ -72,13 +72,13 @@ class GmshReader {
     while (reader_.next_line()) {
       if (reader_.word() == end) return;
     }
-    reader_.fail("the file ends before " + quoted(end));
+    reader_.fail("the file ends before " + in_quotes(end));
   }
 
   void expect_end(const char* end) {
-    if (!reader_.next_line()) reader_.fail("the file ends before " + quoted(end));
+    if (!reader_.next_line()) reader_.fail("the file ends before " + in_quotes(end));
     const std::string_view found = reader_.word();
-    if (found != end) reader_.fail_expected(quoted(end), found);
+    if (found != end) reader_.fail_expected(in_quotes(end), found);
   }
 
   void next_section_line() {

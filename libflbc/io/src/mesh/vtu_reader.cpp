@@ -15,7 +15,7 @@ namespace {
 
 // VTK's numbers for kinds of cells.
 constexpr std::int64_t kTriangle = 5;
-constexpr std::int64_t kTetrahedron = 10;
+constexpr std::int64_t kVtkTetrahedron = 10;
 constexpr std::int64_t kKindsBelow2D[] = {1, 2, 3, 4, 21, 35, 68};
 constexpr std::int64_t kKindsBelow3D[] = {1,  2,  3,  4,  5,  6,  7,  8,  9, 21,
                                           22, 23, 28, 34, 35, 36, 68, 69, 70};
@@ -36,7 +36,7 @@ class VtuReader {
       xml_.fail("not a VTK file: the first tag must be <VTKFile>");
     }
     if (xml_.attribute("type") != "UnstructuredGrid") {
-      xml_.fail("the file has a grid of type " + quoted(xml_.attribute("type")) +
+      xml_.fail("the file has a grid of type " + in_quotes(xml_.attribute("type")) +
                 ", not \"UnstructuredGrid\"");
     }
     while (read_tag()) {
@@ -91,7 +91,7 @@ class VtuReader {
     if (num_pieces_ == 0) xml_.fail("an array stands outside of <Piece>");
     const std::string format = xml_.attribute("format");
     if (!format.empty() && format != "ascii") {
-      xml_.fail("the array " + quoted(name) + " has the format " + quoted(format) +
+      xml_.fail("the array " + in_quotes(name) + " has the format " + in_quotes(format) +
                 "; only \"ascii\" is supported: save the file in ASCII mode");
     }
     return xml_.text();
@@ -99,7 +99,7 @@ class VtuReader {
 
   void check_size(const std::string& name, std::size_t found, std::size_t expected) const {
     if (found == expected) return;
-    xml_.fail("the array " + quoted(name) + " has " + std::to_string(found) + " numbers, not " +
+    xml_.fail("the array " + in_quotes(name) + " has " + std::to_string(found) + " numbers, not " +
               std::to_string(expected));
   }
 
@@ -167,7 +167,7 @@ class VtuReader {
   // Whether a cell is part of the domain, rather than of its boundary.
   bool is_used(std::size_t cell) const {
     const std::int64_t kind = kinds_[cell];
-    if (kind == (Dim == 2 ? kTriangle : kTetrahedron)) return true;
+    if (kind == (Dim == 2 ? kTriangle : kVtkTetrahedron)) return true;
     if (Dim == 2 ? contains(kKindsBelow2D, kind) : contains(kKindsBelow3D, kind)) return false;
     fail_cell(cell, "cells of VTK's type " + std::to_string(kind) + " are not supported; " +
                         (Dim == 2 ? "they must be triangles (type 5)"

@@ -25,7 +25,7 @@ class References {
                 std::string_view digits = {}) {
     const std::int64_t index = number >= 0 ? number - 1 : static_cast<std::int64_t>(seen) + number;
     if ((number < 0 && index < 0) || index >= std::numeric_limits<Index>::max()) {
-      reader.fail("the index " + (digits.empty() ? std::to_string(number) : quoted(digits)) +
+      reader.fail("the index " + (digits.empty() ? std::to_string(number) : in_quotes(digits)) +
                   " is out of range; there are " + std::to_string(seen) + " " + things_ +
                   " before this line");
     }
@@ -124,7 +124,7 @@ class ObjReader {
           "a texture coordinate (\"vt\") or normal (\"vn\") is continued on another line; it must "
           "be on one");
     } else {
-      add_other(model_, "lines with " + quoted(keyword));
+      add_other(model_, "lines with " + in_quotes(keyword));
     }
   }
 

@@ -59,10 +59,10 @@ class OffReader {
     has_colors_ = take(rest, "C");
     has_normals_ = take(rest, "N");
     if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF") {
-      reader_.fail("the header " + quoted(found) +
+      reader_.fail("the header " + in_quotes(found) +
                    " is not supported: points must have 3 coordinates");
     }
-    if (rest != "OFF") reader_.fail("not an OFF file: expected OFF, found " + quoted(found));
+    if (rest != "OFF") reader_.fail("not an OFF file: expected OFF, found " + in_quotes(found));
     if (!reader_.next_word_on_any_line()) {
       reader_.fail("the file ends before the number of vertices");
     }

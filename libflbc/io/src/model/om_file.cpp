@@ -104,7 +104,7 @@ class OmScanner {
   }
 
   static std::string name_of(const OmChunk& chunk) {
-    if (chunk.type == Type::kCustom) return "property " + quoted(chunk.name);
+    if (chunk.type == Type::kCustom) return "property " + in_quotes(chunk.name);
     const char* const entity = chunk.entity == Entity::kVertex     ? " of vertices"
                                : chunk.entity == Entity::kFace     ? " of polygons"
                                : chunk.entity == Entity::kEdge     ? " of edges"

@@ -141,7 +141,7 @@ class PlyScanner {
     if (are_faces) {
       name_others(element, slots, "polygons");
     } else if (element.count > 0) {
-      add_other(model_, "elements " + quoted(element.name));
+      add_other(model_, "elements " + in_quotes(element.name));
     }
     Row row;
     for (Index f = 0; f < element.count; ++f) {
@@ -196,7 +196,7 @@ class PlyScanner {
       const bool is_face_normal = element.name == "face" && slots[k] >= kNormal;
       if (is_face_normal) add_other(model_, "normals of polygons");
       if (slots[k] != kNoSlot || is_polygon(property)) continue;
-      add_other(model_, "property " + quoted(property.name) + " of " + things);
+      add_other(model_, "property " + in_quotes(property.name) + " of " + things);
     }
   }
 

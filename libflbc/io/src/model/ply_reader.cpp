@@ -68,7 +68,7 @@ const PlyType* PlyReader::type_of(const std::string& name) const {
   for (const PlyType& type : kTypes) {
     if (name == type.name || name == type.other_name) return &type;
   }
-  fail("the type " + quoted(name) + " is unknown");
+  fail("the type " + in_quotes(name) + " is unknown");
 }
 
 void PlyReader::read_header() {
@@ -82,7 +82,7 @@ void PlyReader::read_header() {
     if (word == "format") {
       line >> word;
       if (word != "ascii" && word.substr(0, 7) != "binary_") {
-        fail("the format " + quoted(word) + " is unknown");
+        fail("the format " + in_quotes(word) + " is unknown");
       }
       is_binary_ = word != "ascii";
       is_big_endian_ = word == "binary_big_endian";
@@ -113,7 +113,7 @@ void PlyReader::read_header() {
 
 void PlyReader::check_count(const PlyElement& element) const {
   const std::string declared =
-      std::to_string(element.count) + " elements " + quoted(element.name) + " are declared, ";
+      std::to_string(element.count) + " elements " + in_quotes(element.name) + " are declared, ";
   if (element.count > std::numeric_limits<Index>::max()) {
     fail(declared + "more than this program can handle");
   }
@@ -152,7 +152,7 @@ PlyReader::Number PlyReader::text_number(const PlyType& type) {
   double value = 0;
   const auto parsed = std::from_chars(begin, content_.data() + end, value);
   if (parsed.ec != std::errc() || parsed.ptr != content_.data() + end) {
-    fail("expected a number, found " + quoted({begin, end - position_}));
+    fail("expected a number, found " + in_quotes({begin, end - position_}));
   }
   const NumberPlace place{position_, static_cast<std::uint32_t>(end - position_),
                           type.kind == 'f' ? NumberForm::kText : NumberForm::kInteger};

@@ -62,10 +62,9 @@ void put(TextWriter& writer, const T* values, std::size_t count) {
 }
 
 void write_binary(TextWriter& writer, const std::vector<Triangle>& triangles) {
-  constexpr std::size_t kHeaderBytes = 80;
   const auto count = static_cast<std::uint32_t>(triangles.size());
   const std::uint16_t no_attributes = 0;
-  writer << std::string(kHeaderBytes, '\0');
+  writer << std::string(80, '\0');
   put(writer, &count, 1);
   for (const auto& triangle : triangles) {
     put(writer, triangle.data(), 12);

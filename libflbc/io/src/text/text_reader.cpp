@@ -43,7 +43,7 @@ bool is_underflow(std::string_view word) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 40;
   std::string result = "\"";
   for (const char c : text.substr(0, kMaxLength)) result += c >= ' ' && c <= '~' ? c : '?';
@@ -158,7 +158,7 @@ std::string_view TextReader::word_on_any_line(const char* expected) {
 }
 
 double TextReader::number_out_of_range(std::string_view word) const {
-  if (!is_underflow(word)) fail("the number " + quoted(word) + " is too large");
+  if (!is_underflow(word)) fail("the number " + in_quotes(word) + " is too large");
   return word[0] == '-' ? -0.0 : 0.0;
 }
 
@@ -190,7 +190,7 @@ std::int64_t TextReader::integer() {
     fail_expected("an integer", found);
   }
   if (parsed.ec == std::errc::result_out_of_range) {
-    fail("the number " + quoted(found) + " is too large");
+    fail("the number " + in_quotes(found) + " is too large");
   }
   return value;
 }
@@ -231,7 +231,7 @@ void TextReader::fail_at(std::int64_t line, const std::string& message) const {
 
 void TextReader::fail_expected(const std::string& expected, std::string_view found) const {
   const char* const nothing = bytes_left() > 0 ? "the end of the line" : "the end of the file";
-  fail("expected " + expected + ", found " + (found.empty() ? nothing : quoted(found)));
+  fail("expected " + expected + ", found " + (found.empty() ? nothing : in_quotes(found)));
 }
 
 }  // namespace flbc::io

@@ -102,7 +102,7 @@ class TextReader {
 };
 
 //! A piece of a file in quotes as it may stand in a message: short and printable.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 //! "the index INDEX is out of range; THINGS are numbered FIRST to ...", for `count` things.
 std::string out_of_range_message(std::int64_t index, const char* things, std::int64_t first,

@@ -97,10 +97,10 @@ void XmlReader::parse_tag(std::string_view tag) {
     const std::size_t open =
         equals == std::string_view::npos ? equals : tag.find_first_not_of(kBlanks, equals + 1);
     if (open == std::string_view::npos || (tag[open] != '"' && tag[open] != '\'')) {
-      fail("the tag " + quoted(name_) + " has an attribute without a value in quotes");
+      fail("the tag " + in_quotes(name_) + " has an attribute without a value in quotes");
     }
     const std::size_t close = tag.find(tag[open], open + 1);
-    if (close == std::string_view::npos) fail("the tag " + quoted(name_) + " has an open quote");
+    if (close == std::string_view::npos) fail("the tag " + in_quotes(name_) + " has an open quote");
     std::string_view key = tag.substr(k, equals - k);
     key = key.substr(0, key.find_last_not_of(kBlanks) + 1);
     attributes_.emplace_back(key, decoded(tag.substr(open + 1, close - open - 1)));
@@ -146,7 +146,7 @@ std::string XmlReader::decoded_entity(std::string_view entity) const {
       return utf8(code);
     }
   }
-  fail("unknown entity " + quoted("&" + std::string(entity) + ";"));
+  fail("unknown entity " + in_quotes("&" + std::string(entity) + ";"));
 }
 
 TextReader XmlReader::text() {

@@ -37,7 +37,7 @@ class HeaderParser {
         header.shape = tuple();
         has_shape = true;
       } else {
-        fail(key_position, "the header has an unknown key " + quoted(key));
+        fail(key_position, "the header has an unknown key " + in_quotes(key));
       }
       if (!accept(',')) {
         expect('}');
@@ -74,7 +74,7 @@ class HeaderParser {
   }
 
   std::string rest() const {
-    return position_ < content_.size() ? quoted(content_.substr(position_, 12)) : "its end";
+    return position_ < content_.size() ? in_quotes(content_.substr(position_, 12)) : "its end";
   }
 
   std::string string() {

@@ -31,7 +31,7 @@ bool read_header(TextReader& reader) {
     if (std::find(supported.begin(), supported.end(), found) != supported.end()) return found;
     std::string list;
     for (const char* word : supported) list += (list.empty() ? "" : " or ") + std::string(word);
-    reader.fail("the " + std::string(what) + " " + quoted(found) + " is not supported, only " +
+    reader.fail("the " + std::string(what) + " " + in_quotes(found) + " is not supported, only " +
                 list);
   };
   choose("object", {"matrix"});

@@ -21,10 +21,10 @@ WeightMatrix read_npy(const std::string& path, std::string content) {
   if (header.type == "<f8") return block.read<double>(header.shape[0], header.shape[1], by_point);
   if (header.type == "<f4") return block.read<float>(header.shape[0], header.shape[1], by_point);
   if (header.type == ">f8" || header.type == ">f4") {
-    block.fail(0, "big-endian numbers (" + quoted(header.type) +
+    block.fail(0, "big-endian numbers (" + in_quotes(header.type) +
                       ") are not supported; save the array with astype('<f8')");
   }
-  block.fail(0, "the type " + quoted(header.type) +
+  block.fail(0, "the type " + in_quotes(header.type) +
                     " is not supported, only \"<f8\" (float64) and \"<f4\" (float32)");
 }
 

@@ -31,18 +31,18 @@ TextReader open(const std::string& path) {
   return TextReader(path, read_file(path), syntax);
 }
 
-struct Size {
+struct TripletSize {
   Index controls = 0;
   Index points = 0;
 };
 
 // The size that the largest numbers ask for. A damaged number must not claim all memory: in a
 // matrix that is large, each row and each column has a weight.
-Size size_by_numbers(const std::string& path) {
+TripletSize size_by_numbers(const std::string& path) {
   constexpr Index kMost = std::numeric_limits<Index>::max() - 1;
   constexpr std::int64_t kHarmless = std::int64_t{1} << 24;
   TextReader reader = open(path);
-  Size size;
+  TripletSize size;
   Index num_triplets = 0;
   for (; reader.next_line(); ++num_triplets) {
     size.controls = std::max(size.controls, reader.index("control points", 0, kMost) + 1);
@@ -86,7 +86,7 @@ WeightMatrix read_weight_triplets(const std::string& path, Index num_controls, I
 }
 
 WeightMatrix read_weight_triplets(const std::string& path) {
-  const Size size = size_by_numbers(path);
+  const TripletSize size = size_by_numbers(path);
   return read_weight_triplets(path, size.controls, size.points);
 }
 
