@@ -15,7 +15,7 @@ namespace {
 
 // VTK's numbers for kinds of cells.
 constexpr std::int64_t kTriangle = 5;
-constexpr std::int64_t kVtkTetrahedron = 10;
+constexpr std::int64_t kTetrahedronType = 10;
 constexpr std::int64_t kKindsBelow2D[] = {1, 2, 3, 4, 21, 35, 68};
 constexpr std::int64_t kKindsBelow3D[] = {1,  2,  3,  4,  5,  6,  7,  8,  9, 21,
                                           22, 23, 28, 34, 35, 36, 68, 69, 70};
@@ -167,7 +167,7 @@ class VtuReader {
   // Whether a cell is part of the domain, rather than of its boundary.
   bool is_used(std::size_t cell) const {
     const std::int64_t kind = kinds_[cell];
-    if (kind == (Dim == 2 ? kTriangle : kVtkTetrahedron)) return true;
+    if (kind == (Dim == 2 ? kTriangle : kTetrahedronType)) return true;
     if (Dim == 2 ? contains(kKindsBelow2D, kind) : contains(kKindsBelow3D, kind)) return false;
     fail_cell(cell, "cells of VTK's type " + std::to_string(kind) + " are not supported; " +
                         (Dim == 2 ? "they must be triangles (type 5)"
