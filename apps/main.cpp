@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   int exit_status = kDone;
   add_run_command(app, exit_status);
+  add_cage_command(app, exit_status);
   add_mesh_command(app, exit_status);
   add_solve_command(app, exit_status);
   add_check_command(app, exit_status);

@@ -12,6 +12,7 @@
 
 namespace flbc::app {
 
+void add_cage_command(CLI::App& app, int& exit_status);
 void add_mesh_command(CLI::App& app, int& exit_status);
 void add_solve_command(CLI::App& app, int& exit_status);
 void add_check_command(CLI::App& app, int& exit_status);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "commands/commands.h"
 #include "commands/exit_status.h"
@@ -13,6 +14,7 @@
 #include "run/facts.h"
 #include "run/pictures.h"
 #include "run/steps.h"
+#include "solve/make_cage.h"
 
 namespace flbc::app {
 namespace {
@@ -63,9 +65,10 @@ struct Step {
 template <int Dim>
 void take_steps(Run<Dim>& run) {
   const Step<Dim> steps[] = {
-      {"mesh", mesh_interior},         {"solve", compute_weights}, {"check", check_weights_of_mesh},
-      {"sparsify", reduce_influences}, {"deform", deform_shape},   {"export", export_shape},
-      {"pictures", draw_pictures},
+      {"cage", deliver_cage},           {"mesh", mesh_interior},
+      {"solve", compute_weights},       {"check", check_weights_of_mesh},
+      {"sparsify", reduce_influences},  {"deform", deform_shape},
+      {"export", export_shape},         {"pictures", draw_pictures},
   };
   double total = 0;
   for (const auto& [name, take] : steps) {
@@ -135,6 +138,33 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments) {
   return finish(run);
 }
 
+// The first file of the command line is the model, round which a cage is made.
+int run_model(RunArguments& arguments) {
+  auto& settings = arguments.settings;
+  if (!settings.model.empty()) {
+    throw OptionError("--auto-cage makes a cage round MODEL; leave CAGE out");
+  }
+  settings.model = std::exchange(settings.cage, kCage);
+  CagingOptions options;
+  options.control_points = arguments.cage_control_points;
+  const auto run_in_cage = [&](const auto& model) {
+    return run_cage(make_cage(settings.model, model, options).cage, arguments);
+  };
+  return std::visit(run_in_cage, load_model_facets(settings.model));
+}
+
+// Of --auto-cage: a number, or nothing.
+void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
+  arguments.makes_cage = option.count() > 0;
+  if (!arguments.makes_cage) return;
+  const auto& values = option.results();
+  constexpr const char* kNoValue = "{}";  // of CLI11
+  if (values.empty() || values.front().empty() || values.front() == kNoValue) return;
+  const auto refusal = refuse_vertex_count(values.front());
+  if (!refusal.empty()) throw OptionError("--auto-cage: " + refusal);
+  arguments.cage_control_points = std::stoi(values.front());
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_status) {
@@ -148,10 +178,13 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "model.glb, which is a skin that moves through them, pictures, and report.json. What an\n"
       "earlier run has made there is replaced. Model and skin move by the sparse weights. If a\n"
       "step fails, what was made before stays.");
-  command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
-  auto* model = command->add_option("MODEL", settings.model,
-                                    "what is inside and moves along: .obj .off .ply .stl .om; "
-                                    "without it the mesh of the interior");
+  command
+      ->add_option("CAGE", settings.cage,
+                   "closed polylines (2D) or surface (3D); with --auto-cage a model")
+      ->required();
+  command->add_option("MODEL", settings.model,
+                      "what is inside and moves along: .obj .off .ply .stl .om; without it the "
+                      "mesh of the interior");
   auto* deformed = command->add_option(
       "--deformed", a.deformed, "the cage in its new pose; several, or a pattern as pose_%d.obj");
   auto* keyframes = command->add_option(
@@ -163,8 +196,11 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_option("-k,--max-influences", a.max_influences, "most influences per point (8)");
   command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
       ->check(refuse_vertex_count);
-  command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices")
-      ->needs(model);
+  auto* auto_cage = command->add_option(
+      "--auto-cage",
+      "the file is a model: make a cage round it, of at most N control points (by its shape)");
+  auto_cage->expected(0, 1)->type_name("[N]");
+  command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices");
   command
       ->add_option("--sparsify", a.reduction,
                    "how influences are reduced: poisson: no seams between neighbours; quadratic: "
@@ -179,8 +215,16 @@ void add_run_command(CLI::App& app, int& exit_status) {
   add_solver_options(*command, settings);
   command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments, auto_cage, &exit_status] {
     check_arguments(*arguments);
+    read_auto_cage(*auto_cage, *arguments);
+    if (arguments->makes_cage) {
+      exit_status = run_model(*arguments);
+      return;
+    }
+    if (arguments->settings.embed && arguments->settings.model.empty()) {
+      throw OptionError("--embed requires MODEL");
+    }
     const auto cage = load_cage(arguments->settings.cage);
     exit_status = std::visit([&](const auto& any) { return run_cage(any, *arguments); }, cage);
   });

@@ -22,7 +22,9 @@ void check_cage(const Cage<Dim>& cage, const std::string& path) {
 #ifdef FLBC_WITH_CGAL
   if (defects.empty()) defects = find_self_intersections(cage, 1);
 #endif
-  if (!defects.empty()) throw InputError(path + ": " + defects.front().message);
+  if (!defects.empty()) {
+    throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
+  }
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

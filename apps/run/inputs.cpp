@@ -40,7 +40,8 @@ template <int Dim>
 RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments) {
   const auto& settings = arguments.settings;
   RunInputs<Dim> inputs;
-  inputs.files.push_back(settings.cage);
+  inputs.makes_cage = arguments.makes_cage;
+  if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
   if (arguments.keyframes.empty()) {
     load_deformed(cage, arguments, inputs);
   } else {
@@ -57,6 +58,7 @@ template <int Dim>
 std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
   std::vector<std::string> names{std::string(kDomain) + domain_extension<Dim>(), kWeights,
                                  kSparseWeights};
+  if (inputs.makes_cage) names.emplace_back(kCage);
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));

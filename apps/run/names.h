@@ -5,6 +5,7 @@
 
 namespace flbc::app {
 
+constexpr const char* kCage = "cage.obj";  //!< made round a model
 constexpr const char* kDomain = "domain";  //!< the extension depends on the dimension
 constexpr const char* kDomainWeights = "domain_weights.npy";
 constexpr const char* kWeights = "weights.npy";

@@ -2,6 +2,7 @@
 #include "run/steps.h"
 
 #include "files/load.h"
+#include "files/model_facets.h"
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
@@ -12,6 +13,16 @@
 #include "run/facts.h"
 
 namespace flbc::app {
+
+template <int Dim>
+void deliver_cage(Run<Dim>& run) {
+  if (!run.arguments.makes_cage) return;
+  Facts facts;
+  facts << run.cage.size() << " control points, " << run.cage.facets.cols()
+        << (Dim == 2 ? " edges" : " triangles") << ", encloses the model";
+  run.folder.add(kCage, facts.text(),
+                 [&](const std::string& path) { write_cage(path, run.cage); });
+}
 
 template <int Dim>
 void mesh_interior(Run<Dim>& run) {
@@ -103,6 +114,7 @@ void deform_shape(Run<Dim>& run) {
 }
 
 #define FLBC_INSTANTIATE(Dim)                     \
+  template void deliver_cage(Run<Dim>&);          \
   template void mesh_interior(Run<Dim>&);         \
   template void compute_weights(Run<Dim>&);       \
   template void check_weights_of_mesh(Run<Dim>&); \

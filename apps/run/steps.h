@@ -34,6 +34,10 @@ struct Run {
   bool has_model() const { return !arguments.settings.model.empty(); }
 };
 
+//! cage.obj, if the cage has been made.
+template <int Dim>
+void deliver_cage(Run<Dim>& run);
+
 //! domain.obj or domain.mesh; from the cache the weights as well.
 template <int Dim>
 void mesh_interior(Run<Dim>& run);

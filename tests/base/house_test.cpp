@@ -25,7 +25,7 @@ const fs::path kHeaders = kRoot / "libflbc/include/flbc";
 const std::vector<std::vector<std::string>> kFloors{{"base"},
                                                     {"linear", "mesh"},
                                                     {"cage"},
-                                                    {"problem", "meshing", "projection"},
+                                                    {"problem", "meshing", "projection", "caging"},
                                                     {"coordinates", "certificate", "sparsify"},
                                                     {"solver", "evaluation"}};
 

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc cage: a cage from a model, or from a defective one.
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "commands/commands.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "files/model_facets.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "solve/make_cage.h"
+
+namespace flbc::app {
+namespace {
+
+struct CageArguments {
+  std::string model;
+  std::string defective;  // a cage to be repaired instead
+  std::string output;
+  CagingOptions options;
+  bool quiet = false;
+};
+
+template <int Dim>
+void cage(const ModelFacets<Dim>& model, const CageArguments& arguments) {
+  require_cage_writable<Dim>(arguments.output);
+  const auto made = make_cage(arguments.model, model, arguments.options);
+  {
+    const HeldSignals held;
+    write_cage(arguments.output, made.cage, model.height);
+  }
+  if (!arguments.quiet) std::cerr << arguments.output << ": " << describe(made) << '\n';
+}
+
+// The file of the numbers that control points have got.
+std::string numbers_file(const std::string& output) {
+  return std::filesystem::path(output).replace_extension("numbers.txt").string();
+}
+
+// A line per old control point: its number and the new one, or -1.
+void write_numbers(const std::string& path, const std::vector<Index>& new_numbers) {
+  io::write_file(path, [&](std::ostream& file) {
+    for (std::size_t v = 0; v < new_numbers.size(); ++v) file << v << ' ' << new_numbers[v] << '\n';
+  });
+}
+
+template <int Dim>
+void repair(const Cage<Dim>& cage, std::vector<std::string> changes,
+            const CageArguments& arguments) {
+  require_cage_writable<Dim>(arguments.output);
+  const auto repaired = repair_defects(arguments.defective, cage);
+  const auto numbers = numbers_file(arguments.output);
+  require_distinct({arguments.defective}, {arguments.output, numbers});
+  {
+    const HeldSignals held;
+    write_cage(arguments.output, repaired.cage);
+    if (!repaired.keeps_numbers) write_numbers(numbers, repaired.new_numbers);
+  }
+  if (arguments.quiet) return;
+  changes.insert(changes.end(), repaired.changes.begin(), repaired.changes.end());
+  if (changes.empty()) changes.emplace_back("nothing was wrong");
+  for (const auto& change : changes) std::cerr << arguments.defective << ": " << change << '\n';
+  std::cerr << arguments.output << ": " << repaired.cage.size() << " control points, "
+            << repaired.cage.facets.cols() << (Dim == 2 ? " edges" : " triangles")
+            << (repaired.keeps_numbers ? ", numbered as they were\n"
+                                       : ", their new numbers are in " + numbers + "\n");
+}
+
+void repair_file(const CageArguments& arguments) {
+  std::vector<std::string> changes;
+  auto soup = load_polygons(arguments.defective);
+  if (!soup.polygons.empty() && !soup.polylines.empty()) {
+    changes.push_back(std::to_string(soup.polylines.size()) +
+                      " polylines beside the surface are dropped");
+    soup.polylines.clear();
+  }
+  const auto cage = io::to_cage(soup, arguments.defective);
+  std::visit([&](const auto& any) { repair(any, changes, arguments); }, cage);
+}
+
+void check_arguments(const CageArguments& arguments) {
+  if (arguments.model.empty() == arguments.defective.empty()) {
+    throw OptionError("give a MODEL to make a cage round, or a cage by --repair");
+  }
+  require_distinct({arguments.model, arguments.defective}, {arguments.output});
+}
+
+}  // namespace
+
+void add_cage_command(CLI::App& app, int&) {
+  auto arguments = std::make_shared<CageArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("cage", "Make a cage round a model, or repair one");
+  command->footer(
+      "The cage is closed, does not intersect itself, and has every vertex, edge and face of the\n"
+      "model strictly inside, whatever state the model is in. A model whose vertices all have the\n"
+      "same z gets a cage in 2D. --repair keeps the numbers of control points where it can;\n"
+      "where it cannot, a line \"OLD NEW\" for each of them goes to a file beside the result.");
+  auto* model =
+      command->add_option("MODEL", a.model, "what is to be enclosed: .obj .off .ply .stl .om");
+  command->add_option("-o,--output", a.output, "the cage: .obj, in 3D also .off, .ply")->required();
+  auto* count = command->add_option("--control-points", a.options.control_points,
+                                    "at most so many (50 to 150 in 3D, 12 to 60 in 2D, by shape)");
+  count->check(refuse_vertex_count)->needs(model);
+  auto* offset = command->add_option(
+      "--offset", a.options.offset,
+      "distance from the model, in its units (by the number of control points)");
+  offset->needs(model);
+  const std::map<std::string, CageSymmetry> symmetries{{"none", CageSymmetry::kNone},
+                                                       {"x", CageSymmetry::kX},
+                                                       {"y", CageSymmetry::kY},
+                                                       {"z", CageSymmetry::kZ},
+                                                       {"auto", CageSymmetry::kAuto}};
+  command
+      ->add_option("--symmetric", a.options.symmetry,
+                   "the cage is its own mirror image across the model's middle; auto: where the "
+                   "model is (auto)")
+      ->transform(CLI::CheckedTransformer(symmetries))
+      ->type_name("none|x|y|z|auto")
+      ->needs(model);
+  command->add_option("--repair", a.defective,
+                      "a defective cage: merges, drops, reverses and adds what it takes to make it "
+                      "sound, and says so; if nothing else helps, wraps it");
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments] {
+    check_arguments(*arguments);
+    if (!arguments->defective.empty()) return repair_file(*arguments);
+    const auto model = load_model_facets(arguments->model);
+    std::visit([&](const auto& any) { cage(any, *arguments); }, model);
+  });
+}
+
+}  // namespace flbc::app

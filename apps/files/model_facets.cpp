@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files/model_facets.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "files/load.h"
+#include "flbc/io/cut_polygon.h"
+#include "flbc/io/files.h"
+#include "flbc/io/model_file.h"
+
+namespace flbc::app {
+namespace {
+
+bool is_flat(const io::PolygonSoup& soup) {
+  return std::all_of(soup.points.begin(), soup.points.end(),
+                     [&](const Vector<3>& point) { return point.z() == soup.points.front().z(); });
+}
+
+// Of polygons and polylines, each once.
+std::set<std::pair<Index, Index>> edges_of(const io::PolygonSoup& soup, bool with_polygons) {
+  std::set<std::pair<Index, Index>> edges;
+  const auto add = [&](Index a, Index b) { edges.insert(std::minmax(a, b)); };
+  for (const auto& line : soup.polylines) {
+    for (std::size_t k = 1; k < line.size(); ++k) add(line[k - 1], line[k]);
+  }
+  for (const auto& polygon : soup.polygons) {
+    if (!with_polygons && polygon.size() > 2) continue;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      add(polygon[k], polygon[(k + 1) % polygon.size()]);
+    }
+  }
+  return edges;
+}
+
+FacetList<2> flat_facets(const io::PolygonSoup& soup) {
+  const auto edges = edges_of(soup, true);
+  FacetList<2> facets(2, edges.size());
+  Index e = 0;
+  for (const auto& [a, b] : edges) facets.col(e++) << a, b;
+  return facets;
+}
+
+FacetList<3> solid_facets(const io::PolygonSoup& soup) {
+  std::vector<Vector<3>> corners;
+  std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
+  for (const auto& polygon : soup.polygons) {
+    if (polygon.size() < 3) continue;
+    corners.clear();
+    for (const Index v : polygon) corners.push_back(soup.points[v]);
+    const auto parts = io::cut_polygon(corners);
+    for (Eigen::Index t = 0; t < parts.cols(); ++t) {
+      triangles.emplace_back(polygon[parts(0, t)], polygon[parts(1, t)], polygon[parts(2, t)]);
+    }
+  }
+  for (const auto& [a, b] : edges_of(soup, false)) triangles.emplace_back(a, b, b);
+  FacetList<3> facets(3, triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) facets.col(t) = triangles[t];
+  return facets;
+}
+
+// The loops of a cage in 2D, each from its least control point.
+std::vector<std::vector<Index>> loops_of(const Cage<2>& cage) {
+  std::vector<std::vector<Index>> neighbours(static_cast<std::size_t>(cage.size()));
+  for (Index e = 0; e < cage.facets.cols(); ++e) {
+    neighbours[cage.facets(0, e)].insert(neighbours[cage.facets(0, e)].begin(), cage.facets(1, e));
+    neighbours[cage.facets(1, e)].push_back(cage.facets(0, e));
+  }
+  std::vector<bool> is_taken(neighbours.size(), false);
+  std::vector<std::vector<Index>> loops;
+  for (Index start = 0; start < cage.size(); ++start) {
+    if (is_taken[start]) continue;
+    std::vector<Index> loop{start};
+    is_taken[start] = true;
+    for (Index next = neighbours[start].front(); !is_taken[next];) {
+      loop.push_back(next);
+      is_taken[next] = true;
+      const auto& around = neighbours[next];
+      next = is_taken[around.front()] ? around.back() : around.front();
+    }
+    loop.push_back(start);
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+}  // namespace
+
+AnyModelFacets load_model_facets(const std::string& path) {
+  const auto soup = load_polygons(path);
+  if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
+  if (is_flat(soup)) {
+    return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z()};
+  }
+  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup)};
+}
+
+template <int Dim>
+void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
+  io::PolygonSoup soup;
+  for (Index i = 0; i < cage.size(); ++i) {
+    Vector<3> point = Vector<3>::Constant(height);
+    point.template head<Dim>() = cage.points.col(i);
+    soup.points.push_back(point);
+  }
+  if constexpr (Dim == 2) {
+    soup.polylines = loops_of(cage);
+  } else {
+    for (Index f = 0; f < cage.facets.cols(); ++f) {
+      const auto corners = cage.facets.col(f);
+      soup.polygons.push_back({corners(0), corners(1), corners(2)});
+    }
+  }
+  if (Dim == 2) {
+    io::write_obj(path, soup);
+  } else {
+    io::write_model(path, {soup});
+  }
+}
+
+template <int Dim>
+void require_cage_writable(const std::string& path) {
+  if (Dim == 2) {
+    require_writable(path, {"obj"});
+  } else {
+    require_writable(path, {"obj", "off", "ply"});
+  }
+}
+
+template void write_cage(const std::string&, const Cage<2>&, double);
+template void write_cage(const std::string&, const Cage<3>&, double);
+template void require_cage_writable<2>(const std::string&);
+template void require_cage_writable<3>(const std::string&);
+
+}  // namespace flbc::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Models as cages are made round them, and cages as files.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "flbc/io/cage_io.h"
+#include "flbc/types.h"
+
+namespace flbc::app {
+
+//! The points of a model with the edges (2D) or triangles (3D) between them. In 3D edges are
+//! triangles that repeat a corner.
+template <int Dim>
+struct ModelFacets {
+  PointList<Dim> points;
+  FacetList<Dim> facets;
+  double height = 0;  //!< 2D: the z of all points
+};
+
+using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
+
+//! 2D if all points have the same z. \throws IoError, InputError, OptionError
+AnyModelFacets load_model_facets(const std::string& path);
+
+//! Writes a sound cage: .obj, in 3D also .off and .ply. \param height  2D: the z of all points
+template <int Dim>
+void write_cage(const std::string& path, const Cage<Dim>& cage, double height = 0);
+
+//! \throws OptionError before any work is done if write_cage() could not write the file
+template <int Dim>
+void require_cage_writable(const std::string& path);
+
+}  // namespace flbc::app

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "caging/coarsening.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "caging/surface_tools.h"
+
+namespace flbc {
+
+namespace {
+
+// Weight of the squared distance from the vertices there were, against that from their planes.
+constexpr double kWeightOfPoints = 3e-3;
+
+// Facets keep this part of the offset from the model.
+constexpr double kClearance = 0.3;
+
+template <int Dim>
+std::vector<Quadric<Dim>> collect_quadrics(const EditableSurface<Dim>& surface,
+                                           const Vector<Dim>& origin) {
+  std::vector<Quadric<Dim>> quadrics(static_cast<std::size_t>(surface.points().cols()));
+  for (Index f = 0; f < static_cast<Index>(surface.facets().size()); ++f) {
+    const auto corners = surface.facet(f).corners;
+    const Vector<Dim> normal = facet_normal<Dim>(corners);
+    const double measure = normal.norm();
+    if (!(measure > 0)) continue;
+    for (int k = 0; k < Dim; ++k) {
+      const Vector<Dim> p = corners.col(k) - origin;
+      auto& quadric = quadrics[surface.facets()[f](k)];
+      quadric.add_plane(normal / measure, p, measure);
+      quadric.add_point(p, kWeightOfPoints * measure);
+    }
+  }
+  return quadrics;
+}
+
+}  // namespace
+
+template <int Dim>
+Coarsening<Dim>::Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane,
+                            const Enclosure<Dim>& enclosure, double offset)
+    : surface_(surface, plane),
+      check_(surface_, enclosure, kClearance * offset),
+      offset_(offset),
+      origin_(enclosure.box().center()),
+      quadrics_(collect_quadrics(surface_, origin_)),
+      versions_(quadrics_.size(), 0) {
+}
+
+template <int Dim>
+Quadric<Dim> Coarsening<Dim>::quadric(Index a, Index b) const {
+  Quadric<Dim> sum = quadrics_[a];
+  return sum += quadrics_[b];
+}
+
+template <int Dim>
+Vector<Dim> Coarsening<Dim>::best_position(const Quadric<Dim>& quadric, bool is_in_plane) const {
+  const auto& plane = surface_.plane();
+  if (!is_in_plane) return origin_ + quadric.minimiser();
+  Vector<Dim> best = origin_ + quadric.minimiser(plane.axis, plane.position - origin_(plane.axis));
+  best(plane.axis) = plane.position;
+  return best;
+}
+
+// Moves the point out of the half-spaces under the planes of the old facets, one after the other.
+template <int Dim>
+Vector<Dim> Coarsening<Dim>::outer_position(const Vector<Dim>& start,
+                                            const Replacement<Dim>& change) const {
+  constexpr int kSweeps = 20;
+  Vector<Dim> p = start;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (const Index f : change.old_facets) {
+      const auto corners = surface_.facet(f).corners;
+      Vector<Dim> normal = facet_normal<Dim>(corners).normalized();
+      const double depth = normal.dot(corners.col(0) - p);
+      if (change.is_in_plane) normal(surface_.plane().axis) = 0;
+      const double steepness = normal.squaredNorm();
+      if (depth > 0 && steepness > 1e-2) p += 1.01 * depth / steepness * normal;
+    }
+  }
+  return p;
+}
+
+// In the order of their costs.
+template <int Dim>
+std::vector<Vector<Dim>> Coarsening<Dim>::positions(const Quadric<Dim>& quadric,
+                                                    const Replacement<Dim>& change) const {
+  const Vector<Dim> best = best_position(quadric, change.is_in_plane);
+  Vector<Dim> outwards = Vector<Dim>::Zero();
+  for (const Index f : change.old_facets) {
+    outwards += facet_normal<Dim>(surface_.facet(f).corners);
+  }
+  if (change.is_in_plane) outwards(surface_.plane().axis) = 0;
+  outwards.normalize();
+  std::vector<Vector<Dim>> all{best, outer_position(best, change)};
+  for (const double height : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    all.push_back(best + height * offset_ * outwards);
+  }
+  std::stable_sort(all.begin(), all.end(), [&](const Vector<Dim>& p, const Vector<Dim>& q) {
+    return quadric(p - origin_) < quadric(q - origin_);
+  });
+  return all;
+}
+
+template <int Dim>
+std::optional<Vector<Dim>> Coarsening<Dim>::first_allowed(const Quadric<Dim>& quadric,
+                                                          const Replacement<Dim>& change) const {
+  for (const auto& position : positions(quadric, change)) {
+    if (check_.allows(change, position)) return position;
+  }
+  return {};
+}
+
+template <int Dim>
+bool Coarsening<Dim>::is_current(const Candidate& c) const {
+  return c.version_a == versions_[c.a] && c.version_b == versions_[c.b];
+}
+
+template <int Dim>
+void Coarsening<Dim>::add_edge(Index a, Index b) {
+  const auto sum = quadric(a, b);
+  const bool is_in_plane = surface_.is_in_plane(a) || surface_.is_in_plane(b);
+  const Vector<Dim> best = best_position(sum, is_in_plane);
+  candidates_.push({sum(best - origin_), a, b, versions_[a], versions_[b], false, best});
+}
+
+template <int Dim>
+void Coarsening<Dim>::add_edges_at(Index vertex) {
+  for (const Index other : surface_.neighbours(vertex)) {
+    add_edge(std::min(vertex, other), std::max(vertex, other));
+  }
+}
+
+// \return whether the edge has been collapsed; if only its cost became known, it waits for its turn
+template <int Dim>
+bool Coarsening<Dim>::take(Candidate candidate) {
+  const auto plan = surface_.plan_collapse(candidate.a, candidate.b);
+  if (!plan) return false;
+  const auto change = replacement_of(*plan);
+  const auto sum = quadric(candidate.a, candidate.b);
+  if (!candidate.is_tried || !check_.allows(change, candidate.position)) {
+    const auto position = first_allowed(sum, change);
+    if (!position) return false;
+    candidate.position = *position;
+    candidate.cost = sum(*position - origin_);
+    candidate.is_tried = true;
+    if (!candidates_.empty() && candidates_.top().cost < candidate.cost) {
+      candidates_.push(candidate);
+      return false;
+    }
+  }
+  surface_.collapse(*plan, candidate.position);
+  quadrics_[candidate.a] = sum;
+  ++versions_[candidate.a];
+  ++versions_[candidate.b];
+  add_edges_at(candidate.a);
+  return true;
+}
+
+template <int Dim>
+void Coarsening<Dim>::reduce_to(Index control_points) {
+  bool has_progressed = true;
+  while (num_control_points() > control_points && has_progressed) {
+    has_progressed = false;
+    candidates_ = {};
+    for (Index a = 0; a < static_cast<Index>(versions_.size()); ++a) {
+      if (!surface_.has_vertex(a)) continue;
+      for (const Index b : surface_.neighbours(a)) {
+        if (a < b) add_edge(a, b);
+      }
+    }
+    while (num_control_points() > control_points && !candidates_.empty()) {
+      const Candidate candidate = candidates_.top();
+      candidates_.pop();
+      if (is_current(candidate) && take(candidate)) has_progressed = true;
+    }
+  }
+}
+
+template <int Dim>
+void Coarsening<Dim>::relax() {
+  for (Index vertex = 0; vertex < static_cast<Index>(versions_.size()); ++vertex) {
+    if (!surface_.has_vertex(vertex)) continue;
+    const auto change = replacement_of(surface_, vertex);
+    const Vector<Dim> now = surface_.points().col(vertex);
+    const Vector<Dim> best = best_position(quadrics_[vertex], change.is_in_plane);
+    for (const double part : {1.0, 0.5, 0.25}) {
+      const Vector<Dim> position = now + part * (best - now);
+      if (!check_.allows(change, position)) continue;
+      surface_.move(vertex, position);
+      break;
+    }
+  }
+}
+
+template class Coarsening<2>;
+template class Coarsening<3>;
+
+}  // namespace flbc

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a surface still encloses the model when a vertex moves.
+#pragma once
+
+#include <vector>
+
+#include "caging/editable_surface.h"
+#include "caging/enclosure.h"
+
+namespace flbc {
+
+//! Facets that are there now and those that would take their place.
+template <int Dim>
+struct Replacement {
+  std::vector<Index> old_facets{};              //!< that vanish
+  std::vector<FacetCorners<Dim>> new_facets{};  //!< each has the vertex
+  std::vector<Index> predecessors{};            //!< the old facet of each new one
+  Index vertex = -1;
+  bool is_in_plane = false;
+};
+
+template <int Dim>
+Replacement<Dim> replacement_of(const Collapse<Dim>& plan);
+
+//! The facets at a vertex, which moves.
+template <int Dim>
+Replacement<Dim> replacement_of(const EditableSurface<Dim>& surface, Index vertex);
+
+//! \param clearance  new facets keep about this distance from the model
+template <int Dim>
+class CollapseCheck {
+ public:
+  CollapseCheck(const EditableSurface<Dim>& surface, const Enclosure<Dim>& enclosure,
+                double clearance);
+
+  //! Whether, with the vertex at the position, the surface does not intersect itself, encloses the
+  //! model strictly, turns no facet over and has no facet much flatter than before.
+  bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+
+ private:
+  bool keeps_shape(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+  bool keeps_half(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+  bool meets_surface(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+  bool meets_model(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+  bool loses_parts(const Replacement<Dim>& change, const Vector<Dim>& position) const;
+
+  const EditableSurface<Dim>& surface_;
+  const Enclosure<Dim>& enclosure_;
+  double clearance_;
+  PointList<Dim> representatives_;  // of the model's parts, on the plane's side
+};
+
+}  // namespace flbc

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface (2D: closed lines) whose edges can be collapsed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "caging/exact_predicates.h"
+#include "caging/mirror_plane.h"
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! What becomes of the facets round an edge when its ends become one vertex.
+template <int Dim>
+struct Collapse {
+  Index kept = -1, removed = -1;             //!< the ends; the vertex that stays has number `kept`
+  bool is_in_plane = false;                  //!< the vertex must be in the mirror plane
+  std::vector<Index> dying{};                //!< facets that have both ends
+  std::vector<Index> ring{};                 //!< facets that have one of them
+  std::vector<FacetCorners<Dim>> corners{};  //!< of the ring's facets afterwards
+};
+
+template <int Dim>
+class EditableSurface {
+ public:
+  using Box = Eigen::AlignedBox<double, Dim>;
+
+  //! \param surface  closed, or half of a closed one with its border in the plane
+  EditableSurface(const Cage<Dim>& surface, const MirrorPlane& plane);
+
+  const PointList<Dim>& points() const { return points_; }
+  const std::vector<FacetCorners<Dim>>& facets() const { return facets_; }
+  bool has_facet(Index facet) const { return is_alive_[facet]; }
+  bool has_vertex(Index vertex) const { return !facets_at_[vertex].empty(); }
+  const std::vector<Index>& facets_at(Index vertex) const { return facets_at_[vertex]; }
+  const MirrorPlane& plane() const { return plane_; }
+  bool is_in_plane(Index vertex) const { return plane_.contains(points_.col(vertex)); }
+
+  //! Ascending.
+  std::vector<Index> neighbours(Index vertex) const;
+
+  //! Vertices of the closed surface, the mirror images included.
+  Index num_control_points() const { return num_control_points_; }
+
+  //! What collapsing an edge would do; nothing if the surface were no manifold afterwards.
+  std::optional<Collapse<Dim>> plan_collapse(Index a, Index b) const;
+  void collapse(const Collapse<Dim>& plan, const Vector<Dim>& position);
+  void move(Index vertex, const Vector<Dim>& position);
+
+  //! Corners of a facet, one of whose vertices is somewhere else.
+  Simplex<Dim> facet_with(const FacetCorners<Dim>& corners, Index vertex,
+                          const Vector<Dim>& position) const;
+  Simplex<Dim> facet(Index number) const;
+  const Box& box(Index facet) const { return boxes_[facet]; }
+
+  Cage<Dim> surface() const;
+
+ private:
+  bool keeps_border(const Collapse<Dim>& plan) const;
+  void update_boxes(Index vertex);
+
+  PointList<Dim> points_;
+  std::vector<FacetCorners<Dim>> facets_;
+  std::vector<bool> is_alive_;
+  std::vector<std::vector<Index>> facets_at_;
+  std::vector<Box> boxes_;
+  MirrorPlane plane_;
+  Index num_control_points_ = 0;
+};
+
+}  // namespace flbc

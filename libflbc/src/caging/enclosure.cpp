@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "caging/enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/union_find.h"
+
+namespace flbc {
+
+namespace {
+
+template <int Dim>
+using Box = Eigen::AlignedBox<double, Dim>;
+
+template <int Dim>
+Box<Dim> box_of(const Simplex<Dim>& simplex) {
+  return {simplex.corners.rowwise().minCoeff(), simplex.corners.rowwise().maxCoeff()};
+}
+
+template <int Dim>
+std::vector<Box<Dim>> boxes_of(const std::vector<Simplex<Dim>>& simplices) {
+  std::vector<Box<Dim>> boxes;
+  for (const auto& simplex : simplices) boxes.push_back(box_of(simplex));
+  return boxes;
+}
+
+template <int Dim>
+std::vector<Simplex<Dim>> collect_simplices(const PointList<Dim>& points,
+                                            const FacetList<Dim>& facets) {
+  std::vector<Simplex<Dim>> simplices;
+  std::vector<bool> is_used(static_cast<std::size_t>(points.cols()), false);
+  for (Index f = 0; f < facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) {
+      corners.col(k) = points.col(facets(k, f));
+      is_used[facets(k, f)] = true;
+    }
+    simplices.push_back(simplex_of<Dim>(corners));
+  }
+  for (Index v = 0; v < points.cols(); ++v) {
+    if (is_used[v]) continue;
+    simplices.push_back(simplex_of<Dim>(points.col(v).replicate(1, Dim)));
+  }
+  return simplices;
+}
+
+// Points at the same place are connected, though a soup gives them numbers of their own.
+template <int Dim>
+PointList<Dim> collect_representatives(const PointList<Dim>& points, const FacetList<Dim>& facets) {
+  UnionFind parts(static_cast<Index>(points.cols()));
+  std::map<std::array<double, Dim>, Index> first_at;
+  for (Index v = 0; v < points.cols(); ++v) {
+    std::array<double, Dim> place;
+    for (int k = 0; k < Dim; ++k) place[k] = points(k, v);
+    parts.unite(v, first_at.emplace(place, v).first->second);
+  }
+  for (Index f = 0; f < facets.cols(); ++f) {
+    for (int k = 1; k < Dim; ++k) parts.unite(facets(0, f), facets(k, f));
+  }
+  std::vector<Index> roots;
+  for (Index v = 0; v < points.cols(); ++v) {
+    if (parts.find(v) == v) roots.push_back(v);
+  }
+  PointList<Dim> representatives(Dim, roots.size());
+  for (std::size_t k = 0; k < roots.size(); ++k) representatives.col(k) = points.col(roots[k]);
+  return representatives;
+}
+
+// Ends of the segments that are tried one after the other, none of them along an axis or diagonal.
+template <int Dim>
+Vector<Dim> direction(int attempt, int axis) {
+  Vector<Dim> d;
+  for (int k = 0; k < Dim; ++k) {
+    const double turn = std::fmod(0.754877666 * (attempt + 1) + 0.569840291 * (k + 1), 1.0);
+    d(k) = 2 * turn - 1;
+  }
+  if (axis >= 0) d(axis) = 1 + std::abs(d(axis));
+  return d.normalized();
+}
+
+template <int Dim>
+double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
+  if (simplex.count == 3) {
+    const Vector<Dim> a = simplex.corners.col(0);
+    Eigen::Matrix<double, Dim, 2> sides;
+    sides << simplex.corners.col(1) - a, simplex.corners.col(2) - a;
+    const Eigen::Matrix2d metric = sides.transpose() * sides;
+    const double determinant = metric.determinant();
+    const Eigen::Vector2d right = sides.transpose() * (p - a);
+    const double s = metric(1, 1) * right(0) - metric(0, 1) * right(1);
+    const double t = metric(0, 0) * right(1) - metric(1, 0) * right(0);
+    if (determinant > 0 && s >= 0 && t >= 0 && s + t <= determinant) {
+      return (p - a - sides * Eigen::Vector2d(s, t) / determinant).norm();
+    }
+  }
+  double least = (p - simplex.corners.col(0)).norm();
+  for (int k = 0; k < simplex.count; ++k) {
+    for (int l = 0; l < k; ++l) {
+      const Vector<Dim> a = simplex.corners.col(k), along = simplex.corners.col(l) - a;
+      const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (p - a - t * along).norm());
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+template <int Dim>
+bool has_odd_crossings(const Vector<Dim>& point, const std::vector<Simplex<Dim>>& facets,
+                       int directions_axis) {
+  constexpr int kAttempts = 32;
+  Box<Dim> around(point);
+  for (const auto& facet : facets) around.extend(box_of(facet));
+  const double length = 2 * around.diagonal().norm();
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Vector<Dim> end = point + length * direction<Dim>(attempt, directions_axis);
+    bool is_odd = false, is_clear = true;
+    for (const auto& facet : facets) {
+      const Passage how = passage<Dim>(point, end, facet);
+      is_clear = is_clear && how != Passage::kUnclear;
+      if (how == Passage::kThrough) is_odd = !is_odd;
+    }
+    if (is_clear) return is_odd;
+  }
+  return false;
+}
+
+template <int Dim>
+Enclosure<Dim>::Enclosure(const PointList<Dim>& points, const FacetList<Dim>& facets)
+    : simplices_(collect_simplices<Dim>(points, facets)),
+      tree_(boxes_of(simplices_)),
+      representatives_(collect_representatives<Dim>(points, facets)),
+      box_(points.rowwise().minCoeff(), points.rowwise().maxCoeff()) {
+}
+
+template <int Dim>
+bool Enclosure<Dim>::meets(const Simplex<Dim>& facet) const {
+  return tree_.any_of(box_of(facet),
+                      [&](Index number) { return intersect(simplices_[number], facet); });
+}
+
+template <int Dim>
+bool Enclosure<Dim>::is_strictly_inside(const Cage<Dim>& cage) const {
+  std::vector<Simplex<Dim>> facets(static_cast<std::size_t>(cage.facets.cols()));
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    for (int k = 0; k < Dim; ++k) facets[f].corners.col(k) = cage.points.col(cage.facets(k, f));
+    if (meets(facets[f])) return false;
+  }
+  for (Index part = 0; part < representatives_.cols(); ++part) {
+    if (!has_odd_crossings<Dim>(representatives_.col(part), facets)) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
+  // Boxes around the point grow until they hold something.
+  double least = limit;
+  for (double reach = limit / 1024;; reach *= 2) {
+    reach = std::min(reach, limit);
+    const Vector<Dim> margin = Vector<Dim>::Constant(reach);
+    tree_.any_of(Box(point - margin, point + margin), [&](Index number) {
+      least = std::min(least, distance_from<Dim>(simplices_[number], point));
+      return false;
+    });
+    if (least <= reach || reach >= limit) return least;
+  }
+}
+
+#define FLBC_INSTANTIATE(Dim)    \
+  template class Enclosure<Dim>; \
+  template bool has_odd_crossings(const Vector<Dim>&, const std::vector<Simplex<Dim>>&, int);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where facets meet: control points in 2D, edges in 3D.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+#include "caging/repair_steps.h"
+
+namespace flbc {
+
+//! The control points of a ridge, ascending.
+template <int Dim>
+using Ridge = std::array<Index, Dim - 1>;
+
+//! The facets at every ridge, by their places in the draft, ascending.
+template <int Dim>
+using RidgeMap = std::map<Ridge<Dim>, std::vector<Index>>;
+
+//! The ridge of a facet that is opposite to its corner k.
+template <int Dim>
+Ridge<Dim> ridge_of(const FacetCorners<Dim>& corners, int k) {
+  Ridge<Dim> ridge;
+  for (int i = 1; i < Dim; ++i) ridge[i - 1] = corners((k + i) % Dim);
+  std::sort(ridge.begin(), ridge.end());
+  return ridge;
+}
+
+template <int Dim>
+RidgeMap<Dim> collect_ridges(const CageDraft<Dim>& draft) {
+  RidgeMap<Dim> ridges;
+  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
+    for (int k = 0; k < Dim; ++k) {
+      ridges[ridge_of<Dim>(draft.facets[f].corners, k)].push_back(static_cast<Index>(f));
+    }
+  }
+  return ridges;
+}
+
+}  // namespace flbc

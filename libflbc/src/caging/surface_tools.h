@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small things that are asked of surfaces in the making.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "caging/exact_predicates.h"
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! The facets as a cage of the points they use, numbered in their old order.
+template <int Dim>
+Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<Dim>>& facets) {
+  std::vector<Index> number(static_cast<std::size_t>(points.cols()), -1);
+  for (const auto& corners : facets) {
+    for (int k = 0; k < Dim; ++k) number[corners(k)] = 0;
+  }
+  Index size = 0;
+  for (Index& n : number) n = n < 0 ? -1 : size++;
+  Cage<Dim> cage{PointList<Dim>(Dim, size), FacetList<Dim>(Dim, facets.size())};
+  for (Index v = 0; v < points.cols(); ++v) {
+    if (number[v] >= 0) cage.points.col(number[v]) = points.col(v);
+  }
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (int k = 0; k < Dim; ++k) cage.facets(k, f) = number[facets[f](k)];
+  }
+  return cage;
+}
+
+//! Normal of a facet as long as its measure (3D: twice that): to the right of an edge, towards the
+//! side from which a triangle's corners run counter-clockwise.
+template <int Dim>
+Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
+  if constexpr (Dim == 2) {
+    const Vector<2> along = corners.col(1) - corners.col(0);
+    return {along.y(), -along.x()};
+  } else {
+    return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+  }
+}
+
+}  // namespace flbc
