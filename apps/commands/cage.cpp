@@ -99,8 +99,9 @@ void add_cage_command(CLI::App& app, int&) {
       "model strictly inside, whatever state the model is in. A model whose vertices all have the\n"
       "same z gets a cage in 2D. --repair keeps the numbers of control points where it can;\n"
       "where it cannot, a line \"OLD NEW\" for each of them goes to a file beside the result.");
-  auto* model =
-      command->add_option("MODEL", a.model, "what is to be enclosed: .obj .off .ply .stl .om");
+  auto* model = command->add_option(
+      "MODEL", a.model,
+      "what is to be enclosed: .obj .off .ply .stl .om, the silhouette in a .png");
   command->add_option("-o,--output", a.output, "the cage: .obj, in 3D also .off, .ply")->required();
   auto* count = command->add_option("--control-points", a.options.control_points,
                                     "at most so many (50 to 150 in 3D, 12 to 60 in 2D, by shape)");
@@ -128,8 +129,8 @@ void add_cage_command(CLI::App& app, int&) {
   command->callback([arguments] {
     check_arguments(*arguments);
     if (!arguments->defective.empty()) return repair_file(*arguments);
-    const auto model = load_model_facets(arguments->model);
-    std::visit([&](const auto& any) { cage(any, *arguments); }, model);
+    std::visit([&](const auto& any) { cage(any, *arguments); },
+               load_model_facets(arguments->model));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "files/load.h"
+#include "files/silhouette.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -88,6 +89,7 @@ std::vector<std::vector<Index>> loops_of(const Cage<2>& cage) {
 }  // namespace
 
 AnyModelFacets load_model_facets(const std::string& path) {
+  if (io::extension_of(path) == "png") return load_silhouette(path);
   const auto soup = load_polygons(path);
   if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
   if (is_flat(soup)) {

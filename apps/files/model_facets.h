@@ -22,7 +22,8 @@ struct ModelFacets {
 
 using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 
-//! 2D if all points have the same z. \throws IoError, InputError, OptionError
+//! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. \throws
+//! IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
 //! Writes a sound cage: .obj, in 3D also .off and .ply. \param height  2D: the z of all points

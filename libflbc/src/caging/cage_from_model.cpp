@@ -72,6 +72,7 @@ class Caging {
       if (size.alpha > kCoarsest * size_) break;
       if (const auto cage = try_wrap(size)) return describe(*cage, size.offset);
     }
+    if (options_.control_points == 0) options_.control_points = kUsualNumber<Dim>;
     const double offset = size_at(1).offset;
     for (const auto& cage : simple_cages<Dim>(model_.box(), offset)) {
       if (is_sound(cage)) return describe(cage, offset);

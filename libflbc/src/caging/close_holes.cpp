@@ -103,7 +103,8 @@ class LeastArea {
 void close_holes(CageDraft<3>& draft) {
   for (const auto& loop : open_loops(draft)) {
     if (loop.size() < 3 || loop.size() > kLongestLoop) continue;
-    for (const auto& corners : LeastArea(draft.points, loop).triangles()) {
+    const LeastArea filling(draft.points, loop);
+    for (const auto& corners : filling.triangles()) {
       draft.facets.push_back({corners, -1});
     }
     draft.changes.push_back("the hole round control points " + describe_list(loop) +

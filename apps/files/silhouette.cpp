@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files/silhouette.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+
+namespace flbc::app {
+namespace {
+
+// Whether each pixel is to be seen, row by row from the bottom.
+struct Mask {
+  Index width = 0, height = 0;
+  std::vector<bool> pixels{};
+
+  bool at(Index x, Index y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && pixels[x + std::size_t(y) * width];
+  }
+};
+
+// libpng's reader, which holds memory until it is freed.
+struct Reader {
+  png_image image{};
+  Reader() { image.version = PNG_IMAGE_VERSION; }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_image_free(&image); }
+};
+
+Mask read_mask(const std::string& path) {
+  constexpr png_uint_32 kMostPixels = 16384;  // along an axis
+  const std::string content = io::read_file(path);
+  Reader reader;
+  auto& image = reader.image;
+  if (png_image_begin_read_from_memory(&image, content.data(), content.size()) == 0) {
+    throw InputError(path + ": " + image.message);
+  }
+  if (image.width > kMostPixels || image.height > kMostPixels) {
+    throw InputError(path + ": the picture has more than 16384 pixels along an axis");
+  }
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<png_byte> colours(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, colours.data(), 0, nullptr) == 0) {
+    throw InputError(path + ": " + image.message);
+  }
+  constexpr std::size_t kChannels = 4, kAlpha = 3;
+  Mask mask{static_cast<Index>(image.width), static_cast<Index>(image.height)};
+  for (Index y = mask.height - 1; y >= 0; --y) {
+    for (Index x = 0; x < mask.width; ++x) {
+      const auto pixel = static_cast<std::size_t>(y) * mask.width + x;
+      mask.pixels.push_back(colours[kChannels * pixel + kAlpha] > 0);
+    }
+  }
+  return mask;
+}
+
+}  // namespace
+
+ModelFacets<2> load_silhouette(const std::string& path) {
+  const Mask mask = read_mask(path);
+  const auto seen = std::count(mask.pixels.begin(), mask.pixels.end(), true);
+  if (seen == 0) throw InputError(path + ": all pixels are transparent");
+  if (seen == static_cast<std::ptrdiff_t>(mask.pixels.size())) {
+    throw InputError(path + ": no pixel is transparent, so that there is no silhouette");
+  }
+  std::map<std::pair<Index, Index>, Index> number_of;
+  std::vector<std::pair<Index, Index>> corners;
+  const auto corner = [&](Index x, Index y) {
+    const auto [entry, is_new] = number_of.emplace(std::pair(x, y), Index(corners.size()));
+    if (is_new) corners.emplace_back(x, y);
+    return entry->second;
+  };
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index y = 0; y <= mask.height; ++y) {
+    for (Index x = 0; x <= mask.width; ++x) {
+      const bool own = mask.at(x, y);
+      if (own != mask.at(x, y - 1)) edges.emplace_back(corner(x, y), corner(x + 1, y));
+      if (own != mask.at(x - 1, y)) edges.emplace_back(corner(x, y), corner(x, y + 1));
+    }
+  }
+  ModelFacets<2> model{PointList<2>(2, corners.size()), FacetList<2>(2, edges.size())};
+  for (std::size_t v = 0; v < corners.size(); ++v) {
+    model.points.col(v) << corners[v].first, corners[v].second;
+  }
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    model.facets.col(e) << edges[e].first, edges[e].second;
+  }
+  return model;
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc cage as its users see it.
+#include <png.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+class CageCommand : public CommandLineTest {
+ protected:
+  Ended expect(const std::string& arguments, int status, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    return result;
+  }
+  nlohmann::json check(const std::string& cage, const std::string& model) const {
+    return nlohmann::json::parse(run("check " + cage + " --model " + model + " --json -").output);
+  }
+  std::string square() const {
+    return file("square.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
+  }
+};
+
+TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
+  for (const char* name : {"2d/figure", "2d/letter", "3d/limb", "3d/torus"}) {
+    const auto model = sample(std::string(name) + "_model.obj"), cage = path("cage.obj");
+    expect("cage " + model + " -o " + cage + " --control-points 40", 0, " control points, ");
+    const auto report = check(cage, model);
+    EXPECT_TRUE(report["fine"]) << name;
+    EXPECT_LE(report["cage"]["control_points"], 40);
+    EXPECT_EQ(report["model"]["outside"], 0);
+    const std::string weights = path("weights.npy");
+    expect("solve " + cage + " --vertices 1500 --model " + model + " -o " + weights + " -q", 0, "");
+  }
+}
+
+TEST_F(CageCommand, SameModelSameFile) {
+  const auto model = sample("3d/limb_model.obj");
+  for (const char* name : {"one.off", "other.off"}) {
+    expect("cage " + model + " -q -o " + path(name), 0, "");
+  }
+  EXPECT_FALSE(slurp(path("one.off")).empty());
+  EXPECT_EQ(slurp(path("one.off")), slurp(path("other.off")));
+}
+
+TEST_F(CageCommand, CurvesKeepTheirHeight) {
+  const auto curve = file("curve.obj", "v 0 0 3\nv 1 2 3\nv 3 1 3\nl 1 2 3\n");
+  expect("cage " + curve + " -q -o " + path("cage.obj"), 0, "");
+  EXPECT_NE(slurp(path("cage.obj")).find(" 3\n"), std::string::npos);
+  EXPECT_TRUE(check(path("cage.obj"), curve)["fine"]);
+}
+
+// A disc that is to be seen, one pixel apart from it, and nothing round them.
+TEST_F(CageCommand, SilhouettesOfPictures) {
+  constexpr int kSize = 60;
+  const auto is_seen = [](int x, int y) {
+    return (x - 25) * (x - 25) + (y - 35) * (y - 35) < 300 || (x == 55 && y == 3);
+  };
+  const auto write = [&](const std::string& name, int format) {
+    const int channels = format == PNG_FORMAT_RGBA ? 4 : 3;
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = image.height = kSize;
+    image.format = static_cast<png_uint_32>(format);
+    std::vector<png_byte> bytes(kSize * kSize * channels, 0);
+    for (int pixel = 0; pixel < kSize * kSize; ++pixel) {
+      const int x = pixel % kSize, y = kSize - 1 - pixel / kSize;
+      if (channels == 4 && is_seen(x, y)) bytes[4 * pixel + 3] = 1;
+    }
+    EXPECT_NE(png_image_write_to_file(&image, path(name).c_str(), 0, bytes.data(), 0, nullptr), 0);
+    return path(name);
+  };
+  expect("cage " + write("disc.png", PNG_FORMAT_RGBA) + " -q -o " + path("cage.obj"), 0, "");
+  std::string corners;
+  for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kSize; ++y) {
+      if (!is_seen(x, y)) continue;
+      for (const int k : {0, 1, 2, 3}) {
+        corners += "v " + std::to_string(x + k % 2) + ' ' + std::to_string(y + k / 2) + " 0\n";
+      }
+    }
+  }
+  const auto report = check(path("cage.obj"), file("corners.obj", corners));
+  EXPECT_TRUE(report["fine"]);
+  EXPECT_EQ(report["model"]["outside"], 0);
+  EXPECT_LT(report["cage"]["measure"], 0.7 * kSize * kSize);
+  expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o " + path("none.obj"), 2,
+         "full.png: no pixel is transparent");
+  expect("cage " + file("no.png", "text") + " -o " + path("none.obj"), 2, "no.png: ");
+}
+
+TEST_F(CageCommand, RefusesWithReason) {
+  const auto out = " -o " + path("out.obj");
+  expect("cage" + out, 1, "give a MODEL");
+  expect("cage " + square() + out + " --control-points 2", 1, "at least 3");
+  expect("cage " + square() + out + " --offset -1", 1, "offset");
+  expect("cage " + square() + out + " --symmetric z", 1, "symmetric across z");
+  expect("cage " + square() + out + " --symmetric w", 1, "--symmetric");
+  expect("cage " + square() + " -o " + path("out.ply"), 1, ".obj");
+  expect("cage " + file("dot.obj", "v 1 1 1\n") + out, 2, "dot.obj: the model's size is 0");
+  expect("cage " + path("none.obj") + out, 4, "none.obj");
+  EXPECT_EQ(slurp(path("out.obj")), "");
+}
+
+TEST_F(CageCommand, RepairTellsWhatWasDoneAndNumbersThatChanged) {
+  const auto defective = file("open.obj", "v 5 5\nv 0 0\nv 1 0\nv 1 1\nv 0 1\nl 2 3 4 5\n");
+  expect("mesh " + defective + " -o " + path("mesh.obj"), 2, "flbc cage --repair");
+  const auto told = expect("cage --repair " + defective + " -o " + path("mended.obj"), 0,
+                           "a new edge joins the open ends at control points 1 and 4");
+  EXPECT_NE(told.errors.find("control point 0 at (5, 5) belongs to no facet"), std::string::npos);
+  EXPECT_NE(told.errors.find("mended.numbers.txt"), std::string::npos);
+  EXPECT_EQ(slurp(path("mended.numbers.txt")), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
+  expect("mesh " + path("mended.obj") + " -o " + path("mesh.obj") + " -q", 0, "");
+}
+
+TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {
+  expect("cage --repair " + square() + " -o " + path("same.obj"), 0, "nothing was wrong");
+  EXPECT_EQ(slurp(path("same.numbers.txt")), "");
+  EXPECT_TRUE(check(path("same.obj"), square())["fine"]);
+}
+
+TEST_F(CageCommand, RunFromTheModelAlone) {
+  for (const std::string& name : {std::string("2d/figure"), std::string("3d/limb")}) {
+    const auto model = sample(name + "_model.obj"), out = path("out");
+    const auto options = " --auto-cage 30 --vertices 1500 -o " + out;
+    expect("run " + model + options, 0, "cage.obj");
+    const auto report = nlohmann::json::parse(slurp(out + "/report.json"));
+    EXPECT_TRUE(report["check"]["fine"]);
+    const auto cage = path("cage.obj");
+    expect("cage " + model + " -q --control-points 30 -o " + cage, 0, "");
+    EXPECT_EQ(slurp(out + "/cage.obj"), slurp(cage));
+  }
+  const auto model = sample("2d/figure_model.obj");
+  const auto into = [&](const std::string& folder) { return " -q -o " + path(folder); };
+  expect("run " + model + " --auto-cage --vertices 1500" + into("plain"), 0, "");
+  expect("run " + model + " --auto-cage two" + into("none"), 1, "--auto-cage");
+  expect("run " + model + " " + model + " --auto-cage 30" + into("none"), 1, "--auto-cage");
+}
+
+}  // namespace
+}  // namespace flbc::testing
