@@ -11,6 +11,7 @@
 #include "files/model_facets.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "flbc/io/model_file.h"
 #include "solve/make_cage.h"
 
 namespace flbc::app {
@@ -71,7 +72,7 @@ void repair(const Cage<Dim>& cage, std::vector<std::string> changes,
 
 void repair_file(const CageArguments& arguments) {
   std::vector<std::string> changes;
-  auto soup = load_polygons(arguments.defective);
+  auto soup = io::read_polygons(arguments.defective);
   if (!soup.polygons.empty() && !soup.polylines.empty()) {
     changes.push_back(std::to_string(soup.polylines.size()) +
                       " polylines beside the surface are dropped");

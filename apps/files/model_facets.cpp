@@ -90,7 +90,7 @@ std::vector<std::vector<Index>> loops_of(const Cage<2>& cage) {
 
 AnyModelFacets load_model_facets(const std::string& path) {
   if (io::extension_of(path) == "png") return load_silhouette(path);
-  const auto soup = load_polygons(path);
+  const auto soup = io::read_polygons(path);
   if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
   if (is_flat(soup)) {
     return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z()};
@@ -114,20 +114,14 @@ void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
       soup.polygons.push_back({corners(0), corners(1), corners(2)});
     }
   }
-  if (Dim == 2) {
-    io::write_obj(path, soup);
-  } else {
-    io::write_model(path, {soup});
-  }
+  io::write_model(path, {soup});
 }
 
 template <int Dim>
 void require_cage_writable(const std::string& path) {
-  if (Dim == 2) {
-    require_writable(path, {"obj"});
-  } else {
-    require_writable(path, {"obj", "off", "ply"});
-  }
+  const auto extension = io::extension_of(path);
+  const bool is_known = Dim == 3 && (extension == "off" || extension == "ply");
+  require_writable(path, is_known ? extension.c_str() : "obj");
 }
 
 template void write_cage(const std::string&, const Cage<2>&, double);
