@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing. Does nothing, in no time, if all are there.
+# Installs the Debian packages that are missing, and those that are named. Does nothing, in no time,
+# if all are there.
 set -euo pipefail
 
 packages=(
@@ -9,6 +10,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev  # the program flbc
   libgtest-dev                            # tests
 )
+packages+=("$@")
 
 missing=()
 for package in "${packages[@]}"; do

@@ -6,10 +6,15 @@ cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh
 cmake --preset release >/dev/null
 cmake --build --preset release
-# Without them the test of glTF in other programs is skipped.
-lock=tests/gltf/package-lock.json
-if command -v npm >/dev/null && ! [ tests/gltf/node_modules/.package-lock.json -nt $lock ]; then
-  npm ci --prefix tests/gltf --ignore-scripts --no-audit --no-fund --silent ||
-    echo "npm ci failed: the test of glTF in other programs will be skipped" >&2
+# Without them the tests of glTF in other programs and of pages in a browser are skipped.
+if command -v npm >/dev/null; then
+  scripts/install_dependencies.sh chromium fonts-dejavu-core ||
+    echo "no browser: the test of pages in one will be skipped" >&2
+  for folder in tests/gltf tests/browser; do
+    lock=$folder/package-lock.json
+    [ $folder/node_modules/.package-lock.json -nt $lock ] && continue
+    npm ci --prefix $folder --ignore-scripts --no-audit --no-fund --silent ||
+      echo "npm ci failed: the test in $folder will be skipped" >&2
+  done
 fi
 ctest --preset release "$@"

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc view: a page in which the cage can be moved.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "files/load_surface.h"
+#include "files/movable_model.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/poses.h"
+#include "flbc/sparsify_error.h"
+#include "poses/animation.h"
+#include "poses/poses.h"
+#include "solve/weights_of_model.h"
+#include "view/influences.h"
+#include "view/model_page.h"
+
+namespace flbc::app {
+namespace {
+
+struct ViewArguments {
+  std::string model;
+  std::string weights;
+  std::string cage;
+  std::vector<std::string> poses;
+  std::string keyframes;
+  double frames_per_second = 0;
+  Index max_influences = view::kMostInfluences;
+  std::string picture;
+  std::string output;
+  bool quiet = false;
+};
+
+// Pages beyond that open slowly.
+constexpr double kLargePage = 20e6;
+
+// Media type of a picture that browsers show. \throws OptionError
+std::string media_type_of(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  if (extension == "png") return "image/png";
+  if (extension == "jpg" || extension == "jpeg") return "image/jpeg";
+  throw OptionError(path + ": cannot tell the format; a picture must end in .png or .jpg");
+}
+
+void check_arguments(const ViewArguments& arguments) {
+  const double rate = arguments.frames_per_second;
+  if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
+    throw OptionError("--fps must be from 0.001 to 1000000");
+  }
+  if (!arguments.picture.empty()) media_type_of(arguments.picture);
+  require_surface_readable(arguments.model);
+  require_writable(arguments.output, {"html"});
+}
+
+void check_files(const ViewArguments& arguments, const CageFiles& poses) {
+  auto inputs = files_of_model(arguments.model);
+  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.keyframes,
+                               arguments.picture});
+  inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
+  require_distinct(inputs, {arguments.output});
+}
+
+template <int Dim>
+std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& arguments,
+                                                   const CageFiles& files,
+                                                   const PointList<Dim>& rest) {
+  const bool is_animation = !arguments.keyframes.empty();
+  const auto poses =
+      is_animation ? load_keyframes<Dim>(arguments.keyframes, rest) : load_poses<Dim>(files);
+  const auto times = is_animation
+                         ? load_animation<Dim>(arguments.keyframes, rest).times
+                         : times_of_poses(poses.size(), arguments.frames_per_second);
+  return shown_poses(poses, times);
+}
+
+template <int Dim>
+view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFiles& poses) {
+  view::PageContent<Dim> content;
+  content.title = std::filesystem::path(arguments.model).stem().string();
+  content.model_file = arguments.model;
+  content.weights_file = arguments.weights;
+  content.cage_file = arguments.cage;
+  content.cage = load_shown_cage<Dim>(arguments.cage);
+  auto model = load_surface<Dim>(arguments.model);
+  content.points = std::move(model.points);
+  content.surface = std::move(model.surface);
+  content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
+  if (!arguments.picture.empty()) {
+    content.picture = data_uri(media_type_of(arguments.picture),
+                                     io::read_file(arguments.picture));
+  }
+  return content;
+}
+
+// How far the page moves points elsewhere than the weights given would, if they were reduced.
+template <int Dim>
+std::string told_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
+  const auto before = count_influences(given).max;
+  const auto after = count_influences(content.weights).max;
+  if (before == after) return "at most " + std::to_string(after) + " influences per point";
+  constexpr int kRandomPoses = 20;
+  const auto error = deformation_error(smooth_poses(content.cage.points, kRandomPoses), given,
+                                       content.weights);
+  const double size = bounding_box_diagonal<Dim>(content.points);
+  std::ostringstream text;
+  text.precision(3);
+  text << "at most " << after << " influences per point (before " << before
+       << "); deformation error over random smooth poses " << 100 * error.rms / size
+       << " % of the size rms, " << 100 * error.max / size << " % max";
+  return text.str();
+}
+
+template <int Dim>
+void write_page(const ViewArguments& arguments, const CageFiles& poses) {
+  auto content = load_content<Dim>(arguments, poses);
+  const auto given = io::read_weights(arguments.weights);
+  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
+  check_sizes(given, content.cage.points.cols(), content.points.cols(), files);
+  check_reproduction<Dim>(SparseWeights(given), content.cage.points, content.points, files);
+  content.weights = naming(arguments.weights, [&] {
+    return view::limit_influences(content.cage.points, content.points, given,
+                                  arguments.max_influences);
+  });
+  const auto page = make_page(content);
+  {
+    const HeldSignals held;
+    io::write_file(arguments.output, [&](std::ostream& file) { file << page; });
+  }
+  const auto bytes = static_cast<double>(page.size());
+  if (!arguments.quiet) {
+    std::cerr << arguments.output << ": " << content.points.cols() << " points, "
+              << content.surface.triangles.cols() << " triangles, " << content.poses.size()
+              << " poses, " << told_reduction(content, given) << "; " << bytes / 1e6
+              << " MB; open it in a browser\n";
+  }
+  if (bytes > kLargePage) {
+    std::cerr << "flbc: " << arguments.output << ": " << bytes / 1e6
+              << " MB open slowly; fewer influences per point, as -k 4, make it smaller\n";
+  }
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<ViewArguments>();
+  auto& a = *arguments;
+  auto* command =
+      app.add_subcommand("view", "Write a page in which the cage can be moved with the mouse");
+  command->footer(
+      "The page is one file that any browser opens, without network. It moves the model as flbc\n"
+      "deform does, saves poses of the cage as OBJ, and tells its keys with '?'.");
+  command
+      ->add_option("MODEL", a.model,
+                   "model (.obj, .off, .ply, .stl) or domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh), of which the boundary is shown")
+      ->required();
+  command
+      ->add_option("--weights", a.weights,
+                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
+      ->required();
+  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
+  auto* poses = command->add_option(
+      "--pose", a.poses, "the cage in another place; several, or a pattern as pose_%d.obj");
+  command
+      ->add_option("--keyframes", a.keyframes,
+                   "poses as displacements of the cage, with times in seconds")
+      ->excludes(poses);
+  command
+      ->add_option("--fps", a.frames_per_second,
+                   "poses of --pose per second (24, but 1 for a single one)")
+      ->needs(poses);
+  command->add_option("-k,--max-influences", a.max_influences,
+                      "most influences per point, up to 16 (16)");
+  command->add_option("--texture", a.picture,
+                      "picture for a model with texture coordinates, .png or .jpg");
+  command->add_option("-o,--output", a.output, "the page, .html")->required();
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    const auto files = find_cages(arguments->poses);
+    check_files(*arguments, files);
+    if (dimension_of_cage(arguments->cage) == 2) {
+      write_page<2>(*arguments, files);
+    } else {
+      write_page<3>(*arguments, files);
+    }
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/model_page.h"
+
+#include <filesystem>
+#include <variant>
+
+#include "files/load.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/files.h"
+#include "view/base64.h"
+
+namespace flbc::app {
+
+template <int Dim>
+view::ShownCage<Dim> load_shown_cage(const std::string& path) {
+  const auto soup = load_polygons(path);
+  const auto cage = io::to_cage(soup, path);
+  view::ShownCage<Dim> shown;
+  shown.points = io::to_points<Dim>(soup, path);
+  if (const auto* same = std::get_if<Cage<Dim>>(&cage)) shown.facets = same->facets;
+  shown.edges = view::edges_of_cage<Dim>(soup.polygons, shown.facets);
+  if (io::extension_of(path) == "obj") shown.text = io::read_file(path);
+  return shown;
+}
+
+std::vector<double> times_of_poses(std::size_t count, double frames_per_second) {
+  constexpr double kVideo = 24;
+  double rate = frames_per_second;
+  if (rate == 0) rate = count == 1 ? 1 : kVideo;
+  std::vector<double> times;
+  for (std::size_t k = 1; k <= count; ++k) times.push_back(static_cast<double>(k) / rate);
+  return times;
+}
+
+template <int Dim>
+std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
+                                        const std::vector<double>& times) {
+  std::vector<view::ShownPose<Dim>> shown;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const auto name = std::filesystem::path(poses[k].name).filename().string();
+    shown.push_back({name, times[k], poses[k].points});
+  }
+  return shown;
+}
+
+std::string data_uri(const std::string& media_type, const std::string& bytes) {
+  return "data:" + media_type + ";base64," + view::to_base64(bytes);
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                  \
+  template view::ShownCage<Dim> load_shown_cage(const std::string&);                                 \
+  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&,              \
+                                                   const std::vector<double>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

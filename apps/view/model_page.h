@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The parts of a page that come from files of cages and their poses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "poses/poses.h"
+#include "view/page.h"
+
+namespace flbc::app {
+
+//! A cage at rest with the edges of its polygons and, if it is OBJ, its text.
+//! \throws IoError, InputError
+template <int Dim>
+view::ShownCage<Dim> load_shown_cage(const std::string& path);
+
+//! When poses are reached from rest at 0 s. \param frames_per_second  0 = 24, but 1 for one pose
+std::vector<double> times_of_poses(std::size_t count, double frames_per_second);
+
+//! Poses at their times, named by their files without folders.
+template <int Dim>
+std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
+                                        const std::vector<double>& times);
+
+//! A file inside of a page.
+std::string data_uri(const std::string& media_type, const std::string& bytes);
+
+}  // namespace flbc::app

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/page.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "draw/colormap.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "view/base64.h"
+#include "view/influences.h"
+#include "view/page_template.h"
+
+namespace flbc::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Number, class Values>
+std::string pack(const Values& values) {
+  std::vector<Number> numbers;
+  numbers.reserve(static_cast<std::size_t>(values.size()));
+  for (const auto value : values) numbers.push_back(static_cast<Number>(value));
+  return numbers_to_base64(numbers);
+}
+
+// Indices below `limit` in as few bytes as they need.
+template <class Values>
+Json pack_indices(const Values& values, Eigen::Index limit) {
+  if (limit <= 1 << 8) return {{"bytes", 1}, {"data", pack<std::uint8_t>(values)}};
+  if (limit <= 1 << 16) return {{"bytes", 2}, {"data", pack<std::uint16_t>(values)}};
+  return {{"bytes", 4}, {"data", pack<std::uint32_t>(values)}};
+}
+
+template <int Dim>
+void check(const PageContent<Dim>& content) {
+  const auto n = content.cage.points.cols();
+  const auto num_points = content.points.cols();
+  if (n > std::numeric_limits<std::uint16_t>::max()) {
+    throw InputError("the cage has " + std::to_string(n) +
+                     " control points, but a page can show 65535 at most");
+  }
+  if (content.weights.rows() != n || content.weights.cols() != num_points) {
+    throw InputError("there are weights of " + std::to_string(content.weights.rows()) +
+                     " control points and " + std::to_string(content.weights.cols()) +
+                     " points, not of " + std::to_string(n) + " and " +
+                     std::to_string(num_points));
+  }
+  for (const auto& pose : content.poses) {
+    if (pose.points.cols() != n) {
+      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
+                       " vertices, but the cage has " + std::to_string(n));
+    }
+  }
+  if (!content.points.allFinite() || !content.cage.points.allFinite()) {
+    throw InputError("a coordinate of the model or of its cage is not finite");
+  }
+}
+
+// The influences of all points, one after the other.
+Json pack_weights(const SparseWeights& weights) {
+  std::vector<std::uint8_t> counts;
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    const auto count = weights.starts()[p + 1] - weights.starts()[p];
+    if (count > kMostInfluences) {
+      throw InputError("point " + std::to_string(p) + " has " + std::to_string(count) +
+                       " influences, but a page holds " + std::to_string(kMostInfluences) +
+                       " at most");
+    }
+    counts.push_back(static_cast<std::uint8_t>(count));
+  }
+  return {{"counts", numbers_to_base64(counts)},
+          {"controlPoints",
+           pack_indices(weights.control_points(), weights.num_control_points())},
+          {"values", pack<float>(weights.values())}};
+}
+
+// From linear colours to the sRGB of pages.
+double to_srgb(double color) {
+  constexpr double kGamma = 2.4;
+  return color <= 0.0031308 ? 12.92 * color : 1.055 * std::pow(color, 1 / kGamma) - 0.055;
+}
+
+bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
+  for (std::size_t v = 0; v < sources.size(); ++v) {
+    if (sources[v] != static_cast<Index>(v)) return false;
+  }
+  return static_cast<Eigen::Index>(sources.size()) == num_points;
+}
+
+// For every vertex the first one of the same point with the same normal: where a file has several
+// normals at a point there is a crease.
+std::vector<Index> crease_groups(const gltf::Surface& surface) {
+  std::vector<Index> groups(surface.sources.size());
+  for (std::size_t v = 0; v < groups.size(); ++v) {
+    groups[v] = static_cast<Index>(v);
+    for (std::size_t u = v; u-- > 0 && surface.sources[u] == surface.sources[v];) {
+      if (surface.normals.col(static_cast<Eigen::Index>(u)) ==
+          surface.normals.col(static_cast<Eigen::Index>(v))) {
+        groups[v] = groups[u];
+        break;
+      }
+    }
+  }
+  return groups;
+}
+
+Json pack_surface(const gltf::Surface& surface, Eigen::Index num_points) {
+  const auto num_vertices = static_cast<Eigen::Index>(surface.sources.size());
+  Json json;
+  json["triangles"] = pack_indices(surface.triangles.reshaped(), num_vertices);
+  if (!is_identity(surface.sources, num_points)) {
+    json["sources"] = pack_indices(surface.sources, num_points);
+    json["groups"] = pack_indices(crease_groups(surface), num_vertices);
+  }
+  if (surface.texture_coordinates.cols() > 0) {
+    json["textureCoordinates"] = pack<float>(surface.texture_coordinates.reshaped());
+  }
+  if (surface.colors.cols() > 0) {
+    const Eigen::MatrixXd bytes =
+        surface.colors.unaryExpr([](double color) { return std::round(255 * to_srgb(color)); });
+    json["colors"] = pack<std::uint8_t>(bytes.reshaped());
+  }
+  return json;
+}
+
+template <int Dim>
+Json pack_cage(const ShownCage<Dim>& cage) {
+  std::vector<Index> ends;
+  for (const auto& edge : cage.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+  return {{"points", pack<double>(cage.points.reshaped())},
+          {"facets", pack_indices(cage.facets.reshaped(), cage.points.cols())},
+          {"edges", pack_indices(ends, cage.points.cols())},
+          {"text", cage.text}};
+}
+
+// The colours of weights from 0 to 1, as in the pictures.
+std::string pack_palette() {
+  constexpr int kColors = 256;
+  std::vector<std::uint8_t> bytes;
+  for (int k = 0; k < kColors; ++k) {
+    const auto color = draw::weight_color(k / (kColors - 1.0));
+    for (const float part : {color.r, color.g, color.b}) {
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * part)));
+    }
+  }
+  return numbers_to_base64(bytes);
+}
+
+// Where the weights put the points of the resting cage, seen from the middle: single precision then
+// has digits enough wherever the model is.
+template <int Dim>
+Json pack_points(const SparseWeights& weights, const PointList<Dim>& rest) {
+  const PointList<Dim> base = deform<Dim>(weights, rest);
+  const Vector<Dim> center = (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff()) / 2;
+  const PointList<Dim> offsets = base.colwise() - center;
+  return {{"center", std::vector<double>(center.begin(), center.end())},
+          {"offsets", pack<float>(offsets.reshaped())}};
+}
+
+template <int Dim>
+Json to_json(const PageContent<Dim>& content) {
+  const SparseWeights weights(content.weights);
+  Json json{{"dim", Dim},
+            {"title", content.title},
+            {"files",
+             {{"model", content.model_file},
+              {"weights", content.weights_file},
+              {"cage", content.cage_file}}},
+            {"cage", pack_cage(content.cage)},
+            {"points", pack_points<Dim>(weights, content.cage.points)},
+            {"weights", pack_weights(weights)},
+            {"palette", pack_palette()},
+            {"picture", content.picture}};
+  json["surface"] = pack_surface(content.surface, content.points.cols());
+  json["poses"] = Json::array();
+  for (const auto& pose : content.poses) {
+    json["poses"].push_back({{"name", pose.name},
+                             {"time", pose.time},
+                             {"points", pack<double>(pose.points.reshaped())}});
+  }
+  return json;
+}
+
+// Text that may stand in an HTML script element: nothing in it can end the element.
+std::string to_script(const Json& json) {
+  const auto text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string script;
+  script.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      script += "\\u003c";
+    } else {
+      script += c;
+    }
+  }
+  return script;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
+                                                const FacetList<Dim>& facets) {
+  std::set<std::array<Index, 2>> edges;
+  const auto add = [&](Index a, Index b) {
+    if (a != b) edges.insert({std::min(a, b), std::max(a, b)});
+  };
+  for (const auto& polygon : polygons) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      add(polygon[k], polygon[(k + 1) % polygon.size()]);
+    }
+  }
+  if (edges.empty()) {
+    for (const auto& facet : facets.colwise()) {
+      for (int k = 0; k < Dim; ++k) add(facet[k], facet[(k + 1) % Dim]);
+    }
+  }
+  return {edges.begin(), edges.end()};
+}
+
+template <int Dim>
+std::string make_page(const PageContent<Dim>& content) {
+  check(content);
+  const auto data = to_script(to_json(content));
+  const std::string page = kPageTemplate;
+  const std::string place = "{{data}}";
+  const auto begin = page.find(place);
+  return page.substr(0, begin) + data + page.substr(begin + place.size());
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                   \
+  template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
+                                                           const FacetList<Dim>&);              \
+  template std::string make_page(const PageContent<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::view

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! One HTML file in which a person moves a cage, and the model in it follows.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "flbc/types.h"
+#include "gltf/surface.h"
+
+namespace flbc::view {
+
+//! A cage as it is shown.
+template <int Dim>
+struct ShownCage {
+  PointList<Dim> points{};                    //!< Dim x n, at rest
+  FacetList<Dim> facets{};                    //!< Dim x m
+  std::vector<std::array<Index, 2>> edges{};  //!< of its polygons, each once
+  //! The file, if it is OBJ: poses are saved as this text with other coordinates.
+  std::string text{};
+};
+
+//! The cage in another place.
+template <int Dim>
+struct ShownPose {
+  std::string name{};
+  double time = 0;          //!< seconds, ascending
+  PointList<Dim> points{};  //!< Dim x n
+};
+
+//! What goes into a page.
+template <int Dim>
+struct PageContent {
+  std::string title{};
+  std::string model_file{};    //!< these three as the command that the page offers has them
+  std::string weights_file{};
+  std::string cage_file{};
+  ShownCage<Dim> cage{};
+  PointList<Dim> points{};             //!< Dim x P, of the model
+  gltf::Surface surface{};             //!< of these points; without triangles points are shown
+  WeightMatrix weights{};              //!< n x P, at most kMostInfluences in every column
+  std::vector<ShownPose<Dim>> poses{};
+  std::string picture{};               //!< data URI of a texture, or empty
+};
+
+//! The edges of a cage's polygons; of its facets if there are none.
+template <int Dim>
+std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
+                                                const FacetList<Dim>& facets);
+
+//! The page, which needs no other file and no network.
+//! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535 control
+//! points
+template <int Dim>
+std::string make_page(const PageContent<Dim>& content);
+
+}  // namespace flbc::view

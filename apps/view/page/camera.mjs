@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From where the model is looked at. The y axis points up; in the plane nothing turns.
+import { add, boundingSphere, cross, dot, length, pointAt, subtract, times } from "./vectors.mjs";
+
+const kSteepest = 1.55;  // radians: a view from above still knows where right is
+const kPerspective = 0.27;  // tangent of half of the vertical field of view
+const kMargin = 1.12;
+
+export class Camera {
+  constructor(dim) {
+    this.dim = dim;
+    this.yaw = dim === 3 ? 0.6 : 0;
+    this.pitch = dim === 3 ? 0.3 : 0;
+    this.target = [0, 0, 0];
+    this.halfHeight = 1;  // of what is seen at the target
+    this.sphere = { center: [0, 0, 0], radius: 1 };  // in which everything lies
+    this.width = 1;
+    this.height = 1;
+  }
+
+  // Right, up and toward the eye.
+  axes() {
+    const toward = [Math.cos(this.pitch) * Math.sin(this.yaw), Math.sin(this.pitch),
+                    Math.cos(this.pitch) * Math.cos(this.yaw)];
+    const right = [Math.cos(this.yaw), 0, -Math.sin(this.yaw)];
+    return { right, up: cross(toward, right), toward };
+  }
+
+  // By how much things shrink with their distance, per unit of length.
+  shrinking() {
+    return this.dim === 3 ? kPerspective / this.halfHeight : 0;
+  }
+
+  // How much smaller than at the target a thing at `place` appears.
+  depthFactor(place) {
+    const { toward } = this.axes();
+    return Math.max(1e-3, 1 - this.shrinking() * dot(toward, subtract(place, this.target)));
+  }
+
+  // From places seen from `origin` to clip coordinates, column by column. What is nearer has the
+  // smaller depth.
+  matrix(origin) {
+    const { right, up, toward } = this.axes();
+    const shrinking = this.shrinking();
+    const reach = length(subtract(this.sphere.center, this.target)) + 1.5 * this.sphere.radius;
+    const near = shrinking > 0 ? Math.min(reach, 0.98 / shrinking) : reach;
+    const far = -reach;
+    const nearFactor = 1 - shrinking * near, farFactor = 1 - shrinking * far;
+    const slope = (nearFactor + farFactor) / (far - near);
+    const offset = -nearFactor - slope * near;
+    const rows = [times(this.height / (this.width * this.halfHeight), right),
+                  times(1 / this.halfHeight, up), times(slope, toward), times(-shrinking, toward)];
+    const offsets = [0, 0, offset, 1];
+    const result = new Float32Array(16);
+    rows.forEach((row, r) => {
+      for (let c = 0; c < 3; ++c) result[4 * c + r] = row[c];
+      result[12 + r] = offsets[r] - dot(row, subtract(this.target, origin));
+    });
+    return result;
+  }
+
+  // Where a place appears, in pixels from the upper left corner, and how near it is.
+  project(place) {
+    const { right, up, toward } = this.axes();
+    const offset = subtract(place, this.target);
+    const scale = this.height / (2 * this.halfHeight * this.depthFactor(place));
+    return { x: this.width / 2 + scale * dot(right, offset),
+             y: this.height / 2 - scale * dot(up, offset), nearness: dot(toward, offset) };
+  }
+
+  // The step in the picture's plane that moves a thing at `place` by so many pixels.
+  step(place, dx, dy) {
+    const { right, up } = this.axes();
+    const unit = 2 * this.halfHeight * this.depthFactor(place) / this.height;
+    return add(times(unit * dx, right), times(-unit * dy, up));
+  }
+
+  orbit(dx, dy) {
+    if (this.dim === 2) return;
+    this.yaw -= 0.008 * dx;
+    this.pitch = Math.max(-kSteepest, Math.min(kSteepest, this.pitch + 0.008 * dy));
+  }
+
+  pan(dx, dy) {
+    this.target = subtract(this.target, this.step(this.target, dx, dy));
+  }
+
+  // What lies under (x, y) stays there.
+  zoom(factor, x, y) {
+    const before = this.step(this.target, x - this.width / 2, y - this.height / 2);
+    const smallest = 1e-4 * this.sphere.radius, largest = 1e2 * this.sphere.radius;
+    const halfHeight = Math.max(smallest, Math.min(largest, this.halfHeight / factor));
+    this.target = add(this.target, times(1 - halfHeight / this.halfHeight, before));
+    this.halfHeight = halfHeight;
+  }
+
+  look(yaw, pitch) {
+    this.yaw = yaw;
+    this.pitch = pitch;
+  }
+
+  // Shows all of the points as large as possible.
+  frame(points) {
+    const { center, radius } = boundingSphere(points);
+    this.target = center;
+    const { right, up } = this.axes();
+    let halfWidth = 0, halfHeight = 0;
+    for (let i = 0; i < points.length / 3; ++i) {
+      const offset = subtract(pointAt(points, i), center);
+      halfWidth = Math.max(halfWidth, Math.abs(dot(right, offset)));
+      halfHeight = Math.max(halfHeight, Math.abs(dot(up, offset)));
+    }
+    const wanted = Math.max(halfHeight, halfWidth * this.height / this.width, 0.02 * radius);
+    this.halfHeight = kMargin * wanted * (this.dim === 3 ? 1.08 : 1);
+  }
+}

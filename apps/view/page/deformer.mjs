@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Moves the model's points with the cage: where they are at rest, and the weighted sum of how far
+// the control points are from there. Every point is computed anew from these, never from where it
+// was before, so that the same cage always gives the same bits.
+
+export class Deformer {
+  constructor(weights, base, rest) {
+    this.weights = weights;
+    this.base = base;
+    this.rest = rest;
+    this.points = Float32Array.from(base);
+    this.steps = new Float64Array(rest.length);
+  }
+
+  // Takes the control points to places in a flat array.
+  move(controlPoints) {
+    const { starts, controlPoints: owners, values } = this.weights;
+    const { base, points, rest, steps } = this;
+    for (let k = 0; k < steps.length; ++k) steps[k] = controlPoints[k] - rest[k];
+    for (let p = 0; p < starts.length - 1; ++p) {
+      let x = base[3 * p], y = base[3 * p + 1], z = base[3 * p + 2];
+      for (let k = starts[p]; k < starts[p + 1]; ++k) {
+        const weight = values[k], owner = 3 * owners[k];
+        x += weight * steps[owner];
+        y += weight * steps[owner + 1];
+        z += weight * steps[owner + 2];
+      }
+      points[3 * p] = x;
+      points[3 * p + 1] = y;
+      points[3 * p + 2] = z;
+    }
+  }
+
+  // How far every point is from where it rests.
+  displacements() {
+    const { base, points } = this;
+    const lengths = new Float32Array(points.length / 3);
+    for (let p = 0; p < lengths.length; ++p) {
+      lengths[p] = Math.hypot(points[3 * p] - base[3 * p], points[3 * p + 1] - base[3 * p + 1],
+                              points[3 * p + 2] - base[3 * p + 2]);
+    }
+    return lengths;
+  }
+
+  // The sum of the weights of some control points, at every point.
+  weightsOf(selection) {
+    const { starts, controlPoints: owners, values } = this.weights;
+    const isSelected = new Uint8Array(this.rest.length / 3);
+    for (const i of selection) isSelected[i] = 1;
+    const sums = new Float32Array(starts.length - 1);
+    for (let p = 0; p < sums.length; ++p) {
+      for (let k = starts[p]; k < starts[p + 1]; ++k) sums[p] += isSelected[owners[k]] * values[k];
+    }
+    return sums;
+  }
+
+  influenceCounts() {
+    const { starts } = this.weights;
+    return Float32Array.from({ length: starts.length - 1 }, (_, p) => starts[p + 1] - starts[p]);
+  }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cage in the hands of a user: where its control points are, which of them are selected, and
+// what can be undone. Between begin() and end() lies a stroke, which is undone at once.
+import { mirrorMoves, mirrorPairs } from "./mirror.mjs";
+import { boundingSphere, pointAt, setPoint } from "./vectors.mjs";
+
+const kMostStrokes = 200;
+
+function areEqual(a, b) {
+  return a.every((value, k) => Object.is(value, b[k]));
+}
+
+export class Editor {
+  constructor(rest, dim) {
+    this.rest = rest;
+    this.dim = dim;
+    this.points = rest.slice();
+    this.selection = new Set();
+    this.done = [];
+    this.undone = [];
+    this.start = null;  // where the points were when the stroke began
+    this.mirrorAxis = -1;
+    this.pairs = null;
+    this.sphere = boundingSphere(rest);
+    this.onChange = () => {};
+  }
+
+  get size() { return this.rest.length / 3; }
+  get canUndo() { return this.done.length > 0; }
+  get canRedo() { return this.undone.length > 0; }
+
+  select(indices) {
+    this.selection = new Set([...indices].filter((i) => i >= 0 && i < this.size));
+    this.onChange();
+  }
+
+  toggle(i) {
+    if (!this.selection.delete(i)) this.selection.add(i);
+    this.onChange();
+  }
+
+  // -1: none. Mirrors at a plane through the origin or through the middle of the resting cage.
+  setMirror(axis) {
+    this.mirrorAxis = axis;
+    if (axis < 0) {
+      this.pairs = null;
+      return 0;
+    }
+    const places = [0, this.sphere.center[axis]];
+    this.pairs = mirrorPairs(this.rest, axis, 2 * this.sphere.radius, places);
+    return this.pairs.reduce((sum, j) => sum + (j >= 0), 0);
+  }
+
+  begin() {
+    if (!this.start) this.start = this.points.slice();
+  }
+
+  // Moves control points from where the stroke began: move(start, indices, result).
+  change(indices, move) {
+    this.begin();
+    const result = this.start.slice();
+    move(this.start, indices, result);
+    if (this.pairs) mirrorMoves(this.start, result, indices, this.pairs, this.mirrorAxis);
+    if (this.dim === 2) for (let i = 0; i < this.size; ++i) result[3 * i + 2] = 0;
+    this.setPoints(result);
+  }
+
+  setPoints(points) {
+    this.points = points;
+    this.onChange();
+  }
+
+  end() {
+    const before = this.start;
+    this.start = null;
+    if (!before || areEqual(before, this.points)) return;
+    this.done.push(before);
+    if (this.done.length > kMostStrokes) this.done.shift();
+    this.undone = [];
+    this.onChange();
+  }
+
+  cancel() {
+    if (!this.start) return;
+    const before = this.start;
+    this.start = null;
+    this.setPoints(before);
+  }
+
+  undo() {
+    this.swap(this.done, this.undone);
+  }
+
+  redo() {
+    this.swap(this.undone, this.done);
+  }
+
+  swap(from, to) {
+    this.end();
+    if (from.length === 0) return;
+    to.push(this.points);
+    this.setPoints(from.pop());
+  }
+
+  // Back to rest, as a stroke.
+  reset(indices) {
+    this.begin();
+    const points = this.points.slice();
+    for (const i of indices) setPoint(points, i, pointAt(this.rest, i));
+    this.setPoints(points);
+    this.end();
+  }
+
+  place(i, place) {
+    this.change([i], (start, listed, result) => setPoint(result, i, place));
+    this.end();
+  }
+}

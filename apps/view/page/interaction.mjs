@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mouse, pen and fingers on the picture.
+import { pick, pointsInRectangle } from "./picking.mjs";
+import { ToolDrag } from "./actions.mjs";
+
+const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
+const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
+
+export class Interaction {
+  // \param view  what is shown: canvas, camera, editor, tool, axis, boxSelects, and functions
+  // redraw, showRectangle, hover
+  constructor(view) {
+    this.view = view;
+    this.pointers = new Map();
+    this.mode = null;
+    this.drag = null;
+    const { canvas } = view;
+    canvas.addEventListener("pointerdown", (event) => this.down(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.up(event));
+    canvas.addEventListener("pointercancel", (event) => this.up(event));
+    canvas.addEventListener("pointerleave", () => view.hover(-1));
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+  }
+
+  spotOf(event) {
+    const box = this.view.canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  pickAt(spot, event) {
+    const { editor, camera, showsCage } = this.view;
+    return showsCage ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12)
+                     : -1;
+  }
+
+  down(event) {
+    const { view } = this;
+    view.canvas.setPointerCapture(event.pointerId);
+    view.canvas.focus();
+    const spot = this.spotOf(event);
+    this.pointers.set(event.pointerId, spot);
+    view.stopPlaying();
+    if (this.pointers.size === 2) return this.beginPinch();
+    this.from = this.last = spot;
+    this.hasMoved = false;
+    this.adds = event.shiftKey || event.ctrlKey || event.metaKey;
+    const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
+    this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
+  }
+
+  // A control point under the pointer is selected, and moves with all that are.
+  grab(hit) {
+    const { editor, camera, tool, axis } = this.view;
+    if (this.adds) editor.toggle(hit);
+    else if (!editor.selection.has(hit)) editor.select([hit]);
+    if (!editor.selection.has(hit)) return "none";
+    this.makeDrag = () => new ToolDrag(editor, camera, tool, axis, hit, this.from);
+    return "edit";
+  }
+
+  modeOfEmptySpot(event) {
+    const { view } = this;
+    if (event.button !== 0) return "pan";
+    if (view.boxSelects || event.shiftKey) return "rectangle";
+    return view.camera.dim === 3 ? "orbit" : "pan";
+  }
+
+  beginPinch() {
+    this.cancel();
+    this.mode = "pinch";
+    this.pinch = this.pinchOf();
+  }
+
+  pinchOf() {
+    const [a, b] = [...this.pointers.values()];
+    return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2,
+             distance: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
+  }
+
+  move(event) {
+    const { view } = this;
+    const spot = this.spotOf(event);
+    if (!this.pointers.has(event.pointerId)) {
+      if (event.pointerType === "mouse") view.hover(this.pickAt(spot, event));
+      return;
+    }
+    this.pointers.set(event.pointerId, spot);
+    if (this.mode === "pinch") return this.movePinch();
+    const far = Math.hypot(spot.x - this.from.x, spot.y - this.from.y);
+    if (!this.hasMoved && far <= (kClick[event.pointerType] ?? 2)) return;
+    this.hasMoved = true;
+    this.moveTo(spot);
+    this.last = spot;
+  }
+
+  moveTo(spot) {
+    const { view } = this;
+    const { camera } = view;
+    const dx = spot.x - this.last.x, dy = spot.y - this.last.y;
+    if (this.mode === "edit") {
+      this.drag ??= this.makeDrag();
+      this.drag.to(spot);
+    } else if (this.mode === "rectangle") {
+      view.showRectangle(this.from, spot);
+    } else if (this.mode === "orbit") {
+      camera.orbit(dx, dy);
+    } else if (this.mode === "pan") {
+      camera.pan(dx, dy);
+    }
+    view.redraw();
+  }
+
+  movePinch() {
+    if (this.pointers.size < 2) return;
+    const { camera } = this.view;
+    const pinch = this.pinchOf();
+    camera.pan(pinch.x - this.pinch.x, pinch.y - this.pinch.y);
+    camera.zoom(pinch.distance / this.pinch.distance, pinch.x, pinch.y);
+    this.pinch = pinch;
+    this.view.redraw();
+  }
+
+  up(event) {
+    const { view } = this;
+    if (!this.pointers.delete(event.pointerId)) return;
+    if (event.type === "pointercancel") this.cancel();
+    if (this.mode === "pinch") {
+      if (this.pointers.size === 0) this.mode = null;
+      return;
+    }
+    if (this.mode === "edit") view.editor.end();
+    if (this.mode === "rectangle") this.selectRectangle(this.spotOf(event));
+    const isClick = !this.hasMoved && event.button === 0;
+    if (isClick && (this.mode === "orbit" || this.mode === "pan")) view.editor.select([]);
+    this.finish();
+  }
+
+  selectRectangle(spot) {
+    const { editor, camera } = this.view;
+    const found = this.hasMoved ? pointsInRectangle(editor.points, camera, this.from, spot) : [];
+    editor.select(this.adds ? [...editor.selection, ...found] : found);
+  }
+
+  // Escape, or a second finger: the drag never was.
+  cancel() {
+    if (this.mode === "edit") this.view.editor.cancel();
+    this.finish();
+  }
+
+  finish() {
+    this.mode = null;
+    this.drag = null;
+    this.view.showRectangle(null);
+    this.view.redraw();
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    const spot = this.spotOf(event);
+    const lines = event.deltaMode === 1 ? 20 : 1;
+    this.view.camera.zoom(Math.exp(-0.0015 * lines * event.deltaY), spot.x, spot.y);
+    this.view.redraw();
+  }
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Starts the page, and lets scripts do what the mouse does.
+import { decodeContent } from "./data.mjs";
+import { Interaction } from "./interaction.mjs";
+import { bindKeys } from "./keyboard.mjs";
+import { bindPanel } from "./panel.mjs";
+import { pointsOf, poseOf } from "./saving.mjs";
+import { pointAt } from "./vectors.mjs";
+import { Viewer } from "./viewer.mjs";
+
+function apologize(error) {
+  const message = document.getElementById("message");
+  message.hidden = false;
+  message.textContent = `This page draws with WebGL2, which this browser does not offer (${error.message}). `
+    + "A recent Firefox, Chrome, Edge or Safari with hardware acceleration switched on shows it.";
+}
+
+// What scripts and tests take hold of. Points have as many coordinates as the cage.
+function hookOf(viewer) {
+  const { editor, content, camera } = viewer;
+  const inSpace = (place) => [...place, 0].slice(0, 3);
+  return {
+    move: (i, place) => editor.place(i, inSpace(place)),
+    points: () => pointsOf(viewer),
+    controlPoint: (i) => pointAt(editor.points, i).slice(0, content.dim),
+    select: (indices) => editor.select(indices),
+    selection: () => [...editor.selection].sort((a, b) => a - b),
+    undo: () => editor.undo(),
+    redo: () => editor.redo(),
+    pose: () => poseOf(viewer),
+    spot: (i) => {
+      const box = viewer.canvas.getBoundingClientRect();
+      const { x, y } = camera.project(pointAt(editor.points, i));
+      return { x: box.left + x, y: box.top + y };
+    },
+    milliseconds: () => viewer.milliseconds,
+  };
+}
+
+function start() {
+  const json = JSON.parse(document.getElementById("content").textContent);
+  const canvas = document.getElementById("canvas");
+  let viewer;
+  try {
+    viewer = new Viewer(canvas, decodeContent(json));
+  } catch (error) {
+    return apologize(error);
+  }
+  const commands = bindPanel(viewer);
+  const interaction = new Interaction(viewer);
+  bindKeys(viewer, commands, interaction);
+  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+  canvas.addEventListener("webglcontextrestored", () => {
+    viewer.renderer.prepare();
+    viewer.changed();
+  });
+  new ResizeObserver(() => viewer.redraw()).observe(canvas);
+  window.flbc = hookOf(viewer);
+  viewer.changed();
+}
+
+start();

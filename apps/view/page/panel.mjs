@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The buttons beside the picture: what they do, and how they show what is on.
+import { kColorings } from "./colors.mjs";
+import { kHelp } from "./keyboard.mjs";
+import { nearestPose } from "./poses.mjs";
+import { commandOf, saveModel, savePicture, savePose } from "./saving.mjs";
+
+const kAxisNames = ["x", "y", "z"];
+
+function element(id) {
+  return document.getElementById(id);
+}
+
+function plural(count, word) {
+  return `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
+}
+
+// A line that goes away by itself.
+export function tell(text) {
+  const note = element("note");
+  note.textContent = text;
+  note.classList.add("shown");
+  clearTimeout(tell.timer);
+  tell.timer = setTimeout(() => note.classList.remove("shown"), 4000);
+}
+
+async function copyCommand(viewer) {
+  const command = commandOf(viewer);
+  try {
+    await navigator.clipboard.writeText(command);
+    tell(`Copied: ${command}`);
+  } catch {
+    tell(command);  // browsers may refuse: then it can be read at least
+  }
+}
+
+function mirror(viewer, axis) {
+  const count = viewer.editor.setMirror(axis);
+  element("mirror").value = String(axis);
+  const total = viewer.editor.size;
+  if (axis >= 0) tell(`Mirror ${kAxisNames[axis]}: ${count} of ${total} control points have an image`);
+}
+
+function setTheme(viewer, theme) {
+  document.documentElement.dataset.theme = theme;
+  viewer.set("theme", theme);
+}
+
+// What buttons and keys do, by name.
+export function makeCommands(viewer) {
+  const { editor, content } = viewer;
+  const everything = () => [...Array(editor.size).keys()];
+  const selected = () => [...editor.selection];
+  const axis = (name) => () => viewer.set("axis", viewer.axis === name ? null : name);
+  const tool = (name) => () => viewer.set("tool", name);
+  const help = element("keyHelp");
+  return {
+    undo: () => { viewer.stopPlaying(); editor.undo(); },
+    redo: () => { viewer.stopPlaying(); editor.redo(); },
+    move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
+    axisX: axis("x"), axisY: axis("y"), axisZ: content.dim === 3 ? axis("z") : () => {},
+    resetSelection: () => editor.reset(selected()),
+    resetAll: () => { viewer.stopPlaying(); viewer.time = 0; editor.reset(everything()); },
+    selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
+    box: () => viewer.set("boxSelects", !viewer.boxSelects),
+    nextMirror: () => mirror(viewer, (editor.mirrorAxis + 2) % (content.dim + 1) - 1),
+    frame: () => viewer.frame(selected()),
+    front: () => viewer.look("front"),
+    side: () => { if (content.dim === 3) viewer.look("side"); },
+    top: () => { if (content.dim === 3) viewer.look("top"); },
+    cage: () => viewer.set("showsCage", !viewer.showsCage),
+    edges: () => viewer.set("showsEdges", !viewer.showsEdges),
+    play: () => (viewer.playing ? viewer.stopPlaying() : viewer.play()),
+    savePose: () => savePose(viewer),
+    saveModel: () => saveModel(viewer),
+    savePicture: () => savePicture(viewer),
+    copyCommand: () => copyCommand(viewer),
+    theme: () => setTheme(viewer, viewer.theme === "light" ? "dark" : "light"),
+    help: () => (help.open ? help.close() : help.showModal()),
+    closeHelp: () => help.close(),
+    picture: () => element("file").click(),
+    fold: () => document.body.classList.toggle("folded"),
+  };
+}
+
+function showFacts(content) {
+  document.title = `${content.title} – flbc`;
+  element("title").textContent = content.title;
+  const facts = [plural(content.base.length / 3, "point"),
+                 plural(content.surface.triangles.length / 3, "triangle"),
+                 plural(content.rest.length / 3, "control point")];
+  element("facts").textContent = facts.join(" · ");
+}
+
+function fillColorings(viewer) {
+  const select = element("coloring");
+  const hasTexture = viewer.content.surface.textureCoordinates !== null;
+  for (const [value, label] of Object.entries(kColorings)) {
+    if (value === "texture" && !hasTexture) continue;
+    select.add(new Option(label, value));
+  }
+  select.addEventListener("change", () => viewer.set("coloring", select.value));
+  element("picture").hidden = !hasTexture;
+  if (!hasTexture) return;
+  element("file").addEventListener("change", (event) => {
+    const [file] = event.target.files;
+    if (file) loadPicture(viewer, URL.createObjectURL(file));
+  });
+  if (viewer.content.picture) loadPicture(viewer, viewer.content.picture);
+}
+
+async function loadPicture(viewer, address) {
+  const image = new Image();
+  image.src = address;
+  try {
+    await image.decode();
+  } catch {
+    return tell("This picture cannot be read");
+  }
+  viewer.renderer.setPicture(image);
+  element("coloring").value = "texture";
+  viewer.set("coloring", "texture");
+}
+
+function fillHelp() {
+  for (const [keys, meaning] of kHelp) {
+    const row = element("keys").insertRow();
+    row.insertCell().textContent = keys;
+    row.insertCell().textContent = meaning;
+  }
+}
+
+function fillTimeline(viewer) {
+  const { poses } = viewer.content;
+  element("timeline").hidden = poses.length < 2;
+  if (poses.length < 2) return;
+  const slider = element("time");
+  slider.min = poses[0].time;
+  slider.max = viewer.duration;
+  slider.addEventListener("input", () => {
+    viewer.playing = null;
+    viewer.seek(Number(slider.value));
+  });
+  slider.addEventListener("change", () => viewer.stopPlaying());
+}
+
+function fillPalette(palette) {
+  const stops = [];
+  for (let k = 0; k < 256; k += 15) stops.push(`rgb(${palette.slice(3 * k, 3 * k + 3).join(" ")})`);
+  element("bar").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+}
+
+function showLegend(legend) {
+  element("legend").hidden = !legend;
+  if (!legend) return;
+  element("legendTitle").textContent = legend.title;
+  element("low").textContent = legend.low;
+  element("high").textContent = legend.high;
+}
+
+function showRectangle(from, to) {
+  const box = element("rectangle");
+  box.hidden = !from;
+  if (!from) return;
+  Object.assign(box.style, {
+    left: `${Math.min(from.x, to.x)}px`, top: `${Math.min(from.y, to.y)}px`,
+    width: `${Math.abs(to.x - from.x)}px`, height: `${Math.abs(to.y - from.y)}px` });
+}
+
+function describeSelection(viewer) {
+  const { selection } = viewer.editor;
+  if (viewer.hovered >= 0) return `control point ${viewer.hovered}`;
+  if (selection.size === 0) return "drag a control point";
+  return selection.size === 1 ? `control point ${[...selection][0]} selected`
+                              : `${selection.size} control points selected`;
+}
+
+function showState(viewer) {
+  const { editor, content } = viewer;
+  const isPressed = {
+    move: viewer.tool === "move", rotate: viewer.tool === "rotate", scale: viewer.tool === "scale",
+    axisX: viewer.axis === "x", axisY: viewer.axis === "y", axisZ: viewer.axis === "z",
+    box: viewer.boxSelects, cage: viewer.showsCage, edges: viewer.showsEdges };
+  for (const [id, pressed] of Object.entries(isPressed)) {
+    element(id).setAttribute("aria-pressed", String(pressed));
+  }
+  element("undo").disabled = !editor.canUndo;
+  element("redo").disabled = !editor.canRedo;
+  element("resetSelection").disabled = editor.selection.size === 0;
+  element("state").textContent = describeSelection(viewer);
+  element("play").textContent = viewer.playing ? "Pause" : "Play";
+  if (content.poses.length < 2) return;
+  element("time").value = viewer.time;
+  element("pose").textContent = nearestPose(content.poses, viewer.time).name;
+}
+
+// Fills the panel and connects it. \return the commands
+export function bindPanel(viewer) {
+  const { content } = viewer;
+  const commands = makeCommands(viewer);
+  for (const button of document.querySelectorAll("button[id]")) {
+    button.addEventListener("click", commands[button.id]);
+  }
+  for (const id of ["axisZ", "side", "top"]) element(id).hidden = content.dim === 2;
+  for (let axis = 0; axis < content.dim; ++axis) {
+    element("mirror").add(new Option(kAxisNames[axis], String(axis)));
+  }
+  element("mirror").addEventListener("change", (event) => mirror(viewer, Number(event.target.value)));
+  viewer.onState = () => showState(viewer);
+  viewer.onLegend = showLegend;
+  viewer.onRectangle = showRectangle;
+  showFacts(content);
+  fillColorings(viewer);
+  fillHelp();
+  fillTimeline(viewer);
+  fillPalette(content.palette);
+  setTheme(viewer, matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  return commands;
+}

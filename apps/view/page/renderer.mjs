@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the model and its cage with WebGL2.
+import { atVertices, edgesOf, sumNormals } from "./surface_normals.mjs";
+import { kDotShader, kEdgeShader, kSurfaceShader, kWireShader } from "./shaders.mjs";
+
+const kCheckerSize = 256, kCheckerFields = 16;
+
+function compile(gl, source) {
+  const program = gl.createProgram();
+  for (const [type, text] of [[gl.VERTEX_SHADER, source.vertex],
+                              [gl.FRAGMENT_SHADER, source.fragment]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+      throw new Error(gl.getShaderInfoLog(shader) || "a shader does not compile");
+    }
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+    throw new Error(gl.getProgramInfoLog(program) || "a program does not link");
+  }
+  const places = {};
+  const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS);
+  for (let k = 0; k < count; ++k) {
+    const { name } = gl.getActiveUniform(program, k);
+    places[name] = gl.getUniformLocation(program, name);
+  }
+  return { program, places };
+}
+
+// What models without a picture wear: fields in two shades.
+function checkerboard() {
+  const pixels = new Uint8Array(4 * kCheckerSize * kCheckerSize);
+  for (let y = 0; y < kCheckerSize; ++y) {
+    for (let x = 0; x < kCheckerSize; ++x) {
+      const field = Math.floor(kCheckerFields * x / kCheckerSize)
+                  + Math.floor(kCheckerFields * y / kCheckerSize);
+      pixels.set(field % 2 === 0 ? [236, 233, 226, 255] : [120, 150, 186, 255],
+                 4 * (kCheckerSize * y + x));
+    }
+  }
+  return pixels;
+}
+
+export class Renderer {
+  // \throws Error where there is no WebGL2
+  constructor(canvas, content) {
+    this.canvas = canvas;
+    this.content = content;
+    const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: false });
+    if (!gl) throw new Error("there is no WebGL2");
+    this.gl = gl;
+    this.prepare();
+  }
+
+  // Everything on the card; again after the card was lost.
+  prepare() {
+    const { gl } = this;
+    this.surfaceProgram = compile(gl, kSurfaceShader);
+    this.edgeProgram = compile(gl, kEdgeShader);
+    this.wireProgram = compile(gl, kWireShader);
+    this.dotProgram = compile(gl, kDotShader);
+    this.makeSurface();
+    this.makeCage();
+    this.makeTextures();
+    this.edgeBuffer = null;
+  }
+
+  buffer(target, data, usage) {
+    const { gl } = this;
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(target, buffer);
+    gl.bufferData(target, data, usage);
+    return buffer;
+  }
+
+  attribute(location, buffer, size, type = this.gl.FLOAT, normalized = false) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, size, type, normalized, 0, 0);
+  }
+
+  makeSurface() {
+    const { gl } = this;
+    const { surface } = this.content;
+    const count = surface.numVertices;
+    this.places = new Float32Array(3 * count);
+    this.normals = new Float32Array(3 * count);
+    this.values = new Float32Array(count);
+    this.surfaceArray = gl.createVertexArray();
+    gl.bindVertexArray(this.surfaceArray);
+    this.placeBuffer = this.buffer(gl.ARRAY_BUFFER, this.places, gl.DYNAMIC_DRAW);
+    this.attribute(0, this.placeBuffer, 3);
+    this.normalBuffer = this.buffer(gl.ARRAY_BUFFER, this.normals, gl.DYNAMIC_DRAW);
+    this.attribute(1, this.normalBuffer, 3);
+    this.valueBuffer = this.buffer(gl.ARRAY_BUFFER, this.values, gl.DYNAMIC_DRAW);
+    this.attribute(2, this.valueBuffer, 1);
+    if (surface.textureCoordinates) {
+      this.attribute(3, this.buffer(gl.ARRAY_BUFFER, surface.textureCoordinates, gl.STATIC_DRAW), 2);
+    }
+    gl.vertexAttrib3f(4, 1, 1, 1);
+    if (surface.colors) {
+      const buffer = this.buffer(gl.ARRAY_BUFFER, surface.colors, gl.STATIC_DRAW);
+      this.attribute(4, buffer, 3, gl.UNSIGNED_BYTE, true);
+    }
+    const triangles = Uint32Array.from(surface.triangles);
+    this.triangleBuffer = this.buffer(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
+  }
+
+  makeCage() {
+    const { gl } = this;
+    const { edges, rest } = this.content;
+    this.wire = new Float32Array(3 * edges.length);
+    this.wireArray = gl.createVertexArray();
+    gl.bindVertexArray(this.wireArray);
+    this.wireBuffer = this.buffer(gl.ARRAY_BUFFER, this.wire, gl.DYNAMIC_DRAW);
+    for (const location of [0, 1]) {
+      gl.enableVertexAttribArray(location);
+      gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 24, 12 * location);
+      gl.vertexAttribDivisor(location, 1);
+    }
+    this.dots = new Float32Array(rest.length);
+    this.states = new Float32Array(rest.length / 3);
+    this.dotArray = gl.createVertexArray();
+    gl.bindVertexArray(this.dotArray);
+    this.dotBuffer = this.buffer(gl.ARRAY_BUFFER, this.dots, gl.DYNAMIC_DRAW);
+    this.attribute(0, this.dotBuffer, 3);
+    this.stateBuffer = this.buffer(gl.ARRAY_BUFFER, this.states, gl.DYNAMIC_DRAW);
+    this.attribute(1, this.stateBuffer, 1);
+    gl.bindVertexArray(null);
+  }
+
+  makeTextures() {
+    const { gl } = this;
+    this.palette = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.palette);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, 256, 1, 0, gl.RGB, gl.UNSIGNED_BYTE,
+                  this.content.palette);
+    for (const [name, value] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR],
+                                 [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+                                 [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) {
+      gl.texParameteri(gl.TEXTURE_2D, name, value);
+    }
+    this.picture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.picture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, kCheckerSize, kCheckerSize, 0, gl.RGBA,
+                  gl.UNSIGNED_BYTE, checkerboard());
+    gl.generateMipmap(gl.TEXTURE_2D);
+  }
+
+  // Takes an image in place of the checkerboard.
+  setPicture(image) {
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, this.picture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, image);
+    gl.generateMipmap(gl.TEXTURE_2D);
+  }
+
+  upload(buffer, data) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, data);
+  }
+
+  setModel(points) {
+    const { triangles, sources, groups } = this.content.surface;
+    const places = atVertices(points, sources, 3, this.places);
+    this.upload(this.placeBuffer, places);
+    if (this.content.dim === 2) return;
+    sumNormals(places, triangles, groups, this.normals);
+    this.upload(this.normalBuffer, this.normals);
+  }
+
+  setValues(values) {
+    this.upload(this.valueBuffer, atVertices(values, this.content.surface.sources, 1, this.values));
+  }
+
+  setCage(points, selection, hovered) {
+    const { center, edges } = this.content;
+    for (let k = 0; k < points.length; ++k) this.dots[k] = points[k] - center[k % 3];
+    for (let k = 0; k < edges.length; ++k) {
+      for (let c = 0; c < 3; ++c) this.wire[3 * k + c] = this.dots[3 * edges[k] + c];
+    }
+    for (let i = 0; i < this.states.length; ++i) {
+      this.states[i] = (selection.has(i) ? 1 : 0) + (i === hovered ? 2 : 0);
+    }
+    this.upload(this.wireBuffer, this.wire);
+    this.upload(this.dotBuffer, this.dots);
+    this.upload(this.stateBuffer, this.states);
+  }
+
+  // Fits the canvas to its place on the page. \return whether that changed its size
+  resize() {
+    const { canvas } = this;
+    this.ratio = Math.min(2, window.devicePixelRatio || 1);
+    const width = Math.max(1, Math.round(this.ratio * canvas.clientWidth));
+    const height = Math.max(1, Math.round(this.ratio * canvas.clientHeight));
+    if (canvas.width === width && canvas.height === height) return false;
+    canvas.width = width;
+    canvas.height = height;
+    return true;
+  }
+
+  // \param look  coloring, showsCage, showsEdges, and the colours of the theme
+  draw(camera, look) {
+    const { gl, canvas } = this;
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(...look.background, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    if (this.content.dim === 3) gl.enable(gl.DEPTH_TEST);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    const matrix = camera.matrix(this.content.center);
+    this.drawSurface(matrix, camera, look);
+    gl.enable(gl.BLEND);
+    if (look.showsEdges) this.drawEdges(matrix, look);
+    if (look.showsCage) this.drawCage(matrix, look);
+    gl.disable(gl.BLEND);
+  }
+
+  drawSurface(matrix, camera, look) {
+    const { gl } = this;
+    const { program, places } = this.surfaceProgram;
+    const { right, up, toward } = camera.axes();
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(places.toClip, false, matrix);
+    gl.uniformMatrix3fv(places.toView, true, [...right, ...up, ...toward]);
+    const isValue = !["shaded", "texture"].includes(look.coloring);
+    gl.uniform1i(places.coloring, isValue ? 1 : look.coloring === "texture" ? 2 : 0);
+    gl.uniform1i(places.isLit, this.content.dim === 3 ? 1 : 0);
+    gl.uniform1i(places.hasIsolines, look.coloring === "weight" ? 1 : 0);
+    gl.uniform3fv(places.plainColor, this.content.surface.colors ? [1, 1, 1] : look.plain);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.picture);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, this.palette);
+    gl.uniform1i(places.palette, 0);
+    gl.uniform1i(places.picture, 1);
+    gl.bindVertexArray(this.surfaceArray);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 1);
+    const count = this.content.surface.triangles.length;
+    if (count > 0) {
+      gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
+    } else {
+      gl.drawArrays(gl.POINTS, 0, this.content.surface.numVertices);
+    }
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+    gl.bindVertexArray(null);
+  }
+
+  makeEdges() {
+    const { gl } = this;
+    const { triangles, numVertices } = this.content.surface;
+    const ends = edgesOf(triangles, numVertices);
+    this.numEdgeEnds = ends.length;
+    this.edgeArray = gl.createVertexArray();
+    gl.bindVertexArray(this.edgeArray);
+    this.attribute(0, this.placeBuffer, 3);
+    this.edgeBuffer = this.buffer(gl.ELEMENT_ARRAY_BUFFER, ends, gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
+  }
+
+  drawEdges(matrix, look) {
+    const { gl } = this;
+    if (!this.edgeBuffer) this.makeEdges();
+    const { program, places } = this.edgeProgram;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(places.toClip, false, matrix);
+    gl.uniform4f(places.ink, ...look.edgeInk, 0.35);
+    gl.bindVertexArray(this.edgeArray);
+    gl.drawElements(gl.LINES, this.numEdgeEnds, gl.UNSIGNED_INT, 0);
+    gl.bindVertexArray(null);
+  }
+
+  // First what the model hides, pale, then the rest.
+  drawCage(matrix, look) {
+    const { gl } = this;
+    const passes = this.content.dim === 3 ? [[gl.GREATER, 0.28], [gl.LEQUAL, 1]] : [[gl.LEQUAL, 1]];
+    gl.depthMask(false);
+    for (const [test, opacity] of passes) {
+      gl.depthFunc(test);
+      this.drawWire(matrix, look, opacity);
+    }
+    for (const [test, opacity] of passes) {
+      gl.depthFunc(test);
+      this.drawDots(matrix, look, opacity);
+    }
+    gl.depthFunc(gl.LESS);
+    gl.depthMask(true);
+  }
+
+  drawWire(matrix, look, opacity) {
+    const { gl, canvas } = this;
+    const { program, places } = this.wireProgram;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(places.toClip, false, matrix);
+    gl.uniform2f(places.halfViewport, canvas.width / 2, canvas.height / 2);
+    gl.uniform1f(places.halfWidth, 0.75 * this.ratio);
+    gl.uniform4f(places.ink, ...look.ink, 0.8 * opacity);
+    gl.bindVertexArray(this.wireArray);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.content.edges.length / 2);
+    gl.bindVertexArray(null);
+  }
+
+  drawDots(matrix, look, opacity) {
+    const { gl } = this;
+    const { program, places } = this.dotProgram;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(places.toClip, false, matrix);
+    gl.uniform1f(places.size, look.dotSize * this.ratio);
+    gl.uniform4f(places.ink, ...look.ink, Math.min(1, 1.4 * opacity));
+    gl.uniform4f(places.highlight, ...look.highlight, Math.min(1, 2.2 * opacity));
+    gl.uniform3fv(places.rim, look.background);
+    gl.bindVertexArray(this.dotArray);
+    gl.drawArrays(gl.POINTS, 0, this.states.length);
+    gl.bindVertexArray(null);
+  }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What leaves the page: poses, models and pictures as downloads, and a command.
+import { modelText, poseText } from "./obj.mjs";
+
+function download(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function saveText(name, text) {
+  download(name, new Blob([text], { type: "text/plain" }));
+}
+
+// The control points with as many coordinates as the cage's file gives.
+function placesOf(viewer) {
+  const { dim } = viewer.content;
+  return Array.from(viewer.editor.points).filter((_, k) => k % 3 < dim);
+}
+
+export function poseOf(viewer) {
+  const { cageText, given, dim, facets } = viewer.content;
+  return poseText(cageText, given, placesOf(viewer), dim, facets);
+}
+
+// Where the model's points are, dim numbers each.
+export function pointsOf(viewer) {
+  viewer.update();
+  const { dim, center } = viewer.content;
+  const { points } = viewer.deformer;
+  const result = new Float32Array(points.length / 3 * dim);
+  for (let k = 0; k < result.length; ++k) {
+    const axis = k % dim;
+    result[k] = points[3 * ((k - axis) / dim) + axis] + center[axis];
+  }
+  return result;
+}
+
+export function savePose(viewer) {
+  saveText(`${viewer.content.title}_pose.obj`, poseOf(viewer));
+}
+
+export function saveModel(viewer) {
+  const { dim, surface, title } = viewer.content;
+  saveText(`${title}_posed.obj`, modelText(pointsOf(viewer), dim, surface));
+}
+
+export function savePicture(viewer) {
+  viewer.draw();
+  viewer.canvas.toBlob((blob) => download(`${viewer.content.title}.png`, blob), "image/png");
+}
+
+// A word for a shell.
+function quoted(text) {
+  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+}
+
+// Moves the model, exactly and in its own format, into the pose that is saved.
+export function commandOf(viewer) {
+  const { title, files } = viewer.content;
+  const extension = /\.[^./]*$/.exec(files.model)?.[0] ?? ".obj";
+  return ["flbc deform", quoted(files.model), "--weights", quoted(files.weights), "--cage",
+          quoted(`${title}_pose.obj`), "-o", quoted(`${title}_posed${extension}`)].join(" ");
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The programs of the graphics card.
+
+export const kSurfaceShader = {
+  vertex: `#version 300 es
+    uniform mat4 toClip;
+    uniform mat3 toView;
+    layout(location = 0) in vec3 place;
+    layout(location = 1) in vec3 normal;
+    layout(location = 2) in float value;
+    layout(location = 3) in vec2 textureCoordinate;
+    layout(location = 4) in vec3 tint;
+    out vec3 viewNormal;
+    out float shownValue;
+    out vec2 texturePlace;
+    out vec3 ownColor;
+    void main() {
+      gl_Position = toClip * vec4(place, 1.0);
+      gl_PointSize = 3.0;
+      viewNormal = toView * normal;
+      shownValue = value;
+      texturePlace = textureCoordinate;
+      ownColor = tint;
+    }`,
+  // 0: the model's own colour; 1: a value; 2: a texture.
+  fragment: `#version 300 es
+    precision highp float;
+    uniform int coloring;
+    uniform bool isLit;
+    uniform bool hasIsolines;
+    uniform vec3 plainColor;
+    uniform sampler2D palette;
+    uniform sampler2D picture;
+    in vec3 viewNormal;
+    in float shownValue;
+    in vec2 texturePlace;
+    in vec3 ownColor;
+    out vec4 color;
+    void main() {
+      vec3 base = plainColor * ownColor;
+      if (coloring == 1) {
+        float value = clamp(shownValue, 0.0, 1.0);
+        base = texture(palette, vec2((value * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+        if (hasIsolines && value > 0.05) {
+          float steps = 10.0 * shownValue;
+          float distance = abs(fract(steps - 0.5) - 0.5) / max(fwidth(steps), 1e-6);
+          base *= mix(0.6, 1.0, smoothstep(0.4, 1.2, distance));
+        }
+      } else if (coloring == 2) {
+        base = texture(picture, texturePlace).rgb;
+      }
+      if (isLit) {
+        float size = length(viewNormal);
+        vec3 normal = size > 0.0 ? viewNormal / size : vec3(0.0, 0.0, 1.0);
+        if (normal.z < 0.0) normal = -normal;
+        float light = 0.30 + 0.50 * max(0.0, dot(normal, normalize(vec3(-0.35, 0.55, 0.75))))
+                    + 0.26 * normal.z;
+        base *= min(light, 1.06);
+      }
+      color = vec4(base, 1.0);
+    }`,
+};
+
+// Edges of the model's triangles, one pixel wide.
+export const kEdgeShader = {
+  vertex: `#version 300 es
+    uniform mat4 toClip;
+    layout(location = 0) in vec3 place;
+    void main() { gl_Position = toClip * vec4(place, 1.0); }`,
+  fragment: `#version 300 es
+    precision highp float;
+    uniform vec4 ink;
+    out vec4 color;
+    void main() { color = ink; }`,
+};
+
+// Edges of the cage as strips of some pixels' width.
+export const kWireShader = {
+  vertex: `#version 300 es
+    uniform mat4 toClip;
+    uniform vec2 halfViewport;
+    uniform float halfWidth;
+    layout(location = 0) in vec3 first;
+    layout(location = 1) in vec3 second;
+    out float across;
+    void main() {
+      vec4 a = toClip * vec4(first, 1.0);
+      vec4 b = toClip * vec4(second, 1.0);
+      vec2 direction = (b.xy / b.w - a.xy / a.w) * halfViewport;
+      float size = max(length(direction), 1e-6);
+      vec2 side = vec2(-direction.y, direction.x) / size;
+      bool isSecond = gl_VertexID > 1;
+      across = gl_VertexID % 2 == 0 ? -1.0 : 1.0;
+      vec4 end = isSecond ? b : a;
+      vec2 step = (across * side + (isSecond ? 0.5 : -0.5) * direction / size) * (halfWidth + 0.5);
+      gl_Position = end + vec4(step / halfViewport * end.w, 0.0, 0.0);
+    }`,
+  fragment: `#version 300 es
+    precision highp float;
+    uniform vec4 ink;
+    uniform float halfWidth;
+    in float across;
+    out vec4 color;
+    void main() {
+      float inside = (1.0 - abs(across)) * (halfWidth + 0.5);
+      color = vec4(ink.rgb, ink.a * clamp(inside, 0.0, 1.0));
+    }`,
+};
+
+// Control points as discs with a rim.
+export const kDotShader = {
+  vertex: `#version 300 es
+    uniform mat4 toClip;
+    uniform float size;
+    layout(location = 0) in vec3 place;
+    layout(location = 1) in float state;  // 0: as it is, 1: selected, 2 more: under the pointer
+    out float isSelected;
+    out float pixels;
+    void main() {
+      gl_Position = toClip * vec4(place, 1.0);
+      isSelected = mod(state, 2.0);
+      float isNear = step(1.5, state);
+      pixels = size * (1.0 + 0.25 * isSelected + 0.35 * isNear);
+      gl_PointSize = pixels;
+    }`,
+  fragment: `#version 300 es
+    precision highp float;
+    uniform vec4 ink;
+    uniform vec4 highlight;
+    uniform vec3 rim;
+    in float isSelected;
+    in float pixels;
+    out vec4 color;
+    void main() {
+      float fromCenter = length(gl_PointCoord - 0.5) * pixels;
+      float radius = 0.5 * pixels - 0.75;
+      vec4 inner = isSelected > 0.5 ? highlight : ink;
+      float isInner = clamp(radius - 1.2 - fromCenter + 0.5, 0.0, 1.0);
+      float coverage = clamp(radius - fromCenter + 0.5, 0.0, 1.0);
+      color = vec4(mix(rim, inner.rgb, isInner), inner.a * coverage);
+    }`,
+};

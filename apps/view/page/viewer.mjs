@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page's state: what is shown, and redrawing it when something has changed.
+import { Camera } from "./camera.mjs";
+import { colorValues } from "./colors.mjs";
+import { Deformer } from "./deformer.mjs";
+import { Editor } from "./editor.mjs";
+import { interpolatePoses, playedTime } from "./poses.mjs";
+import { Renderer } from "./renderer.mjs";
+import { pointAt } from "./vectors.mjs";
+
+const kThemes = {
+  light: { background: [0.965, 0.969, 0.976], plain: [0.70, 0.76, 0.84], ink: [0.13, 0.15, 0.19],
+           edgeInk: [0.05, 0.07, 0.12], highlight: [0.88, 0.10, 0.12] },
+  dark: { background: [0.086, 0.098, 0.122], plain: [0.58, 0.66, 0.77], ink: [0.87, 0.90, 0.95],
+          edgeInk: [0.02, 0.03, 0.06], highlight: [1.0, 0.45, 0.20] },
+};
+const kViews = { front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 0.03] };
+
+export class Viewer {
+  // \throws Error where there is no WebGL2
+  constructor(canvas, content) {
+    this.canvas = canvas;
+    this.content = content;
+    this.renderer = new Renderer(canvas, content);
+    this.camera = new Camera(content.dim);
+    this.editor = new Editor(content.rest, content.dim);
+    this.deformer = new Deformer(content.weights, content.base, content.rest);
+    this.coloring = "shaded";
+    this.tool = "move";
+    this.axis = null;
+    this.boxSelects = false;
+    this.showsCage = true;
+    this.showsEdges = false;
+    this.theme = "light";
+    this.hovered = -1;
+    this.time = 0;       // of the poses
+    this.playing = null;
+    this.isStale = true;  // the cage or colours have changed since the model was moved
+    this.isAwaited = false;
+    this.milliseconds = 0;  // of the last step
+    this.onState = () => {};
+    this.onLegend = () => {};
+    this.onRectangle = () => {};
+    this.editor.onChange = () => this.changed();
+    this.camera.sphere = this.editor.sphere;
+  }
+
+  changed() {
+    this.isStale = true;
+    this.redraw();
+    this.onState();
+  }
+
+  set(name, value) {
+    this[name] = value;
+    this.changed();
+  }
+
+  redraw() {
+    if (this.isAwaited) return;
+    this.isAwaited = true;
+    requestAnimationFrame((now) => {
+      this.isAwaited = false;
+      this.frameDrawn(now);
+    });
+  }
+
+  frameDrawn(now) {
+    if (this.playing) this.playOn(now);
+    const begin = performance.now();
+    this.draw();
+    this.milliseconds = performance.now() - begin;
+  }
+
+  // The model where the cage takes it.
+  update() {
+    if (!this.isStale) return;
+    this.isStale = false;
+    const { editor, deformer, renderer } = this;
+    deformer.move(editor.points);
+    renderer.setModel(deformer.points);
+    const { values, legend } = colorValues(this.coloring, deformer, editor.selection);
+    if (values) renderer.setValues(values);
+    renderer.setCage(editor.points, editor.selection, this.hovered);
+    this.onLegend(legend);
+  }
+
+  draw() {
+    const { canvas, camera, renderer } = this;
+    renderer.resize();
+    camera.width = canvas.clientWidth || 1;
+    camera.height = canvas.clientHeight || 1;
+    if (!this.isFramed) this.frame();
+    this.update();
+    renderer.draw(camera, { ...kThemes[this.theme], coloring: this.coloring, dotSize: this.dotSize(),
+                            showsCage: this.showsCage, showsEdges: this.showsEdges });
+  }
+
+  // Dots shrink where control points are dense.
+  dotSize() {
+    const { camera, content } = this;
+    const extent = camera.sphere.radius * camera.height / camera.halfHeight;
+    const spacing = extent / Math.sqrt(content.rest.length / 3);
+    return Math.max(6, Math.min(14, 0.35 * spacing));
+  }
+
+  // Shows the selection, or everything.
+  frame(indices = []) {
+    const { editor, camera } = this;
+    const listed = indices.length > 1 ? indices.flatMap((i) => pointAt(editor.points, i))
+                                      : Array.from(editor.points);
+    camera.frame(listed);
+    this.isFramed = true;
+    this.redraw();
+  }
+
+  look(name) {
+    this.camera.look(...kViews[name]);
+    this.frame();
+  }
+
+  hover(i) {
+    if (i === this.hovered) return;
+    this.hovered = i;
+    this.canvas.style.cursor = i >= 0 ? "pointer" : "";
+    this.renderer.setCage(this.editor.points, this.editor.selection, i);
+    this.redraw();
+    this.onState();
+  }
+
+  showRectangle(from, to) {
+    this.onRectangle(from, to);
+  }
+
+  get duration() {
+    const { poses } = this.content;
+    return poses.length > 0 ? poses[poses.length - 1].time : 0;
+  }
+
+  // Takes the cage to a time of its poses, within a stroke that stopPlaying() ends.
+  seek(time) {
+    const { poses } = this.content;
+    this.time = time;
+    this.editor.begin();
+    this.editor.setPoints(interpolatePoses(poses, time));
+  }
+
+  play() {
+    if (this.content.poses.length < 2) return;
+    this.playing = { begin: null, from: this.time >= this.duration ? 0 : this.time };
+    this.changed();
+  }
+
+  playOn(now) {
+    this.playing.begin ??= now - 1000 * (this.playing.from - this.content.poses[0].time);
+    this.seek(playedTime(this.content.poses, (now - this.playing.begin) / 1000));
+  }
+
+  stopPlaying() {
+    if (this.playing) this.playing = null;
+    this.editor.end();
+    this.onState();
+  }
+}

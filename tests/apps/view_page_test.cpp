@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pages of flbc view: that they hold what they were given, read back from the finished file.
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+#include "view/base64.h"
+#include "view/influences.h"
+#include "view/page.h"
+
+namespace flbc::view {
+namespace {
+
+using nlohmann::json;
+
+std::string from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xFF);
+  }
+  return bytes;
+}
+
+template <class Number>
+std::vector<Number> numbers_from(const std::string& text) {
+  const auto bytes = from_base64(text);
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  return numbers;
+}
+
+std::vector<Index> indices_from(const json& packed) {
+  const auto convert = [](const auto& numbers) {
+    return std::vector<Index>(numbers.begin(), numbers.end());
+  };
+  const std::string data = packed["data"];
+  if (packed["bytes"] == 1) return convert(numbers_from<std::uint8_t>(data));
+  if (packed["bytes"] == 2) return convert(numbers_from<std::uint16_t>(data));
+  return convert(numbers_from<std::uint32_t>(data));
+}
+
+json content_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"content\">";
+  const auto start = page.find(begin) + begin.size();
+  return json::parse(page.substr(start, page.find("</script>", start) - start));
+}
+
+// The weights that a page holds. \return n x P
+WeightMatrix weights_in(const json& content, Index n) {
+  const auto counts = numbers_from<std::uint8_t>(content["weights"]["counts"]);
+  const auto owners = indices_from(content["weights"]["controlPoints"]);
+  const auto values = numbers_from<float>(content["weights"]["values"]);
+  WeightMatrix weights = WeightMatrix::Zero(n, counts.size());
+  std::size_t k = 0;
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    for (int c = 0; c < counts[p]; ++c, ++k) {
+      weights(owners[k], static_cast<Index>(p)) = static_cast<double>(values[k]);
+    }
+  }
+  return weights;
+}
+
+// The corners of the cube [0, 1]^Dim as cage, far away, and its multilinear weights at some points.
+template <int Dim>
+PageContent<Dim> cube_content() {
+  constexpr Index n = 1 << Dim;
+  PageContent<Dim> content;
+  content.title = "a </script><b>cube";
+  content.cage.points.resize(Dim, n);
+  const Vector<Dim> corner = Vector<Dim>::Constant(1e4);
+  for (Index i = 0; i < n; ++i) {
+    for (int k = 0; k < Dim; ++k) content.cage.points(k, i) = corner[k] + (i >> k & 1);
+  }
+  content.points = PointList<Dim>::Zero(Dim, 5);
+  content.weights.resize(n, 5);
+  for (Index p = 0; p < 5; ++p) {
+    const Vector<Dim> place = Vector<Dim>::LinSpaced(0.1 + 0.15 * p, 0.8 - 0.1 * p);
+    for (Index i = 0; i < n; ++i) {
+      double weight = 1;
+      for (int k = 0; k < Dim; ++k) weight *= (i >> k & 1) != 0 ? place[k] : 1 - place[k];
+      content.weights(i, p) = weight;
+    }
+    content.points.col(p) = corner + place;
+  }
+  content.surface.triangles.resize(3, 2);
+  content.surface.triangles << 0, 1, 1, 2, 2, 4;
+  content.surface.sources = {0, 1, 2, 3, 4};
+  content.surface.normals = Vector<3>::UnitZ().replicate(1, 5);
+  content.poses.push_back({"moved", 1, content.cage.points.array() + 0.125});
+  return content;
+}
+
+template <class Dimension>
+class ViewPage : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ViewPage, Dimensions);
+
+TYPED_TEST(ViewPage, HoldsWhatItWasGiven) {
+  constexpr int Dim = TypeParam::value;
+  constexpr Index n = 1 << Dim;
+  const auto given = cube_content<Dim>();
+  const auto page = make_page(given);
+  const auto content = content_of(page);
+  EXPECT_EQ(content["title"], given.title);
+  EXPECT_EQ(weights_in(content, n), given.weights.template cast<float>().template cast<double>());
+
+  const auto cage = numbers_from<double>(content["cage"]["points"]);
+  EXPECT_EQ((Eigen::Map<const PointList<Dim>>(cage.data(), Dim, n)), given.cage.points);
+  const auto pose = numbers_from<double>(content["poses"][0]["points"]);
+  EXPECT_EQ((Eigen::Map<const PointList<Dim>>(pose.data(), Dim, n)), given.poses[0].points);
+
+  // Offsets keep the digits that single precision does not have so far from the origin.
+  const auto offsets = numbers_from<float>(content["points"]["offsets"]);
+  const auto center = content["points"]["center"].template get<std::vector<double>>();
+  for (Index p = 0; p < 5; ++p) {
+    for (int k = 0; k < Dim; ++k) {
+      EXPECT_NEAR(center[k] + static_cast<double>(offsets[Dim * p + k]), given.points(k, p), 1e-7);
+    }
+  }
+  EXPECT_EQ(indices_from(content["surface"]["triangles"]), (std::vector<Index>{0, 1, 2, 1, 2, 4}));
+}
+
+TYPED_TEST(ViewPage, IsOneFileWithoutNetwork) {
+  const auto page = make_page(cube_content<TypeParam::value>());
+  for (const char* word : {"{{", "http:", "https:", "src=", "<link rel=\"stylesheet", "</script><b>"}) {
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(page.find("\nimport "), std::string::npos);
+  EXPECT_EQ(page.find("\nexport "), std::string::npos);
+}
+
+TYPED_TEST(ViewPage, RefusesWhatDoesNotFit) {
+  constexpr int Dim = TypeParam::value;
+  auto content = cube_content<Dim>();
+  content.weights = content.weights.leftCols(3).eval();
+  EXPECT_THROW(make_page(content), InputError);
+  content = cube_content<Dim>();
+  content.poses[0].points = content.cage.points.leftCols(2);
+  EXPECT_THROW(make_page(content), InputError);
+  content = cube_content<Dim>();
+  content.points(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(make_page(content), InputError);
+}
+
+TYPED_TEST(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
+  constexpr int Dim = TypeParam::value;
+  auto content = cube_content<Dim>();
+  WeightMatrix weights = content.weights;
+  weights.col(1).setZero();
+  weights(0, 1) = 1.5;  // as others deliver them: few, but one of them negative
+  weights(1, 1) = -0.5;
+  const auto few = limit_influences<Dim>(content.cage.points, content.points, weights, Dim + 1);
+  EXPECT_EQ(few.col(1), weights.col(1));
+  for (const Index p : {0, 2, 3, 4}) {
+    EXPECT_LE((few.col(p).array() != 0).count(), Dim + 1);
+    EXPECT_LT((content.cage.points * few.col(p) - content.points.col(p)).norm(), 1e-8);
+  }
+  EXPECT_EQ((limit_influences<Dim>(content.cage.points, content.points, weights, 8)), weights);
+  for (const Index most : {Dim, 17}) {
+    EXPECT_THROW((limit_influences<Dim>(content.cage.points, content.points, weights, most)),
+                 OptionError);
+  }
+}
+
+TEST(ViewBase64, IsThatOfTheStandard) {
+  const std::pair<const char*, const char*> examples[] = {
+      {"", ""},         {"f", "Zg=="},        {"fo", "Zm8="},        {"foo", "Zm9v"},
+      {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : examples) EXPECT_EQ(to_base64(bytes), text);
+  std::string all;
+  for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
+  EXPECT_EQ(from_base64(to_base64(all)), all);
+}
+
+TEST(ViewCage, EdgesArePolygonsAndNotTheirDiagonals) {
+  const FacetList<3> facets = (FacetList<3>(3, 2) << 0, 0, 1, 2, 2, 3).finished();
+  EXPECT_EQ(edges_of_cage<3>({{0, 1, 2, 3}}, facets).size(), 4u);
+  EXPECT_EQ(edges_of_cage<3>({}, facets).size(), 5u);
+}
+
+class ViewCommand : public testing::CommandLineTest {
+ protected:
+  void expect_failure(const std::string& arguments, int status, const std::string& words) const {
+    const auto result = run("view " + arguments);
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(path("p.html"))) << arguments;
+  }
+
+  // The samples with weights of few influences, and all but the output.
+  std::string sample_arguments(const std::string& name) const {
+    const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
+    EXPECT_EQ(run("solve " + cage + " --method meanvalue -q --model " + model + " -o " +
+                  path("w.npy"))
+                  .status,
+              0);
+    return model + " --weights " + path("w.npy") + " --cage " + cage;
+  }
+};
+
+TEST_F(ViewCommand, WritesAPageOfASample) {
+  for (const std::string name : {"2d/figure", "3d/limb"}) {
+    const auto arguments = sample_arguments(name);
+    const auto result = run("view " + arguments + " --pose " + sample(name + "_cage_pose.obj") +
+                            " -k 4 -o " + path("p.html"));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_NE(result.errors.find("at most 4 influences per point (before "), std::string::npos);
+    const auto content = content_of(testing::slurp(path("p.html")));
+    EXPECT_EQ(content["poses"].size(), 1u);
+    EXPECT_EQ(content["poses"][0]["time"], 1);
+    EXPECT_EQ(content["cage"]["text"], testing::slurp(sample(name + "_cage.obj")));
+    const auto given = io::read_weights(path("w.npy"));
+    const auto shown = weights_in(content, static_cast<Index>(given.rows()));
+    EXPECT_EQ(shown.cols(), given.cols());
+    EXPECT_LE((shown.array() != 0).colwise().count().maxCoeff(), 4);
+    EXPECT_NEAR((shown.colwise().sum().array() - 1).abs().maxCoeff(), 0, 1e-6);
+    std::filesystem::remove(path("p.html"));
+  }
+}
+
+TEST_F(ViewCommand, RefusesWithTheReason) {
+  const auto arguments = sample_arguments("2d/figure");
+  const auto output = " -o " + path("p.html");
+  expect_failure(arguments + " -o " + path("p.txt"), 1, ".html");
+  expect_failure(arguments + " -k 17" + output, 1, "from 3 to 16 influences");
+  expect_failure(arguments + " --texture " + path("t.gif") + output, 1, ".png or .jpg");
+  expect_failure(arguments + " --texture " + path("t.png") + output, 4, "t.png");
+  expect_failure(arguments + " --pose " + sample("2d/ring_cage.obj") + output, 2, "ring_cage.obj");
+  expect_failure(sample("2d/ring_model.obj") + " --weights " + path("w.npy") + " --cage " +
+                     sample("2d/figure_cage.obj") + output,
+                 2, "ring_model.obj");
+}
+
+}  // namespace
+}  // namespace flbc::view

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Whether pages of flbc view do in a browser what flbc deform does:
+#   browser_test.sh PROGRAM MESHES WORK
+# PROGRAM: flbc. MESHES: the folder of samples. WORK: a folder for results, made anew; pictures of
+# the pages are left there.
+# Ends with 77, which CTest counts as skipped, if Node.js, its module or a browser is missing.
+set -euo pipefail
+
+readonly flbc=$1 meshes=$2 work=$3
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+readonly here skipped=77
+
+if ! command -v node >/dev/null; then
+  echo "skipped: Node.js is missing (Debian: nodejs npm)"
+  exit $skipped
+fi
+node --test "$here/modules_test.mjs" >/dev/null || { node --test "$here/modules_test.mjs"; exit 1; }
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+if [ -z "$browser" ]; then
+  echo "skipped: there is no browser (Debian: chromium)"
+  exit $skipped
+fi
+if [ ! -d "$here/node_modules/puppeteer-core" ]; then
+  echo "skipped: the module puppeteer-core is missing; run npm ci in tests/browser"
+  exit $skipped
+fi
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+# A page of a sample with few influences; weights of any kind would do.
+sample() { # DIM NAME
+  local cage=$meshes/$1/$2_cage.obj model=$meshes/$1/$2_model.obj
+  "$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o "$2.npy" --model "$model"
+  "$flbc" sparsify "$2.npy" --cage "$cage" --points "$model" -k 8 -q -o "$2.mtx"
+  "$flbc" view "$model" --weights "$2.mtx" --cage "$cage" --pose "$meshes/$1/$2_cage_pose.obj" \
+    -q -o "$2.html"
+}
+sample 2d figure
+sample 3d limb
+
+# A square with texture coordinates in a square whose bilinear weights are known, far from the
+# origin.
+awk -v OFMT=%.17g 'BEGIN {
+  for (k = 0; k < 4; ++k) print "v", 1000 + (k == 1 || k == 2), 500 + (k > 1) }' >square_cage.obj
+awk -v OFMT=%.17g 'BEGIN {
+  n = 9
+  for (j = 0; j < n; ++j) for (i = 0; i < n; ++i) {
+    x = i / (n - 1); y = j / (n - 1)
+    print "v", 1000 + x, 500 + y, 0 > "square_model.obj"
+    print "vt", x, y > "square_model.obj"
+    print (1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y > "square.rows"
+  }
+  for (j = 0; j + 1 < n; ++j) for (i = 0; i + 1 < n; ++i) {
+    a = j * n + i + 1
+    printf "f %d/%d %d/%d %d/%d %d/%d\n", a, a, a + 1, a + 1, a + n + 1, a + n + 1, a + n, a + n \
+      > "square_model.obj"
+  } }'
+awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
+  { for (k = 1; k <= 4; ++k) print NR, k, $k }' square.rows >square.mtx
+"$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj -q -o square.html
+
+node "$here/page_test.mjs" "$browser" "$flbc" "$meshes" "$work"

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page's modules without a browser: node --test modules_test.mjs
+import assert from "node:assert/strict";
+import test from "node:test";
+
+const page = new URL("../../apps/view/page/", import.meta.url);
+const load = (name) => import(new URL(`${name}.mjs`, page));
+const { Camera } = await load("camera");
+const { Deformer } = await load("deformer");
+const { Editor } = await load("editor");
+const { decodeIndices } = await load("data");
+const { poseText } = await load("obj");
+const { interpolatePoses, playedTime } = await load("poses");
+const { edgesOf, sumNormals } = await load("surface_normals");
+const { rotate, scale, translate } = await load("transforms");
+const { pick, pointsInRectangle } = await load("picking");
+const { ToolDrag } = await load("actions");
+
+// The corners of a cube with edges of length 2.
+const kCube = Float64Array.from({ length: 24 }, (_, k) => (k % 3 === 0 ? Math.floor(k / 3) & 1
+  : k % 3 === 1 ? Math.floor(k / 3) >> 1 & 1 : Math.floor(k / 3) >> 2) * 2 - 1);
+
+function near(a, b, tolerance = 1e-9) {
+  assert.equal(a.length, b.length);
+  for (let k = 0; k < a.length; ++k) assert.ok(Math.abs(a[k] - b[k]) <= tolerance, `${a} and ${b}`);
+}
+
+function cameraOf(dim) {
+  const camera = new Camera(dim);
+  camera.width = 800;
+  camera.height = 600;
+  camera.sphere = { center: [0, 0, 0], radius: 2 };
+  camera.frame(kCube);
+  return camera;
+}
+
+// Where the matrix puts a place, in pixels.
+function throughMatrix(camera, origin, place) {
+  const m = camera.matrix(origin);
+  const seen = place.map((value, k) => value - origin[k]);
+  const clip = [0, 1, 2, 3].map((r) => m[r] * seen[0] + m[4 + r] * seen[1] + m[8 + r] * seen[2] + m[12 + r]);
+  return { x: (1 + clip[0] / clip[3]) / 2 * camera.width,
+           y: (1 - clip[1] / clip[3]) / 2 * camera.height, depth: clip[2] / clip[3] };
+}
+
+for (const dim of [2, 3]) {
+  test(`camera in ${dim}D: the card and the picking agree on where things are`, () => {
+    const camera = cameraOf(dim);
+    camera.orbit(40, -25);
+    for (let i = 0; i < 8; ++i) {
+      const place = [...kCube.slice(3 * i, 3 * i + dim), 0].slice(0, 3);
+      const spot = camera.project(place);
+      const drawn = throughMatrix(camera, [0.25, -0.5, 0.125], place);
+      near([spot.x, spot.y], [drawn.x, drawn.y], 1e-2);
+      assert.ok(Math.abs(drawn.depth) <= 1);
+    }
+  });
+
+  test(`camera in ${dim}D: a step follows the pointer, a zoom keeps what is under it`, () => {
+    const camera = cameraOf(dim);
+    const place = [0.5, -0.75, dim === 3 ? 0.25 : 0];
+    const before = camera.project(place);
+    const step = camera.step(place, 30, -12);
+    const after = camera.project(place.map((value, k) => value + step[k]));
+    near([after.x - before.x, after.y - before.y], [30, -12]);
+    const spot = camera.project(camera.target);
+    camera.zoom(2, spot.x, spot.y);
+    near(Object.values(camera.project(camera.target)), Object.values(spot));
+  });
+
+  test(`a drag in ${dim}D moves, turns and scales what is selected, and undo returns the bits`, () => {
+    const camera = cameraOf(dim);
+    const rest = kCube.map((value, k) => (dim === 2 && k % 3 === 2 ? 0 : value));
+    for (const tool of ["move", "rotate", "scale"]) {
+      for (const axis of [null, "x", "y"]) {
+        const editor = new Editor(rest, dim);
+        editor.select([0, 1, 3]);
+        const from = camera.project(Array.from(rest.slice(0, 3)));
+        const drag = new ToolDrag(editor, camera, tool, axis, 0, from);
+        drag.to({ x: from.x + 17, y: from.y + 33 });
+        editor.end();
+        const moved = editor.points;
+        assert.ok(moved.some((value, k) => value !== rest[k]), `${tool} ${axis}`);
+        near(moved.slice(6, 9), rest.slice(6, 9), 0);
+        if (dim === 2) for (let i = 0; i < 8; ++i) assert.equal(moved[3 * i + 2], 0);
+        editor.undo();
+        assert.deepEqual(editor.points, rest);
+        editor.redo();
+        assert.deepEqual(editor.points, moved);
+      }
+    }
+  });
+}
+
+test("transforms: identities", () => {
+  const result = kCube.slice(), all = [...Array(8).keys()];
+  rotate(kCube, all, [0, 0, 0], [0, 0, 1], Math.PI / 2, result);
+  near(result.slice(0, 3), [1, -1, -1]);
+  rotate(result.slice(), all, [0, 0, 0], [0, 0, 1], -Math.PI / 2, result);
+  near(result, kCube);
+  scale(kCube, all, [1, 1, 1], 3, null, result);
+  near(result.slice(21), [1, 1, 1]);
+  near(result.slice(0, 3), [-5, -5, -5]);
+  scale(kCube, all, [1, 1, 1], 3, [0, 1, 0], result);
+  near(result.slice(0, 3), [-1, -5, -1]);
+  translate(kCube, [2], [1, 2, 3], result);
+  near(result.slice(6, 9), [0, 3, 2]);
+});
+
+test("mirror: images move as mirrors do, points of the plane stay in it", () => {
+  const rest = Float64Array.of(1, 0, 0, -1, 0, 0, 0, 1, 0, 5, 5, 5);
+  const editor = new Editor(rest, 3);
+  assert.equal(editor.setMirror(0), 3);
+  editor.change([0], (start, listed, result) => translate(start, listed, [0.5, 0.25, -1], result));
+  editor.end();
+  near(editor.points, [1.5, 0.25, -1, -1.5, 0.25, -1, 0, 1, 0, 5, 5, 5], 0);
+  editor.change([2], (start, listed, result) => translate(start, listed, [3, 1, 0], result));
+  near(editor.points.slice(6, 9), [0, 2, 0], 0);
+  editor.cancel();
+  editor.change([0, 1], (start, listed, result) => translate(start, listed, [1, 0, 0], result));
+  near(editor.points.slice(0, 6), [2.5, 0.25, -1, -0.5, 0.25, -1], 0);
+});
+
+test("editor: resetting is a stroke, strokes without a change are none", () => {
+  const editor = new Editor(kCube, 3);
+  editor.begin();
+  editor.end();
+  assert.equal(editor.canUndo, false);
+  editor.place(3, [7, 8, 9]);
+  editor.place(4, [4, 4, 4]);
+  editor.reset([3]);
+  near(editor.points.slice(9, 12), kCube.slice(9, 12), 0);
+  near(editor.points.slice(12, 15), [4, 4, 4], 0);
+  editor.undo();
+  near(editor.points.slice(9, 12), [7, 8, 9], 0);
+  editor.undo();
+  editor.undo();
+  assert.deepEqual(editor.points, kCube);
+  assert.equal(editor.canUndo, false);
+});
+
+test("picking: the nearest within reach, and what a rectangle holds", () => {
+  const camera = cameraOf(3);
+  camera.look(0, 0);
+  const spot = camera.project([1, 1, 1]);
+  assert.equal(pick(kCube, camera, spot.x + 3, spot.y - 2, 12), 7);
+  assert.equal(pick(kCube, camera, 400, 300, 12), -1);
+  const front = pointsInRectangle(kCube, camera, { x: 800, y: 0 }, { x: 400, y: 600 });
+  assert.deepEqual(front, [1, 3, 5, 7]);
+});
+
+test("deformer: a point goes where its weights take it, and home again bit by bit", () => {
+  const rest = Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0);
+  const weights = { starts: Uint32Array.of(0, 3, 4), controlPoints: Uint8Array.of(0, 1, 2, 2),
+                    values: Float32Array.of(0.25, 0.5, 0.25, 1) };
+  const base = Float32Array.of(0.5, 0.25, 0, 0, 1, 0);
+  const deformer = new Deformer(weights, base, rest);
+  const moved = rest.slice();
+  moved[3] += 2;
+  moved[8] += 1;
+  deformer.move(moved);
+  near(deformer.points, [1.5, 0.25, 0.25, 0, 1, 1], 1e-7);
+  near(deformer.weightsOf(new Set([0, 1])), [0.75, 0], 0);
+  near(deformer.influenceCounts(), [3, 1], 0);
+  deformer.move(rest);
+  assert.deepEqual(deformer.points, base);
+});
+
+test("surface: normals of a cube's corner, edges once each, seams share normals", () => {
+  const corner = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1);
+  const triangles = Uint8Array.of(0, 1, 2, 0, 2, 3, 0, 3, 1);
+  const normals = new Float32Array(12);
+  sumNormals(corner, triangles, null, normals);
+  near(normals.slice(0, 3), [1, 1, 1], 0);
+  assert.equal(edgesOf(triangles, 4).length, 2 * 6);
+  const split = Float32Array.of(...corner, 0, 0, 0);
+  const parted = Uint8Array.of(0, 1, 2, 4, 2, 3, 0, 3, 1);
+  const both = new Float32Array(15);
+  sumNormals(split, parted, Uint8Array.of(0, 1, 2, 3, 0), both);
+  near(both.slice(0, 3), [1, 1, 1], 0);
+  near(both.slice(12), [1, 1, 1], 0);
+});
+
+test("poses: on straight lines, to and fro", () => {
+  const poses = [0, 1, 3].map((time) => ({ time, points: Float64Array.of(time * time, 0, 0) }));
+  near(interpolatePoses(poses, 2), [5, 0, 0], 0);
+  near(interpolatePoses(poses, 99), [9, 0, 0], 0);
+  near([playedTime(poses, 2), playedTime(poses, 4), playedTime(poses, 6.5)], [2, 2, 0.5]);
+});
+
+test("poses are saved in the cage's own words", () => {
+  const text = "# a cage\r\nv 0.10 1e0 5 # corner\n  v\t2 3.50 5\nv 4 4 5\nl 1 2 3 1\n";
+  const given = [0.1, 1, 2, 3.5, 4, 4];
+  assert.equal(poseText(text, given, given, 2, []), text);
+  assert.equal(poseText(text, given, [0.1, 1, 2.25, 3.5, 4, 4], 2, []),
+               text.replace("2 3.50", "2.25 3.50"));
+  const facets = Uint8Array.of(0, 1, 1, 2, 2, 0);
+  const other = poseText("", given, given, 2, facets);
+  assert.equal(other, "v 0.1 1 0\nv 2 3.5 0\nv 4 4 0\nl 1 2\nl 2 3\nl 3 1\n");
+  assert.equal(poseText("v 7 7 7\n", given, given, 2, facets), other);
+});
+
+test("indices are read in the width they are written", () => {
+  const pack = (numbers) => Buffer.from(numbers.buffer).toString("base64");
+  for (const numbers of [Uint8Array.of(1, 255), Uint16Array.of(1, 65535), Uint32Array.of(1, 70000)]) {
+    const packed = { bytes: numbers.BYTES_PER_ELEMENT, data: pack(numbers) };
+    assert.deepEqual(decodeIndices(packed), numbers);
+  }
+});

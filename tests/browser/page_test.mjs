@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pages of flbc view under a mouse: page_test.mjs BROWSER PROGRAM MESHES WORK
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { join } from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
+import puppeteer from "puppeteer-core";
+
+const [executablePath, program, meshes, work] = process.argv.slice(2);
+const downloads = join(work, "downloads");
+
+// Software rendering of WebGL has to be asked for.
+const browser = await puppeteer.launch({
+  executablePath, protocolTimeout: 240000,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+
+function vertices(path, dim) {
+  const numbers = [];
+  for (const line of readFileSync(path, "utf8").split("\n")) {
+    if (line.startsWith("v ")) numbers.push(...line.split(/\s+/).slice(1, dim + 1).map(Number));
+  }
+  return numbers;
+}
+
+function sizeOf(points, dim) {
+  let squares = 0;
+  for (let k = 0; k < dim; ++k) {
+    const values = points.filter((_, j) => j % dim === k);
+    squares += (Math.max(...values) - Math.min(...values)) ** 2;
+  }
+  return Math.sqrt(squares);
+}
+
+function largestDifference(a, b) {
+  assert.equal(a.length, b.length);
+  return a.reduce((most, value, k) => Math.max(most, Math.abs(value - b[k])), 0);
+}
+
+// A page with all that a test asks of it.
+class Page {
+  static async open(name, { theme = "light", viewport = { width: 1200, height: 800 } } = {}) {
+    const page = new Page();
+    page.name = name;
+    page.tab = await browser.newPage();
+    page.failures = [];
+    page.requests = [];
+    page.tab.on("pageerror", (error) => page.failures.push(error.message));
+    page.tab.on("console", (line) => {
+      if (line.type() === "error") page.failures.push(line.text());
+    });
+    page.tab.on("request", (request) => page.requests.push(request.url()));
+    await page.tab.setViewport(viewport);
+    await page.tab.emulateMediaFeatures([{ name: "prefers-color-scheme", value: theme }]);
+    rmSync(downloads, { recursive: true, force: true });
+    mkdirSync(downloads);
+    const session = await page.tab.createCDPSession();
+    await session.send("Browser.setDownloadBehavior",
+                       { behavior: "allow", downloadPath: downloads });
+    await page.tab.goto(`file://${work}/${name}.html`);
+    await page.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+    return page;
+  }
+
+  ask(action, ...values) {
+    return this.tab.evaluate((name, list) => window.flbc[name](...list), action, values);
+  }
+
+  async points() {
+    return Object.values(await this.tab.evaluate(() => Array.from(window.flbc.points())));
+  }
+
+  async press(id) {
+    await this.tab.click(`#${id}`);
+  }
+
+  async drag(from, dx, dy) {
+    const { mouse } = this.tab;
+    await mouse.move(from.x, from.y);
+    await mouse.down();
+    await mouse.move(from.x + dx, from.y + dy, { steps: 6 });
+    await mouse.up();
+  }
+
+  async downloaded(name) {
+    const path = join(downloads, name);
+    for (let k = 0; k < 200 && !existsSync(path); ++k) await sleep(50);
+    assert.ok(existsSync(path), `${name} was not saved`);
+    await sleep(100);
+    return path;
+  }
+
+  // The picture of the model and its cage as rows of pixels.
+  async picture(file) {
+    await this.tab.evaluate(() => new Promise((done) => {
+      requestAnimationFrame(() => requestAnimationFrame(done));
+    }));
+    const stage = await this.tab.$("#canvas");
+    const base64 = await stage.screenshot({ encoding: "base64",
+                                            path: file && join(work, file) });
+    return this.tab.evaluate(async (data) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const context = canvas.getContext("2d");
+      context.drawImage(image, 0, 0);
+      const { data: pixels } = context.getImageData(0, 0, image.width, image.height);
+      return Array.from(new Uint32Array(pixels.buffer));
+    }, base64);
+  }
+
+  async close() {
+    assert.deepEqual(this.failures, []);
+    const others = this.requests.filter((url) => !/^(file|data|blob):/.test(url));
+    assert.deepEqual(others, [], "the page asks for something on the network");
+    await this.tab.close();
+  }
+}
+
+function countDifferent(a, b) {
+  return a.reduce((count, pixel, k) => count + (pixel !== b[k]), 0);
+}
+
+// What flbc deform makes of the model in a pose.
+function deformed(model, weights, pose, dim) {
+  const output = join(work, "deformed.obj");
+  execFileSync(program, ["deform", model, "--weights", weights, "--cage", pose, "-q", "-o", output]);
+  return vertices(output, dim);
+}
+
+async function grabbable(page, count) {
+  const { mouse } = page.tab;
+  for (let i = 0; i < count; ++i) {
+    const spot = await page.ask("spot", i);
+    await mouse.click(spot.x, spot.y);
+    if ((await page.ask("selection")).join() === String(i)) return i;
+  }
+  return assert.fail("no control point can be clicked");
+}
+
+async function testDrag(name, dim, model, weights, cage) {
+  const page = await Page.open(name);
+  const n = vertices(cage, dim).length / dim;
+  const size = sizeOf(vertices(cage, dim), dim);
+  const rest = await page.points();
+  assert.ok(largestDifference(rest, vertices(model, dim)) <= 1e-6 * size, "at rest");
+  const before = await page.picture(`${name}_rest.png`);
+  assert.ok(new Set(before).size > 20, "the picture is blank");
+
+  const i = await grabbable(page, n);
+  await page.drag(await page.ask("spot", i), 60, -45);
+  const moved = await page.points();
+  assert.ok(largestDifference(moved, rest) > 1e-3 * size, "nothing moved");
+  const after = await page.picture(`${name}_moved.png`);
+  assert.ok(countDifferent(before, after) > 200, "the picture did not change");
+
+  await page.press("savePose");
+  const pose = await page.downloaded(`${name}_model_pose.obj`);
+  const untouched = readFileSync(cage, "utf8").split("\n").filter((line, k) =>
+    line !== readFileSync(pose, "utf8").split("\n")[k]);
+  assert.equal(untouched.length, 1, "one line differs from the cage's file");
+  assert.ok(largestDifference(moved, deformed(model, weights, pose, dim)) <= 1e-6 * size,
+            "flbc deform puts the model elsewhere");
+
+  await page.press("undo");
+  assert.deepEqual(await page.points(), rest);
+  await page.press("redo");
+  assert.deepEqual(await page.points(), moved);
+  await page.tab.keyboard.press("Escape");
+  await page.press("resetAll");
+  assert.deepEqual(await page.points(), rest);
+  await page.close();
+}
+
+// Selecting, the tools and the hook.
+async function testSelection(name, dim, cage) {
+  const page = await Page.open(name);
+  const { tab } = page;
+  const rest = vertices(cage, dim);
+  const n = rest.length / dim;
+  const box = await (await tab.$("#canvas")).boundingBox();
+  await tab.keyboard.down("Shift");
+  await page.drag({ x: box.x + 3, y: box.y + 60 }, box.width / 2, box.height - 65);
+  await tab.keyboard.up("Shift");
+  const chosen = await page.ask("selection");
+  const expected = [];
+  for (let i = 0; i < n; ++i) {
+    const spot = await page.ask("spot", i);
+    if (spot.x <= box.x + 3 + box.width / 2 && spot.y >= box.y + 60) expected.push(i);
+  }
+  assert.deepEqual(chosen, expected);
+  assert.ok(chosen.length > 1 && chosen.length < n);
+
+  for (const [tool, axis] of [["rotate", null], ["scale", "axisX"], ["move", "axisY"]]) {
+    await page.press(tool);
+    if (axis) await page.press(axis);
+    let grabbed = null;
+    for (const i of chosen) {
+      const spot = await page.ask("spot", i);
+      await page.drag(spot, 30, 22);
+      const now = await page.ask("controlPoint", i);
+      if (!now.every((value, k) => value === rest[dim * i + k])) grabbed = i;
+      if (grabbed !== null) break;
+    }
+    assert.notEqual(grabbed, null, `${tool} moves nothing`);
+    for (let i = 0; i < n; ++i) {
+      const now = await page.ask("controlPoint", i);
+      const before = rest.slice(dim * i, dim * i + dim);
+      if (!chosen.includes(i)) assert.deepEqual(now, before);
+      if (tool === "move") assert.equal(now[0], before[0]);
+      if (tool === "scale") assert.equal(now[1], before[1]);
+    }
+    assert.deepEqual(await page.ask("selection"), chosen);
+    await page.press("undo");
+    if (axis) await page.press(axis);
+  }
+
+  const i = chosen[0];
+  const place = rest.slice(dim * i, dim * i + dim).map((value) => value + 0.125);
+  await page.ask("move", i, place);
+  assert.deepEqual(await page.ask("controlPoint", i), place);
+  await page.ask("undo");
+  assert.deepEqual(await page.ask("controlPoint", i), rest.slice(dim * i, dim * i + dim));
+  await page.close();
+}
+
+async function testPoses(name, dim, model, weights, pose) {
+  const page = await Page.open(name);
+  const size = sizeOf(vertices(pose, dim), dim);
+  await page.tab.focus("#time");
+  await page.tab.keyboard.press("End");
+  const moved = await page.points();
+  assert.ok(largestDifference(moved, deformed(model, weights, pose, dim)) <= 1e-6 * size);
+  await page.press("play");
+  await page.tab.waitForFunction((last) => window.flbc.points().some((x, k) => x !== last[k]), {}, moved);
+  await page.press("play");
+  await page.close();
+}
+
+async function testButtons(name, theme) {
+  const page = await Page.open(name, { theme });
+  const { tab } = page;
+  const ids = await tab.$$eval("button[id]", (buttons) =>
+    buttons.filter((button) => button.checkVisibility()).map((button) => button.id));
+  assert.ok(ids.length >= 20);
+  await page.ask("select", [0, 1]);
+  await page.ask("move", 0, await page.ask("controlPoint", 1));
+  await page.ask("undo");
+  for (const id of ids.filter((each) => each !== "fold")) {
+    if (id === "redo") await page.ask("undo");
+    await page.ask("select", [0, 1]);
+    await page.press(id);
+    if (id === "help") await tab.keyboard.press("Escape");
+    if (id === "play") await page.press(id);
+  }
+  await page.downloaded(`${name}_model_pose.obj`);
+  await page.downloaded(`${name}_model_posed.obj`);
+  await page.downloaded(`${name}_model.png`);
+  for (const coloring of ["displacement", "weight", "influences", "shaded"]) {
+    await tab.select("#coloring", coloring);
+    const shown = await page.picture();
+    assert.ok(new Set(shown).size > 20, coloring);
+    await tab.screenshot({ path: join(work, `${name}_${theme}_${coloring}.png`) });
+  }
+  await tab.select("#mirror", "0");
+  await page.press("fold");
+  await page.press("fold");
+  for (const key of ["?", "Escape", "f", "1", "2", "3", "g", "r", "s", "x", "x", "b", "b", "m", "a",
+                     "ArrowLeft", "Delete", "c", "c", "w", "d", "Space", "Space"]) {
+    await tab.keyboard.press(key);
+  }
+  await tab.mouse.move(400, 300);
+  await tab.mouse.wheel({ deltaY: -200 });
+  await page.picture();
+  await page.close();
+}
+
+async function testTouch(name) {
+  const page = await Page.open(name, { viewport: { width: 420, height: 800, hasTouch: true, isMobile: true } });
+  const rest = await page.points();
+  const { touchscreen } = page.tab;
+  for (let i = 0; i < 20; ++i) {
+    const spot = await page.ask("spot", i);
+    await touchscreen.touchStart(spot.x, spot.y);
+    await touchscreen.touchMove(spot.x + 25, spot.y + 25);
+    await touchscreen.touchMove(spot.x + 40, spot.y + 30);
+    await touchscreen.touchEnd();
+  }
+  assert.ok(largestDifference(await page.points(), rest) > 0, "fingers move nothing");
+  await page.tab.screenshot({ path: join(work, `${name}_touch.png`) });
+  await page.close();
+}
+
+// A texture, and a place far from the origin.
+async function testTexture() {
+  const page = await Page.open("square");
+  const plain = await page.picture();
+  await page.tab.select("#coloring", "texture");
+  assert.ok(countDifferent(plain, await page.picture("square_texture.png")) > 1000);
+  await page.ask("move", 2, [1001.5, 501.25]);
+  const points = await page.points();
+  const expected = vertices(join(work, "square_model.obj"), 2).map((value, k, all) => {
+    const weight = (all[k - k % 2] - 1000) * (all[k - k % 2 + 1] - 500);
+    return value + weight * (k % 2 === 0 ? 0.5 : 0.25);
+  });
+  // Single precision has no more digits so far from the origin.
+  assert.ok(largestDifference(points, expected) <= 1001.5 * 2 ** -23);
+  await page.picture("square_moved.png");
+  await page.close();
+}
+
+async function testWithoutWebGl() {
+  const tab = await browser.newPage();
+  await tab.evaluateOnNewDocument(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+  await tab.goto(`file://${work}/limb.html`);
+  const message = await tab.waitForSelector("#message", { visible: true });
+  assert.match(await message.evaluate((node) => node.textContent), /WebGL2/);
+  await tab.close();
+}
+
+const samples = [["figure", 2, "2d"], ["limb", 3, "3d"]];
+try {
+  for (const [name, dim, folder] of samples) {
+    const file = (what) => join(meshes, folder, `${name}_${what}.obj`);
+    const weights = join(work, `${name}.mtx`);
+    await testDrag(name, dim, file("model"), weights, file("cage"));
+    await testSelection(name, dim, file("cage"));
+    await testPoses(name, dim, file("model"), weights, file("cage_pose"));
+    await testButtons(name, dim === 2 ? "light" : "dark");
+    await testTouch(name);
+    console.log(`${name}: as flbc deform`);
+  }
+  await testTexture();
+  await testWithoutWebGl();
+} finally {
+  await browser.close();
+}
