@@ -20,4 +20,4 @@ run 3d limb --control-point 20 --vertices 4000
 
 echo
 echo "Weights, skins, reports, deformed models and pictures are in out/figure and out/limb; look at"
-echo "function.png and deformation.png there."
+echo "function.png and deformation.png there, and open model.html in a browser to move the cage."

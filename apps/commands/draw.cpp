@@ -1,87 +1,235 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// flbc draw: a coordinate function as a picture.
+// flbc draw: coordinate functions and deformations as pictures.
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <numeric>
+#include <sstream>
 
 #include "commands/commands.h"
+#include "draw/deformation_picture.h"
+#include "draw/model_picture.h"
+#include "draw/model_view.h"
 #include "draw/png_writer.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
+#include "poses/poses.h"
 #include "solve/weights_of_model.h"
+#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {
 
 struct DrawArguments {
   std::string domain;
+  std::string model;
   std::string weights;
   std::string cage;
+  std::string pose;
   std::string output;
+  std::string color;
+  std::string view = "three-quarter";
   Index control_point = 0;
   int slices = 3;
   bool all = false;
   draw::WeightPictureOptions options;
 };
 
+constexpr const char* kDisplacement = "displacement";
+constexpr const char* kWeight = "weight";
+constexpr const char* kPlain = "plain";
+
+void check_arguments(const DrawArguments& arguments) {
+  draw::validate(arguments.options);
+  require_writable(arguments.output, "png");
+  if (arguments.domain.empty() == arguments.model.empty()) {
+    throw OptionError("give either the domain's mesh or --model");
+  }
+  const auto& color = arguments.color;
+  if (!color.empty() && color != kDisplacement && color != kWeight && color != kPlain) {
+    throw OptionError("--color: '" + color + "' is none of displacement|weight|plain");
+  }
+  if (color == kDisplacement && arguments.pose.empty()) {
+    throw OptionError("--color displacement needs --pose: there the model has moved");
+  }
+}
+
+// \throws OptionError if it is neither a name nor two angles in degrees
+draw::ObliqueView parse_view(const std::string& text) {
+  if (text == "front") return draw::view_by_angles(0, 0);
+  if (text == "side") return draw::view_by_angles(90, 0);
+  if (text == "top") return draw::view_by_angles(0, 90);
+  if (text == "three-quarter") {
+    return draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation);
+  }
+  std::istringstream numbers(text);
+  double azimuth = 0, elevation = 0;
+  char comma = 0;
+  if (numbers >> azimuth >> comma >> elevation && comma == ',' &&
+      numbers.peek() == std::char_traits<char>::eof() && std::abs(elevation) <= 90) {
+    return draw::view_by_angles(azimuth, elevation);
+  }
+  throw OptionError("--view: '" + text +
+                    "' is none of front|side|top|three-quarter, nor AZIMUTH,ELEVATION in degrees");
+}
+
+void check_control_point(Index control_point, Eigen::Index count) {
+  if (control_point >= 0 && control_point < count) return;
+  throw OptionError("--control-point must be in [0, " + std::to_string(count - 1) + "], not " +
+                    std::to_string(control_point));
+}
+
+std::vector<Index> all_of(Index count) {
+  std::vector<Index> control_points(count);
+  std::iota(control_points.begin(), control_points.end(), 0);
+  return control_points;
+}
+
 draw::Image picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
-  if (!arguments.all) {
-    return draw::draw_weights(cage, domain, weights.row(arguments.control_point),
-                              arguments.control_point, arguments.options);
+  if (arguments.all) {
+    return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
   }
-  std::vector<Index> control_points;
-  for (Index i = 0; i < cage.size(); ++i) control_points.push_back(i);
-  return draw::draw_all(cage, domain, weights, control_points, arguments.options);
+  return draw::draw_weights(cage, domain, weights.row(arguments.control_point),
+                            arguments.control_point, arguments.options);
 }
 
 draw::Image picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
-  if (arguments.all) throw OptionError("--all draws 2D coordinates only");
+  if (arguments.all) throw OptionError("--all draws 3D coordinates on a --model only");
   return draw::draw_slices(cage, domain, weights.row(arguments.control_point),
                            arguments.control_point, arguments.slices, arguments.options);
 }
 
+// A model at rest and, with a pose, also there.
 template <int Dim>
-void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
+struct PosedModel {
+  view::ShownModel<Dim> model;
+  WeightMatrix weights;
+  PointList<Dim> pose{};   // of the cage; empty without one
+  PointList<Dim> moved{};  // the model's points in the pose
+};
+
+template <int Dim>
+PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments) {
+  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
+  PosedModel<Dim> posed{load_shown_model<Dim>(arguments.model),
+                        io::read_weights(arguments.weights)};
+  check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
+  const SparseWeights sparse(posed.weights);
+  check_reproduction<Dim>(sparse, cage.points, posed.model.points, files);
+  if (arguments.pose.empty()) return posed;
+  posed.pose = load_control_points<Dim>(arguments.pose);
+  if (posed.pose.cols() != cage.size()) {
+    throw InputError(arguments.pose + ": has " + std::to_string(posed.pose.cols()) +
+                     " vertices, but " + arguments.cage + " has " + std::to_string(cage.size()));
+  }
+  posed.moved = deform<Dim>(sparse, posed.pose);
+  return posed;
+}
+
+draw::Image picture_of_model(const Cage<2>& cage, const DrawArguments& arguments) {
+  if (!arguments.color.empty() && arguments.color != kWeight) {
+    throw OptionError("--color " + arguments.color + " is for models in 3D");
+  }
+  const auto posed = load_posed(cage, arguments);
+  const CellList<2> triangles = gltf::triangles_of_points(posed.model.surface);
+  if (arguments.pose.empty() || arguments.all) {
+    return picture(cage, DomainMesh<2>{posed.model.points, triangles}, posed.weights, arguments);
+  }
+  return draw::draw_deformation(
+      cage.facets, triangles, {cage.points, posed.model.points}, {posed.pose, posed.moved},
+      posed.weights.row(arguments.control_point), arguments.control_point, arguments.options);
+}
+
+draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& arguments) {
+  const bool has_moved = posed.moved.cols() > 0;
+  const auto color = !arguments.color.empty() ? arguments.color
+                     : has_moved              ? kDisplacement
+                                              : kWeight;
+  if (color == kPlain) return {};
+  if (color == kDisplacement) return {displacements<3>(posed.model.points, posed.moved)};
+  return {posed.weights.row(arguments.control_point), arguments.control_point};
+}
+
+draw::Image picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
+  const auto view = parse_view(arguments.view);
+  const auto posed = load_posed(cage, arguments);
+  const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
+                               load_shown_cage<3>(arguments.cage).edges};
+  std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
+  if (arguments.all) {
+    return draw::draw_model_sheet(model, places[0], posed.weights, view, arguments.options);
+  }
+  if (posed.moved.cols() > 0) places.push_back({posed.pose, posed.moved});
+  return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);
+}
+
+template <int Dim>
+draw::Image picture_of_domain(const Cage<Dim>& cage, const DrawArguments& arguments) {
   const auto domain = io::read_domain<Dim>(arguments.domain);
   const auto weights = io::read_weights(arguments.weights);
   check_sizes(weights, cage.size(), domain.num_vertices(),
               {arguments.weights, arguments.cage, arguments.domain});
-  if (arguments.control_point < 0 || arguments.control_point >= cage.size()) {
-    throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
-                      "], not " + std::to_string(arguments.control_point));
-  }
-  const auto png = draw::encode_png(picture(cage, domain, weights, arguments));
+  return picture(cage, domain, weights, arguments);
+}
+
+template <int Dim>
+void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
+  check_control_point(arguments.control_point, cage.size());
+  const auto png = draw::encode_png(arguments.model.empty() ? picture_of_domain(cage, arguments)
+                                                            : picture_of_model(cage, arguments));
   const HeldSignals held;
   io::write_file(arguments.output, [&](std::ostream& file) { file << png; });
+}
+
+void add_options(CLI::App& command, DrawArguments& a) {
+  auto* domain = command.add_option("DOMAIN", a.domain, "mesh (see flbc solve --save-domain)");
+  auto* model = command.add_option("--model", a.model,
+                                   "draw a model instead: .obj .off .ply .stl, or the boundary of "
+                                   "a mesh");
+  model->excludes(domain);
+  command.add_option("--weights", a.weights, "weights at its vertices")->required();
+  command.add_option("--cage", a.cage, "the cage they belong to")->required();
+  command.add_option("-o,--output", a.output, "the picture, .png")->required();
+  auto* point =
+      command.add_option("--control-point", a.control_point, "which function, from 0 (0)");
+  command.add_option("--pose", a.pose, "the cage in another place: the model at rest and there")
+      ->needs(model);
+  command
+      .add_option("--color", a.color,
+                  "what colours show on a model in 3D (weight; displacement "
+                  "with --pose)")
+      ->needs(model)
+      ->type_name("displacement|weight|plain");
+  command
+      .add_option("--view", a.view,
+                  "from where a model in 3D is seen, by name or by angles in "
+                  "degrees (three-quarter)")
+      ->needs(model)
+      ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
+  command.add_flag("--all", a.all, "a sheet of all functions (3D: on a model)")->excludes(point);
+  command.add_option("--slices", a.slices, "number of slices (3D) (3)");
+  command.add_option("--width", a.options.width, "width in pixels (1200)");
+  command.add_option("--isolines", a.options.isolines, "number of isolines between 0 and 1 (10)");
+  command.add_flag("--mesh", a.options.mesh_edges, "show the mesh");
 }
 
 }  // namespace
 
 void add_draw_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DrawArguments>();
-  auto& a = *arguments;
-  auto* command = app.add_subcommand("draw", "Draw a coordinate function as a picture");
-  command->add_option("DOMAIN", a.domain, "mesh (see flbc solve --save-domain)")->required();
-  command->add_option("--weights", a.weights, "weights at its vertices")->required();
-  command->add_option("--cage", a.cage, "the cage they belong to")->required();
-  command->add_option("-o,--output", a.output, "the picture, .png")->required();
-  auto* point =
-      command->add_option("--control-point", a.control_point, "which function, from 0 (0)");
-  command->add_flag("--all", a.all, "a sheet of all functions (2D)")->excludes(point);
-  command->add_option("--slices", a.slices, "number of slices (3D) (3)");
-  command->add_option("--width", a.options.width, "width in pixels (1200)");
-  command->add_option("--isolines", a.options.isolines, "number of isolines between 0 and 1 (10)");
-  command->add_flag("--mesh", a.options.mesh_edges, "show the mesh");
+  auto* command = app.add_subcommand("draw", "Draw a coordinate function, or a model and its pose");
+  add_options(*command, *arguments);
   command->callback([arguments] {
-    draw::validate(arguments->options);
-    require_writable(arguments->output, "png");
+    check_arguments(*arguments);
     std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

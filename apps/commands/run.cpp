@@ -12,6 +12,7 @@
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "run/facts.h"
+#include "run/page.h"
 #include "run/pictures.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
@@ -65,10 +66,11 @@ struct Step {
 template <int Dim>
 void take_steps(Run<Dim>& run) {
   const Step<Dim> steps[] = {
-      {"cage", deliver_cage},           {"mesh", mesh_interior},
-      {"solve", compute_weights},       {"check", check_weights_of_mesh},
-      {"sparsify", reduce_influences},  {"deform", deform_shape},
-      {"export", export_shape},         {"pictures", draw_pictures},
+      {"cage", deliver_cage},          {"mesh", mesh_interior},
+      {"solve", compute_weights},      {"check", check_weights_of_mesh},
+      {"sparsify", reduce_influences}, {"deform", deform_shape},
+      {"export", export_shape},        {"pictures", draw_pictures},
+      {"page", write_page},
   };
   double total = 0;
   for (const auto& [name, take] : steps) {
@@ -90,7 +92,8 @@ void print_summary(const Run<Dim>& run) {
         << " influences, deformation error " << 100 * error["rms"].template get<double>()
         << " % rms, reproduction error " << after["max_reproduction_error"].template get<double>()
         << ", " << run.report["seconds"]["total"].template get<double>() << " s";
-  std::cerr << run.arguments.output << ": " << facts.text() << '\n';
+  std::cerr << run.arguments.output << ": " << facts.text() << "\nOpen "
+            << run.folder.path_of(kPage) << " in a browser to move the cage with the mouse.\n";
 }
 
 // \return the exit status
@@ -175,9 +178,11 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "run", "Mesh, solve, check, sparsify, deform, export and draw, all at once");
   command->footer(
       "OUTDIR gets the mesh of the interior, dense and sparse weights, the model in every pose,\n"
-      "model.glb, which is a skin that moves through them, pictures, and report.json. What an\n"
-      "earlier run has made there is replaced. Model and skin move by the sparse weights. If a\n"
-      "step fails, what was made before stays.");
+      "model.glb, which is a skin that moves through them, pictures, model.html, in which the
+"
+      "cage can be moved, and report.json. What an earlier run has made there is replaced. Model
+"
+      "and skin move by the sparse weights. If a step fails, what was made before stays.");
   command
       ->add_option("CAGE", settings.cage,
                    "closed polylines (2D) or surface (3D); with --auto-cage a model")

@@ -9,7 +9,6 @@
 #include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
-#include "files/load_surface.h"
 #include "files/movable_model.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
@@ -56,14 +55,14 @@ void check_arguments(const ViewArguments& arguments) {
     throw OptionError("--fps must be from 0.001 to 1000000");
   }
   if (!arguments.picture.empty()) media_type_of(arguments.picture);
-  require_surface_readable(arguments.model);
-  require_writable(arguments.output, {"html"});
+  require_mesh_readable(arguments.model);
+  require_writable(arguments.output, "html");
 }
 
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
   auto inputs = files_of_model(arguments.model);
-  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.keyframes,
-                               arguments.picture});
+  inputs.insert(inputs.end(),
+                {arguments.weights, arguments.cage, arguments.keyframes, arguments.picture});
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -75,9 +74,8 @@ std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& argument
   const bool is_animation = !arguments.keyframes.empty();
   const auto poses =
       is_animation ? load_keyframes<Dim>(arguments.keyframes, rest) : load_poses<Dim>(files);
-  const auto times = is_animation
-                         ? load_animation<Dim>(arguments.keyframes, rest).times
-                         : times_of_poses(poses.size(), arguments.frames_per_second);
+  const auto times = is_animation ? load_animation<Dim>(arguments.keyframes, rest).times
+                                  : times_of_poses(poses.size(), arguments.frames_per_second);
   return shown_poses(poses, times);
 }
 
@@ -85,17 +83,16 @@ template <int Dim>
 view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFiles& poses) {
   view::PageContent<Dim> content;
   content.title = std::filesystem::path(arguments.model).stem().string();
-  content.model_file = arguments.model;
-  content.weights_file = arguments.weights;
-  content.cage_file = arguments.cage;
+  content.model_file = path_beside(arguments.output, arguments.model);
+  content.weights_file = path_beside(arguments.output, arguments.weights);
+  content.cage_file = path_beside(arguments.output, arguments.cage);
   content.cage = load_shown_cage<Dim>(arguments.cage);
-  auto model = load_surface<Dim>(arguments.model);
+  auto model = load_shown_model<Dim>(arguments.model);
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
   content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
   if (!arguments.picture.empty()) {
-    content.picture = data_uri(media_type_of(arguments.picture),
-                                     io::read_file(arguments.picture));
+    content.picture = data_uri(media_type_of(arguments.picture), io::read_file(arguments.picture));
   }
   return content;
 }
@@ -107,8 +104,8 @@ std::string told_reduction(const view::PageContent<Dim>& content, const WeightMa
   const auto after = count_influences(content.weights).max;
   if (before == after) return "at most " + std::to_string(after) + " influences per point";
   constexpr int kRandomPoses = 20;
-  const auto error = deformation_error(smooth_poses(content.cage.points, kRandomPoses), given,
-                                       content.weights);
+  const auto error =
+      deformation_error(smooth_poses(content.cage.points, kRandomPoses), given, content.weights);
   const double size = bounding_box_diagonal<Dim>(content.points);
   std::ostringstream text;
   text.precision(3);

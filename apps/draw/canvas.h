@@ -24,6 +24,7 @@ class Canvas {
 
   int width() const { return width_ / supersampling_; }
   int height() const { return height_ / supersampling_; }
+  int supersampling() const { return supersampling_; }
 
   //! Paints a triangle with color(value), the value being interpolated linearly from the corners.
   template <class Colors>
@@ -33,6 +34,15 @@ class Canvas {
     const double step2 = values[2] - values[0];
     for_each_sample(to_samples(corners), width_, height_, [&](int x, int y, double b1, double b2) {
       blend(x, y, color(values[0] + b1 * step1 + b2 * step2), opacity);
+    });
+  }
+
+  //! Calls paint(x, y, b1, b2, sample) for each sample in a triangle, b1 and b2 being its
+  //! barycentric coordinates for corners 1 and 2; x and y count samples.
+  template <class Paint>
+  void paint_samples(const Corners& corners, Paint&& paint) {
+    for_each_sample(to_samples(corners), width_, height_, [&](int x, int y, double b1, double b2) {
+      paint(x, y, b1, b2, samples_[static_cast<std::size_t>(y) * width_ + x]);
     });
   }
 

@@ -2,7 +2,9 @@
 #include "draw/weight_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -62,6 +64,32 @@ void draw_defect_patch(Canvas& canvas, const Box& box, double slight, double sev
             kInk);
 }
 
+// The colours from 0 to 1, upright, with isolines and numbers at 0, the middle and the end.
+void paint_scale(Canvas& canvas, const Box& box, int isolines,
+                 const std::array<std::string, 3>& labels, double unit) {
+  fill_box(canvas, box, 0, 1);
+  const auto row_of = [&](double weight) { return box.high.y() - weight * box.size().y(); };
+  std::vector<Segment> lines;
+  for (const double level : isoline_levels(isolines)) {
+    lines.push_back({{box.low.x(), row_of(level)}, {box.high.x(), row_of(level)}});
+  }
+  canvas.draw_segments(lines, 1.5 * std::max(0.6, unit), kInk, 0.75F);
+  draw_outline(canvas, box, 1.2 * unit);
+  for (int k = 0; k < 3; ++k) {
+    const double y = row_of(k / 2.0);
+    canvas.draw_segments({{{box.high.x(), y}, {box.high.x() + 6 * unit, y}}}, 1.2 * unit, kInk);
+    draw_text(canvas, {box.high.x() + 13 * unit, y + 9 * unit}, labels[k], 18 * unit, kInk);
+  }
+}
+
+// Two digits, for which there is room beside a scale.
+std::string short_number(double value) {
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
 }  // namespace
 
 double pixel_unit(const WeightPictureOptions& options) {
@@ -116,19 +144,16 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
   }
   paint_symbol(canvas, {box.center().x(), top - 26 * unit}, control_point, 24 * unit);
 
-  fill_box(canvas, box, 0, 1);
-  const auto row_of = [&](double weight) { return box.high.y() - weight * box.size().y(); };
-  std::vector<Segment> lines;
-  for (const double level : isoline_levels(options.isolines)) {
-    lines.push_back({{box.low.x(), row_of(level)}, {box.high.x(), row_of(level)}});
-  }
-  canvas.draw_segments(lines, 1.5 * std::max(0.6, unit), kInk, 0.75F);
-  draw_outline(canvas, box, 1.2 * unit);
-  for (const auto& [weight, label] : {std::pair(0.0, "0"), {0.5, "0.5"}, {1.0, "1"}}) {
-    const double y = row_of(weight);
-    canvas.draw_segments({{{box.high.x(), y}, {box.high.x() + 6 * unit, y}}}, 1.2 * unit, kInk);
-    draw_text(canvas, {box.high.x() + 13 * unit, y + 9 * unit}, label, 18 * unit, kInk);
-  }
+  paint_scale(canvas, box, options.isolines, {"0", "0.5", "1"}, unit);
+}
+
+void paint_length_bar(Canvas& canvas, const Box& box, double largest,
+                      const WeightPictureOptions& options) {
+  const double unit = pixel_unit(options);
+  const double height = 24 * unit;
+  draw_text(canvas, {box.center().x() - text_width("d", height) / 2, box.low.y() - 26 * unit}, "d",
+            height, kInk);
+  paint_scale(canvas, box, 0, {"0", short_number(largest / 2), short_number(largest)}, unit);
 }
 
 void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,

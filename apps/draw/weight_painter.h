@@ -30,6 +30,10 @@ void paint_dot(Canvas& canvas, const Vector<2>& center, double radius, Color col
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
                      double greatest, const WeightPictureOptions& options);
 
+//! Paints the scale of lengths from 0 to `largest` in the same way, with "d" above it.
+void paint_length_bar(Canvas& canvas, const Box& box, double largest,
+                      const WeightPictureOptions& options);
+
 //! Writes "w" with a subscript, centred at the point of the baseline.
 void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height);
 

@@ -170,6 +170,12 @@ Surface surface_of_model(const io::Model& model) {
   return surface;
 }
 
+FacetList<3> triangles_of_points(const Surface& surface) {
+  FacetList<3> triangles = surface.triangles;
+  for (auto& vertex : triangles.reshaped()) vertex = surface.sources[vertex];
+  return triangles;
+}
+
 template Surface surface_of_model<2>(const io::Model&);
 template Surface surface_of_model<3>(const io::Model&);
 

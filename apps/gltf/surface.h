@@ -28,4 +28,7 @@ struct Surface {
 template <int Dim>
 Surface surface_of_model(const io::Model& model);
 
+//! The triangles by the model's own vertices. \return 3 x T
+FacetList<3> triangles_of_points(const Surface& surface);
+
 }  // namespace flbc::gltf

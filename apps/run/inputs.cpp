@@ -65,6 +65,7 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
   }
   names.insert(names.end(), {kSkin, kFunction});
   if (!inputs.poses.empty()) names.emplace_back(kDeformation);
+  names.emplace_back(kPage);
   names.emplace_back(kReport);
   return names;
 }

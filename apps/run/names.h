@@ -13,6 +13,7 @@ constexpr const char* kSparseWeights = "sparse_weights.mtx";
 constexpr const char* kSkin = "model.glb";
 constexpr const char* kFunction = "function.png";
 constexpr const char* kDeformation = "deformation.png";
+constexpr const char* kPage = "model.html";
 
 //! The report, in which the names of all files are: the next run knows by them what is its own.
 constexpr const char* kReport = "report.json";

@@ -2,6 +2,8 @@
 #include "run/pictures.h"
 
 #include "draw/deformation_picture.h"
+#include "draw/model_picture.h"
+#include "draw/model_view.h"
 #include "draw/png_writer.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
@@ -9,6 +11,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "run/facts.h"
+#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {
@@ -48,13 +51,6 @@ void add_picture(Run<Dim>& run, const std::string& name, const std::string& fact
   run.report["pictures"]["files"].push_back(name);
 }
 
-// The triangles of a shape, by its own points.
-CellList<2> triangles_of(const gltf::Surface& surface) {
-  CellList<2> cells = surface.triangles;
-  for (auto& vertex : cells.reshaped()) vertex = surface.sources[vertex];
-  return cells;
-}
-
 // The shape at rest and in the pose; the mesh of the interior in place of one without triangles.
 draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index control_point) {
   const auto& shape = run.shape();
@@ -63,24 +59,36 @@ draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   const auto& points = is_surface ? shape.points : domain.points;
   const auto& weights = is_surface ? run.sparse : run.solver.domain_weights();
   return draw::draw_deformation(
-      run.cage.facets, is_surface ? triangles_of(shape.surface) : domain.cells,
+      run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
       {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)},
       weights.row(control_point), control_point);
 }
 
-// Slices through the mesh of the interior.
+// The shape at rest and in the pose, coloured by how far it moves; slices through the mesh of the
+// interior in place of one without triangles.
 draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
-  const auto& weights = run.solver.domain_weights();
-  const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
-  return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
-                           control_point);
+  const auto& shape = run.shape();
+  if (shape.surface.triangles.cols() == 0) {
+    const auto& weights = run.solver.domain_weights();
+    const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
+    return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
+                             control_point);
+  }
+  const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
+  const auto& file = run.arguments.settings.cage;
+  const auto edges =
+      file == "-" ? view::edges_of_cage<3>({}, run.cage.facets) : load_shown_cage<3>(file).edges;
+  return draw::draw_model({gltf::triangles_of_points(shape.surface), edges},
+                          {{run.cage.points, shape.points}, {pose.points, points}},
+                          {displacements<3>(shape.points, points)},
+                          draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation));
 }
 
 template <int Dim>
 void draw_farthest_pose(Run<Dim>& run, Index control_point) {
   const auto& pose = run.poses()[run.displacement.pose];
   Facts facts;
-  facts << (Dim == 2 ? "at rest and in " : "the same in ") << pose.name;
+  facts << "at rest and in " << pose.name;
   try {
     add_picture(run, kDeformation, facts.text(), deformation_image(run, pose, control_point));
   } catch (const InputError& error) {  // in a pose all control points may coincide

@@ -7,7 +7,7 @@
 
 namespace flbc::app {
 
-//! function.png: one coordinate function on the mesh, in 3D on slices; in 2D, with poses, also
+//! function.png: one coordinate function on the mesh, in 3D on slices; with poses also
 //! deformation.png: what the cage moves at rest and in the pose where it moves farthest.
 template <int Dim>
 void draw_pictures(Run<Dim>& run);

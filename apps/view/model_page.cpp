@@ -2,18 +2,20 @@
 #include "view/model_page.h"
 
 #include <filesystem>
+#include <system_error>
 #include <variant>
 
-#include "files/load.h"
+#include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
+#include "flbc/io/model_file.h"
 #include "view/base64.h"
 
 namespace flbc::app {
 
 template <int Dim>
 view::ShownCage<Dim> load_shown_cage(const std::string& path) {
-  const auto soup = load_polygons(path);
+  const auto soup = io::read_polygons(path);
   const auto cage = io::to_cage(soup, path);
   view::ShownCage<Dim> shown;
   shown.points = io::to_points<Dim>(soup, path);
@@ -21,6 +23,15 @@ view::ShownCage<Dim> load_shown_cage(const std::string& path) {
   shown.edges = view::edges_of_cage<Dim>(soup.polygons, shown.facets);
   if (io::extension_of(path) == "obj") shown.text = io::read_file(path);
   return shown;
+}
+
+template <int Dim>
+view::ShownModel<Dim> load_shown_model(const std::string& path) {
+  const MovedFile same{path, path};
+  require_formats_of<Dim>(same);
+  const MovableModel<Dim> model(same);
+  const bool is_cloud = model.model() != nullptr && model.model()->soup.polygons.empty();
+  return {model.points(), is_cloud ? gltf::Surface() : model.surface()};
 }
 
 std::vector<double> times_of_poses(std::size_t count, double frames_per_second) {
@@ -34,7 +45,7 @@ std::vector<double> times_of_poses(std::size_t count, double frames_per_second) 
 
 template <int Dim>
 std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
-                                        const std::vector<double>& times) {
+                                              const std::vector<double>& times) {
   std::vector<view::ShownPose<Dim>> shown;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const auto name = std::filesystem::path(poses[k].name).filename().string();
@@ -43,14 +54,23 @@ std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& pose
   return shown;
 }
 
+std::string path_beside(const std::string& page, const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto folder = fs::absolute(page, error).parent_path();
+  const auto path = fs::proximate(file, folder, error);
+  return error ? file : path.string();
+}
+
 std::string data_uri(const std::string& media_type, const std::string& bytes) {
   return "data:" + media_type + ";base64," + view::to_base64(bytes);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                  \
-  template view::ShownCage<Dim> load_shown_cage(const std::string&);                                 \
-  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&,              \
-                                                   const std::vector<double>&);
+#define FLBC_INSTANTIATE(Dim)                                                           \
+  template view::ShownCage<Dim> load_shown_cage(const std::string&);                    \
+  template view::ShownModel<Dim> load_shown_model(const std::string&);                  \
+  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&, \
+                                                         const std::vector<double>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

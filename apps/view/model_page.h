@@ -16,13 +16,21 @@ namespace flbc::app {
 template <int Dim>
 view::ShownCage<Dim> load_shown_cage(const std::string& path);
 
+//! A model, or a mesh of the interior with its boundary.
+//! \throws IoError, InputError, OptionError
+template <int Dim>
+view::ShownModel<Dim> load_shown_model(const std::string& path);
+
 //! When poses are reached from rest at 0 s. \param frames_per_second  0 = 24, but 1 for one pose
 std::vector<double> times_of_poses(std::size_t count, double frames_per_second);
 
 //! Poses at their times, named by their files without folders.
 template <int Dim>
 std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
-                                        const std::vector<double>& times);
+                                              const std::vector<double>& times);
+
+//! A file as commands name it that run in the folder of the page.
+std::string path_beside(const std::string& page, const std::string& file);
 
 //! A file inside of a page.
 std::string data_uri(const std::string& media_type, const std::string& bytes);

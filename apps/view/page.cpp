@@ -46,8 +46,7 @@ void check(const PageContent<Dim>& content) {
   if (content.weights.rows() != n || content.weights.cols() != num_points) {
     throw InputError("there are weights of " + std::to_string(content.weights.rows()) +
                      " control points and " + std::to_string(content.weights.cols()) +
-                     " points, not of " + std::to_string(n) + " and " +
-                     std::to_string(num_points));
+                     " points, not of " + std::to_string(n) + " and " + std::to_string(num_points));
   }
   for (const auto& pose : content.poses) {
     if (pose.points.cols() != n) {
@@ -73,8 +72,7 @@ Json pack_weights(const SparseWeights& weights) {
     counts.push_back(static_cast<std::uint8_t>(count));
   }
   return {{"counts", numbers_to_base64(counts)},
-          {"controlPoints",
-           pack_indices(weights.control_points(), weights.num_control_points())},
+          {"controlPoints", pack_indices(weights.control_points(), weights.num_control_points())},
           {"values", pack<float>(weights.values())}};
 }
 
@@ -232,9 +230,9 @@ std::string make_page(const PageContent<Dim>& content) {
   return page.substr(0, begin) + data + page.substr(begin + place.size());
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                   \
+#define FLBC_INSTANTIATE(Dim)                                                                      \
   template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
-                                                           const FacetList<Dim>&);              \
+                                                           const FacetList<Dim>&);                 \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -22,6 +22,13 @@ struct ShownCage {
   std::string text{};
 };
 
+//! A model as it is shown.
+template <int Dim>
+struct ShownModel {
+  PointList<Dim> points{};  //!< Dim x P
+  gltf::Surface surface{};  //!< of these points; without triangles points are shown
+};
+
 //! The cage in another place.
 template <int Dim>
 struct ShownPose {
@@ -34,15 +41,15 @@ struct ShownPose {
 template <int Dim>
 struct PageContent {
   std::string title{};
-  std::string model_file{};    //!< these three as the command that the page offers has them
+  std::string model_file{};  //!< these three as the command that the page offers has them
   std::string weights_file{};
   std::string cage_file{};
   ShownCage<Dim> cage{};
-  PointList<Dim> points{};             //!< Dim x P, of the model
-  gltf::Surface surface{};             //!< of these points; without triangles points are shown
-  WeightMatrix weights{};              //!< n x P, at most kMostInfluences in every column
+  PointList<Dim> points{};  //!< Dim x P, of the model
+  gltf::Surface surface{};  //!< of these points; without triangles points are shown
+  WeightMatrix weights{};   //!< n x P, at most kMostInfluences in every column
   std::vector<ShownPose<Dim>> poses{};
-  std::string picture{};               //!< data URI of a texture, or empty
+  std::string picture{};  //!< data URI of a texture, or empty
 };
 
 //! The edges of a cage's polygons; of its facets if there are none.
@@ -51,8 +58,8 @@ std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<In
                                                 const FacetList<Dim>& facets);
 
 //! The page, which needs no other file and no network.
-//! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535 control
-//! points
+//! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535
+//! control points
 template <int Dim>
 std::string make_page(const PageContent<Dim>& content);
 

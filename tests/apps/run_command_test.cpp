@@ -67,7 +67,7 @@ class RunCommand : public CommandLineTest {
     EXPECT_EQ(result.output, "");
     const Names expected{domain,         "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
                          "deformed.obj", "model.glb",   "function.png",       "deformation.png",
-                         "report.json"};
+                         "model.html",   "report.json"};
     EXPECT_EQ(names_in("out"), expected);
     for (const auto& file : expected) {
       EXPECT_NE(result.errors.find("  " + file + ' '), std::string::npos) << file;
@@ -110,7 +110,7 @@ class RunCommand : public CommandLineTest {
     EXPECT_EQ(json["deform"][0]["file"], "deformed.obj");
     EXPECT_GT(json["deform"][0]["largest_displacement"], 0.1);
     EXPECT_EQ(json["export"]["bytes"], fs::file_size(path("out/model.glb")));
-    for (const char* step : {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures"})
+    for (const char* step : {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures", "page"})
       EXPECT_GE(json["seconds"][step], 0) << step;
   }
 };
@@ -173,7 +173,7 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
     const auto domain = path("out/domain" + extension);
     EXPECT_EQ(names_in("out"), (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
                                       "deformed" + extension, "model.glb", "function.png",
-                                      "deformation.png", "report.json"}));
+                                      "deformation.png", "model.html", "report.json"}));
     expect_same(
         "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --cage " + pose,
         "m" + extension, "out/deformed" + extension);
@@ -214,7 +214,8 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   expect_run("out", common, 0, "points");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "function.png", "report.json", "notes.txt", "deformed_009.obj"}));
+                   "model.glb", "function.png", "model.html", "report.json", "notes.txt",
+                   "deformed_009.obj"}));
   EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
 }
 
@@ -295,7 +296,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // Not converged is no failure of a step.
   expect_run("early", sample("2d/letter_cage.obj") + " --max-iterations 10 --vertices 500 -q", 3,
              "not converged within 10 iterations");
-  EXPECT_EQ(names_in("early").size(), 6U);
+  EXPECT_EQ(names_in("early").size(), 7U);
   EXPECT_EQ(report("early")["solve"]["converged"], false);
 }
 

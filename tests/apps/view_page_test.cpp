@@ -134,7 +134,8 @@ TYPED_TEST(ViewPage, HoldsWhatItWasGiven) {
 
 TYPED_TEST(ViewPage, IsOneFileWithoutNetwork) {
   const auto page = make_page(cube_content<TypeParam::value>());
-  for (const char* word : {"{{", "http:", "https:", "src=", "<link rel=\"stylesheet", "</script><b>"}) {
+  for (const char* word :
+       {"{{", "http:", "https:", "src=", "<link rel=\"stylesheet", "</script><b>"}) {
     EXPECT_EQ(page.find(word), std::string::npos) << word;
   }
   EXPECT_EQ(page.find("\nimport "), std::string::npos);
@@ -175,9 +176,13 @@ TYPED_TEST(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
 }
 
 TEST(ViewBase64, IsThatOfTheStandard) {
-  const std::pair<const char*, const char*> examples[] = {
-      {"", ""},         {"f", "Zg=="},        {"fo", "Zm8="},        {"foo", "Zm9v"},
-      {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::pair<const char*, const char*> examples[] = {{"", ""},
+                                                          {"f", "Zg=="},
+                                                          {"fo", "Zm8="},
+                                                          {"foo", "Zm9v"},
+                                                          {"foob", "Zm9vYg=="},
+                                                          {"fooba", "Zm9vYmE="},
+                                                          {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : examples) EXPECT_EQ(to_base64(bytes), text);
   std::string all;
   for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
@@ -202,10 +207,10 @@ class ViewCommand : public testing::CommandLineTest {
   // The samples with weights of few influences, and all but the output.
   std::string sample_arguments(const std::string& name) const {
     const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
-    EXPECT_EQ(run("solve " + cage + " --method meanvalue -q --model " + model + " -o " +
-                  path("w.npy"))
-                  .status,
-              0);
+    EXPECT_EQ(
+        run("solve " + cage + " --method meanvalue -q --model " + model + " -o " + path("w.npy"))
+            .status,
+        0);
     return model + " --weights " + path("w.npy") + " --cage " + cage;
   }
 };

@@ -56,6 +56,15 @@ for (const dim of [2, 3]) {
     }
   });
 
+  test(`camera in ${dim}D: what is framed is seen, and fills the picture`, () => {
+    const camera = cameraOf(dim);
+    camera.frame(kCube);
+    const spots = [...Array(8).keys()].map((i) => camera.project(Array.from(kCube.slice(3 * i, 3 * i + 3))));
+    for (const { x, y } of spots) assert.ok(x > 0 && x < 800 && y > 0 && y < 600);
+    const shares = spots.map(({ x, y }) => Math.max(Math.abs(x - 400) / 400, Math.abs(y - 300) / 300));
+    assert.ok(Math.max(...shares) > 0.8);
+  });
+
   test(`camera in ${dim}D: a step follows the pointer, a zoom keeps what is under it`, () => {
     const camera = cameraOf(dim);
     const place = [0.5, -0.75, dim === 3 ? 0.25 : 0];

@@ -2,7 +2,7 @@
 // Pages of flbc view under a mouse: page_test.mjs BROWSER PROGRAM MESHES WORK
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import puppeteer from "puppeteer-core";
@@ -96,8 +96,8 @@ class Page {
       requestAnimationFrame(() => requestAnimationFrame(done));
     }));
     const stage = await this.tab.$("#canvas");
-    const base64 = await stage.screenshot({ encoding: "base64",
-                                            path: file && join(work, file) });
+    const base64 = await stage.screenshot({ encoding: "base64" });
+    if (file) writeFileSync(join(work, file), Buffer.from(base64, "base64"));
     return this.tab.evaluate(async (data) => {
       const image = new Image();
       image.src = `data:image/png;base64,${data}`;
@@ -252,7 +252,7 @@ async function testButtons(name, theme) {
     await page.ask("select", [0, 1]);
     await page.press(id);
     if (id === "help") await tab.keyboard.press("Escape");
-    if (id === "play") await page.press(id);
+    if (["play", "theme", "cage", "edges"].includes(id)) await page.press(id);
   }
   await page.downloaded(`${name}_model_pose.obj`);
   await page.downloaded(`${name}_model_posed.obj`);

@@ -103,14 +103,16 @@ export class Camera {
   frame(points) {
     const { center, radius } = boundingSphere(points);
     this.target = center;
-    const { right, up } = this.axes();
-    let halfWidth = 0, halfHeight = 0;
+    const { right, up, toward } = this.axes();
+    const perspective = this.dim === 3 ? kPerspective : 0;
+    let wanted = 0.02 * radius;
     for (let i = 0; i < points.length / 3; ++i) {
-      const offset = subtract(pointAt(points, i), center);
-      halfWidth = Math.max(halfWidth, Math.abs(dot(right, offset)));
-      halfHeight = Math.max(halfHeight, Math.abs(dot(up, offset)));
+      const offset = times(kMargin, subtract(pointAt(points, i), center));
+      const extent = Math.max(Math.abs(dot(up, offset)),
+                              Math.abs(dot(right, offset)) * this.height / this.width);
+      // What is nearer than the target appears larger.
+      wanted = Math.max(wanted, extent + perspective * dot(toward, offset));
     }
-    const wanted = Math.max(halfHeight, halfWidth * this.height / this.width, 0.02 * radius);
-    this.halfHeight = kMargin * wanted * (this.dim === 3 ? 1.08 : 1);
+    this.halfHeight = wanted;
   }
 }

@@ -104,12 +104,13 @@ export class Viewer {
     return Math.max(6, Math.min(14, 0.35 * spacing));
   }
 
-  // Shows the selection, or everything.
+  // Shows the selection, or the cage as it is and in all of its poses.
   frame(indices = []) {
-    const { editor, camera } = this;
-    const listed = indices.length > 1 ? indices.flatMap((i) => pointAt(editor.points, i))
-                                      : Array.from(editor.points);
-    camera.frame(listed);
+    const { editor, camera, content } = this;
+    const everything = () => [editor.points, ...content.poses.map((pose) => pose.points)]
+      .flatMap((points) => Array.from(points));
+    camera.frame(indices.length > 1 ? indices.flatMap((i) => pointAt(editor.points, i))
+                                    : everything());
     this.isFramed = true;
     this.redraw();
   }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "draw/model_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/weight_painter.h"
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+namespace {
+
+void check_indices(const DrawnModel& model, const ModelPlace& place) {
+  const auto num_points = place.points.cols();
+  const auto num_control_points = place.control_points.cols();
+  if (!place.points.allFinite() || !place.control_points.allFinite()) {
+    throw InputError("a point of the model or of its cage is not finite");
+  }
+  if (model.triangles.size() > 0 &&
+      (model.triangles.minCoeff() < 0 || model.triangles.maxCoeff() >= num_points)) {
+    throw InputError("a triangle of the model refers to a point that does not exist");
+  }
+  for (const auto& [i, j] : model.cage_edges) {
+    if (std::min(i, j) < 0 || std::max(i, j) >= num_control_points) {
+      throw InputError("an edge of the cage refers to a control point that does not exist");
+    }
+  }
+}
+
+void check(const DrawnModel& model, const std::vector<ModelPlace>& places,
+           const ShownValues& shown) {
+  if (places.empty()) throw InputError("there is no place of the model to draw");
+  const auto& first = places.front();
+  for (const auto& place : places) {
+    if (place.points.cols() != first.points.cols() ||
+        place.control_points.cols() != first.control_points.cols()) {
+      throw InputError("the model or its cage has another number of points before than after");
+    }
+    check_indices(model, place);
+  }
+  if (shown.values.size() != 0 && shown.values.size() != first.points.cols()) {
+    throw InputError("there are values of " + std::to_string(shown.values.size()) +
+                     " points, but the model has " + std::to_string(first.points.cols()));
+  }
+  if (!shown.values.allFinite()) throw InputError("a value to be shown is not finite");
+}
+
+// All that the model and its cage cover in any of the places.
+Box common_box(const std::vector<ModelPlace>& places, const ObliqueView& view) {
+  PointList<2> ends(2, 0);
+  for (const auto& place : places) {
+    for (const auto* points : {&place.points, &place.control_points}) {
+      if (points->cols() == 0) continue;
+      const PointList<2> seen = view.project(*points);
+      ends.conservativeResize(2, ends.cols() + 2);
+      ends.rightCols(2) << seen.rowwise().minCoeff(), seen.rowwise().maxCoeff();
+    }
+  }
+  return bounding_box(ends);
+}
+
+bool is_lengths(const ShownValues& shown) {
+  return shown.values.size() > 0 && shown.control_point < 0;
+}
+
+void paint_bar(Canvas& canvas, const Box& bar, const ShownValues& shown, double largest,
+               const WeightPictureOptions& options) {
+  if (shown.values.size() == 0) return;
+  if (is_lengths(shown)) {
+    paint_length_bar(canvas, bar, largest, options);
+    return;
+  }
+  auto without_lines = options;
+  without_lines.isolines = 0;
+  paint_color_bar(canvas, bar, shown.control_point, shown.values.minCoeff(),
+                  shown.values.maxCoeff(), without_lines);
+}
+
+}  // namespace
+
+Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
+                 const ShownValues& shown, const ObliqueView& view,
+                 const WeightPictureOptions& options) {
+  validate(options);
+  check(model, places, shown);
+  const Box content = common_box(places, view);
+  const Vector<2> size = content.size();
+  const bool beside = size.x() < 1.6 * size.y();
+  const double gap = 0.06 * size.maxCoeff();
+  const Vector<2> step = beside ? Vector<2>(size.x() + gap, 0) : Vector<2>(0, -size.y() - gap);
+  const auto steps = static_cast<double>(places.size() - 1);
+  const Vector<2> last = steps * step;
+  const Box all{content.low + last.cwiseMin(0.0), content.high + last.cwiseMax(0.0)};
+
+  auto shown_options = options;
+  shown_options.color_bar = options.color_bar && shown.values.size() > 0;
+  const PictureLayout layout = plan_picture(all, shown_options);
+  const double largest = is_lengths(shown) ? shown.values.maxCoeff() : 1;
+  const Eigen::VectorXd values =
+      largest > 0 ? Eigen::VectorXd(shown.values / largest) : shown.values;
+  Canvas canvas(layout.width, layout.height, kWhite);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    paint_model(canvas,
+                {model, places[k], values, shown.control_point, view, PixelMap(all, layout.frame),
+                 static_cast<double>(k) * step, std::max(0.6, pixel_unit(options))});
+  }
+  if (shown_options.color_bar) paint_bar(canvas, layout.color_bar, shown, largest, options);
+  return canvas.resolve();
+}
+
+Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
+                       const WeightMatrix& weights, const ObliqueView& view,
+                       const WeightPictureOptions& options) {
+  validate(options);
+  check(model, {place}, {});
+  const auto count = static_cast<int>(place.control_points.cols());
+  if (weights.rows() != count || weights.cols() != place.points.cols()) {
+    throw InputError("the weights do not belong to this model and cage");
+  }
+  const Box content = common_box({place}, view);
+  const double aspect = std::clamp(content.size().y() / content.size().x(), 0.2, 5.0);
+  const int columns =
+      std::clamp(static_cast<int>(std::lround(std::sqrt(4.0 / 3 * aspect * count))), 1, count);
+  const int rows = (count + columns - 1) / columns;
+  const double unit = pixel_unit(options);
+  const double margin = 26 * unit;
+  const double label = 44 * unit;
+  const double width = (options.width - margin) / columns - margin;
+  const double row_height = label + aspect * width + margin;
+  Canvas canvas(options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)),
+                kWhite);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::VectorXd values = weights.row(i);
+    check_weight(values, static_cast<Index>(place.points.cols()), i, count);
+    const Vector<2> corner(margin + (i % columns) * (width + margin),
+                           label + (i / columns) * row_height);
+    const Box frame{corner, corner + Vector<2>(width, aspect * width)};
+    paint_model(canvas, {model, place, values, i, view, PixelMap(content, frame), Vector<2>::Zero(),
+                         std::max(0.4, 0.5 * unit)});
+    paint_symbol(canvas, {frame.center().x(), corner.y() - 18 * unit}, i, 18 * unit);
+  }
+  return canvas.resolve();
+}
+
+}  // namespace flbc::draw

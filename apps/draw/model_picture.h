@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Pictures of a model in space and its cage.
+#pragma once
+
+#include <vector>
+
+#include "draw/model_painter.h"
+#include "draw/picture_options.h"
+
+namespace flbc::draw {
+
+//! What the colours of a surface show.
+struct ShownValues {
+  Eigen::VectorXd values{};  //!< P, weights of a control point or lengths; empty: a plain surface
+  Index control_point = -1;  //!< whose weights they are, -1 for lengths
+};
+
+//! The view that shows most models well: from the front, the right and above.
+constexpr double kUsualAzimuth = 35;
+constexpr double kUsualElevation = 18;
+
+//! Draws the model in one or several places, side by side or, if they are wide, one above the
+//! other, in the same scale and the same frame.
+//! \param places  at least one
+//! \throws InputError if sizes and indices do not belong together or a number is not finite,
+//! OptionError as draw_weights()
+Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
+                 const ShownValues& shown, const ObliqueView& view,
+                 const WeightPictureOptions& options = {});
+
+//! Draws a sheet of the model coloured by one coordinate function after the other.
+//! \param weights  n x P \throws as draw_model()
+Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
+                       const WeightMatrix& weights, const ObliqueView& view,
+                       const WeightPictureOptions& options = {});
+
+}  // namespace flbc::draw

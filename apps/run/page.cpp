@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/page.h"
+
+#include <string>
+
+#include "flbc/io/files.h"
+#include "run/facts.h"
+#include "view/influences.h"
+#include "view/model_page.h"
+
+namespace flbc::app {
+namespace {
+
+// With the edges and the text of its file, which cannot be read again from standard input.
+template <int Dim>
+view::ShownCage<Dim> shown_cage(const Run<Dim>& run) {
+  const auto& file = run.arguments.settings.cage;
+  if (file != "-") return load_shown_cage<Dim>(file);
+  return {run.cage.points, run.cage.facets, view::edges_of_cage<Dim>({}, run.cage.facets)};
+}
+
+// Without the rest from where animations of cage files start.
+template <int Dim>
+std::vector<double> times_of(const Run<Dim>& run) {
+  const auto& times = run.inputs.animation.times;
+  return {times.end() - static_cast<std::ptrdiff_t>(run.poses().size()), times.end()};
+}
+
+}  // namespace
+
+template <int Dim>
+void write_page(Run<Dim>& run) {
+  const auto& shape = run.shape();
+  const auto& model = run.arguments.settings.model;
+  view::PageContent<Dim> content;
+  content.title = shape.name;
+  const auto path = run.folder.path_of(kPage);
+  content.model_file = run.has_model() ? path_beside(path, model)
+                                       : run.report["mesh"]["file"].template get<std::string>();
+  content.weights_file = kSparseWeights;
+  content.cage_file = path_beside(path, run.arguments.settings.cage);
+  content.cage = shown_cage(run);
+  content.points = shape.points;
+  content.surface = shape.surface;
+  content.weights =
+      view::limit_influences<Dim>(run.cage.points, shape.points, run.sparse, view::kMostInfluences);
+  content.poses = shown_poses(run.poses(), times_of(run));
+  const auto page = view::make_page(content);
+  run.report["page"] = {{"file", kPage}, {"bytes", page.size()}};
+  Facts facts;
+  facts << "a page to move the cage in; " << static_cast<double>(page.size()) / 1e6 << " MB";
+  run.folder.add(kPage, facts.text(), [&](const std::string& name) {
+    io::write_file(name, [&](std::ostream& file) { file << page; });
+  });
+}
+
+template void write_page(Run<2>&);
+template void write_page(Run<3>&);
+
+}  // namespace flbc::app

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of models in space: what is nearer covers what is farther, what is hidden is pale.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "draw/colormap.h"
+#include "draw/model_picture.h"
+#include "draw/model_view.h"
+#include "flbc/errors.h"
+#include "support/command_line.h"
+
+namespace flbc::draw {
+namespace {
+
+constexpr int kWidth = 300;
+
+WeightPictureOptions small_picture() {
+  WeightPictureOptions options;
+  options.width = kWidth;
+  options.color_bar = false;
+  return options;
+}
+
+// Two squares in front of each other, the one with z = 1 of value 1, the other of value 0, in a
+// cage of two triangles: one before both, one behind.
+struct Squares {
+  DrawnModel model;
+  ModelPlace place;
+  ShownValues shown;
+
+  Squares() {
+    model.triangles.resize(3, 4);
+    model.triangles << 0, 0, 4, 4, 1, 2, 5, 6, 2, 3, 6, 7;
+    place.points.resize(3, 8);
+    place.points << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
+    shown.values = (Eigen::VectorXd(8) << 0, 0, 0, 0, 1, 1, 1, 1).finished();
+    shown.control_point = 0;
+    place.control_points.resize(3, 6);
+    place.control_points << -2, 2, -2, -2, 2, -2, -2, -2, 2, -2, -2, 2, 2, 2, 2, -1, -1, -1;
+    model.cage_edges = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}};
+  }
+  Image draw(const ObliqueView& view) const {
+    return draw_model(model, {place}, shown, view, small_picture());
+  }
+};
+
+// How far a colour is from being the other one in some light.
+double difference_in_hue(Color a, Color b) {
+  const Eigen::Vector3d u(a.r, a.g, a.b), v(b.r, b.g, b.b);
+  return std::acos(std::min(1.0, u.normalized().dot(v.normalized())));
+}
+
+double darkness(Color color) {
+  return 1 - (color.r + color.g + color.b) / 3;
+}
+
+TEST(ModelPicture, TheNearerSurfaceCoversTheFarther) {
+  const Squares squares;
+  for (const auto& [azimuth, value] : {std::pair(0.0, 1.0), {180.0, 0.0}, {20.0, 1.0}}) {
+    const auto image = squares.draw(view_by_angles(azimuth, 0));
+    const auto center = image.at(image.width / 2 + 20, image.height / 2 + 20);
+    EXPECT_LT(difference_in_hue(center, weight_color(value)), 0.02) << azimuth;
+    EXPECT_GT(difference_in_hue(center, weight_color(1 - value)), 0.1) << azimuth;
+  }
+}
+
+TEST(ModelPicture, HiddenWireIsPale) {
+  // The same wire before a plain surface and behind it; the surface has one colour.
+  Squares squares;
+  squares.shown = {};
+  const auto darkest_change = [&](const ObliqueView& view, double front) {
+    auto with = squares, without = squares;
+    with.model.cage_edges = front > 0 ? decltype(with.model.cage_edges){{0, 1}, {1, 2}, {2, 0}}
+                                      : decltype(with.model.cage_edges){{3, 4}, {4, 5}, {5, 3}};
+    without.model.cage_edges.clear();
+    const auto a = with.draw(view), b = without.draw(view);
+    double most = 0;
+    for (int y = a.height / 2 - 30; y < a.height / 2 + 30; ++y) {
+      for (int x = a.width / 2 - 30; x < a.width / 2 + 30; ++x) {
+        most = std::max(most, darkness(a.at(x, y)) - darkness(b.at(x, y)));
+      }
+    }
+    return most;
+  };
+  const auto view = view_by_angles(0, 0);
+  const double visible = darkest_change(view, 1), hidden = darkest_change(view, -1);
+  EXPECT_GT(hidden, 0.02);
+  EXPECT_GT(visible, 2 * hidden);
+}
+
+TEST(ModelPicture, NamesWhatDoesNotFit) {
+  Squares squares;
+  const auto view = view_by_angles(kUsualAzimuth, kUsualElevation);
+  EXPECT_THROW(draw_model(squares.model, {}, squares.shown, view), InputError);
+  squares.shown.values = Eigen::VectorXd::Zero(3);
+  EXPECT_THROW(squares.draw(view), InputError);
+  squares = Squares();
+  squares.place.points(1, 2) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(squares.draw(view), InputError);
+  squares = Squares();
+  squares.model.triangles(0, 0) = 8;
+  EXPECT_THROW(squares.draw(view), InputError);
+  squares = Squares();
+  squares.model.cage_edges.push_back({0, 6});
+  EXPECT_THROW(squares.draw(view), InputError);
+}
+
+TEST(ModelPicture, ViewsAreRightHanded) {
+  for (const auto& [azimuth, elevation] :
+       {std::pair(0.0, 0.0), {90.0, 0.0}, {0.0, 90.0}, {35.0, 18.0}}) {
+    const auto view = view_by_angles(azimuth, elevation);
+    EXPECT_LT((view.right.cross(view.up) - view.toward).norm(), 1e-15);
+  }
+  EXPECT_LT((view_by_angles(0, 0).toward - Vector<3>::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((view_by_angles(90, 0).toward - Vector<3>::UnitX()).norm(), 1e-15);
+  EXPECT_LT((view_by_angles(0, 90).toward - Vector<3>::UnitY()).norm(), 1e-15);
+}
+
+class DrawModel : public testing::CommandLineTest {
+ protected:
+  void expect_picture(const std::string& arguments) const {
+    const auto result = run("draw " + arguments + " --width 300 -o " + path("p.png"));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(testing::slurp(path("p.png")).substr(1, 3), "PNG") << arguments;
+    const auto first = testing::slurp(path("p.png"));
+    EXPECT_EQ(run("draw " + arguments + " --width 300 -o " + path("p.png")).status, 0);
+    EXPECT_EQ(testing::slurp(path("p.png")), first) << arguments;
+    std::filesystem::remove(path("p.png"));
+  }
+  void expect_failure(const std::string& arguments, int status, const std::string& words) const {
+    const auto result = run("draw " + arguments + " -o " + path("p.png"));
+    EXPECT_EQ(result.status, status) << arguments;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(path("p.png")));
+  }
+};
+
+TEST_F(DrawModel, BothDimensions) {
+  for (const std::string name : {"2d/figure", "3d/limb"}) {
+    const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
+    const auto pose = " --pose " + sample(name + "_cage_pose.obj");
+    ASSERT_EQ(
+        run("solve " + cage + " --method meanvalue -q --model " + model + " -o " + path("w.npy"))
+            .status,
+        0);
+    const auto common = "--model " + model + " --weights " + path("w.npy") + " --cage " + cage;
+    expect_picture(common + " --control-point 3");
+    expect_picture(common + pose);
+    expect_picture(common + " --all");
+    expect_failure(common + " --color displacement", 1, "needs --pose");
+    expect_failure(common + pose + " --color red", 1, "displacement|weight|plain");
+    expect_failure(common + " --control-point 1000", 1, "--control-point must be in [0, ");
+    expect_failure("--weights " + path("w.npy") + " --cage " + cage, 1, "--model");
+    if (name[0] == '2') {
+      expect_failure(common + " --color plain", 1, "3D");
+    } else {
+      expect_picture(common + pose + " --color plain --view 120,-30");
+      expect_failure(common + " --view 1,2,3", 1, "AZIMUTH,ELEVATION");
+      expect_failure(common + " --pose " + sample("3d/star_cage.obj"), 2, "star_cage.obj");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flbc::draw
