@@ -192,9 +192,8 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
 
 void add_options(CLI::App& command, DrawArguments& a) {
   auto* domain = command.add_option("DOMAIN", a.domain, "mesh (see flbc solve --save-domain)");
-  auto* model = command.add_option("--model", a.model,
-                                   "draw a model instead: .obj .off .ply .stl, or the boundary of "
-                                   "a mesh");
+  auto* model =
+      command.add_option("--model", a.model, "draw a model instead, or the boundary of a mesh");
   model->excludes(domain);
   command.add_option("--weights", a.weights, "weights at its vertices")->required();
   command.add_option("--cage", a.cage, "the cage they belong to")->required();

@@ -155,9 +155,10 @@ void add_view_command(CLI::App& app, int& exit_status) {
       "The page is one file that any browser opens, without network. It moves the model as flbc\n"
       "deform does, saves poses of the cage as OBJ, and tells its keys with '?'.");
   command
-      ->add_option("MODEL", a.model,
-                   "model (.obj, .off, .ply, .stl) or domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh), of which the boundary is shown")
+      ->add_option(
+          "MODEL", a.model,
+          "model (.obj .off .ply .stl .om), or mesh of the interior, of which the boundary "
+          "is shown")
       ->required();
   command
       ->add_option("--weights", a.weights,
