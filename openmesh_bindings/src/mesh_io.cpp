@@ -9,7 +9,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
-#include "silenced.h"
+#include "flbc/openmesh/silenced.h"
 
 namespace flbc::openmesh {
 namespace {

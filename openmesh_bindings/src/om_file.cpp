@@ -8,7 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "silenced.h"
+#include "flbc/openmesh/silenced.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/state_record.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "flbc/content_hash.h"
+#include "flbc/errors.h"
 #include "flbc/names.h"
 
 namespace flbc::openmesh {
 
 template <int Dim>
 StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                     const SolverOptions& options) {
+                     const SolverOptions& options, const Eigen::MatrixXd& phi) {
   StateRecord record;
   record.method = name_of(options.method);
   if (options.non_negative == NonNegative::kConstraint) record.method += ", non-negative";
   record.precision = name_of(options.precision);
-  record.phi = name_of(options.phi);
+  record.phi = phi.size() > 0 ? content_hash(phi).text() : name_of(options.phi);
   record.control_points = cage.size();
   record.cage = content_hash(cage.points, cage.facets).text();
   record.points = content_hash(mesh.points).text();
@@ -24,11 +27,17 @@ StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 }
 
 std::string to_json(const StateRecord& record) {
-  const nlohmann::ordered_json json = {
-      {"method", record.method},   {"precision", record.precision},
-      {"phi", record.phi},         {"control_points", record.control_points},
-      {"penalty", record.penalty}, {"cage", record.cage},
-      {"points", record.points},   {"cells", record.cells}};
+  const nlohmann::ordered_json json = {{"method", record.method},
+                                       {"precision", record.precision},
+                                       {"phi", record.phi},
+                                       {"control_points", record.control_points},
+                                       {"penalty", record.penalty},
+                                       {"requested_penalty", record.requested_penalty},
+                                       {"used_penalty", record.used_penalty},
+                                       {"finished", record.finished},
+                                       {"cage", record.cage},
+                                       {"points", record.points},
+                                       {"cells", record.cells}};
   return json.dump();
 }
 
@@ -43,6 +52,9 @@ StateRecord parse_state_record(const std::string& text) {
     record.cage = json.at("cage");
     record.points = json.at("points");
     record.cells = json.at("cells");
+    record.requested_penalty = json.at("requested_penalty");
+    record.used_penalty = json.at("used_penalty");
+    record.finished = json.at("finished");
     record.penalty = json.at("penalty");
   } catch (const nlohmann::json::exception&) {
     return {};
@@ -50,8 +62,21 @@ StateRecord parse_state_record(const std::string& text) {
   return record;
 }
 
-bool same_method(const StateRecord& a, const StateRecord& b) {
-  return a.method == b.method && a.precision == b.precision && a.phi == b.phi;
+std::string why_restart(const StateRecord& kept, const StateRecord& now) {
+  const auto differs = [](const char* what, const std::string& before, const std::string& after) {
+    return std::string("the ") + what + " was " + before + ", is " + after;
+  };
+  if (kept.method.empty()) return "there is no state";
+  if (!kept.finished) return "the run that left the state did not come to its end";
+  if (!(kept.penalty > 0)) return "there is no state";
+  if (kept.method != now.method) return differs("method", kept.method, now.method);
+  if (kept.precision != now.precision) return differs("precision", kept.precision, now.precision);
+  if (kept.phi != now.phi) return differs("phi", kept.phi, now.phi);
+  return {};
+}
+
+bool rescales_duals(Method method) {
+  return method == Method::kGradient || method == Method::kPaper;
 }
 
 std::string find_mismatch(const StateRecord& kept, const StateRecord& now) {
@@ -65,7 +90,27 @@ std::string find_mismatch(const StateRecord& kept, const StateRecord& now) {
   return {};
 }
 
-template StateRecord describe(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&);
-template StateRecord describe(const Cage<3>&, const DomainMesh<3>&, const SolverOptions&);
+namespace internal {
+
+void require_phi(const Eigen::MatrixXd& phi, Index control_points, const std::string& name) {
+  if (phi.rows() != control_points) {
+    throw InputError("property '" + name + "' has phi of " + std::to_string(phi.rows()) +
+                     " control points, the cage has " + std::to_string(control_points));
+  }
+  for (Eigen::Index s = 0; s < phi.cols(); ++s) {
+    for (Eigen::Index i = 0; i < phi.rows(); ++i) {
+      if (phi(i, s) >= 0 && std::isfinite(phi(i, s))) continue;
+      throw InputError("property '" + name + "' has no phi >= 0 for cell " + std::to_string(s) +
+                       ", control point " + std::to_string(i));
+    }
+  }
+}
+
+}  // namespace internal
+
+template StateRecord describe(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&,
+                              const Eigen::MatrixXd&);
+template StateRecord describe(const Cage<3>&, const DomainMesh<3>&, const SolverOptions&,
+                              const Eigen::MatrixXd&);
 
 }  // namespace flbc::openmesh

@@ -186,10 +186,131 @@ TYPED_TEST(LbcTest, RefusesAStateThatBelongsToSomethingElse) {
   expect_refused("cage has changed", [&] { openmesh::solve(mesh, cage, options, properties); });
   properties.restart = true;
   EXPECT_NO_THROW(openmesh::solve(mesh, cage, options, properties));
-  // Another method starts afresh.
+}
+
+TYPED_TEST(LbcTest, ReportsWhetherItWentOn) {
+  constexpr int kDimension = kDim<TypeParam>;
+  const auto sample = make_sample<kDimension>(Shape::kBox, 3, 0.2);
+  auto mesh = build<TypeParam>(sample.mesh);
+  SolverOptions options;
+  options.max_iterations = 10;
+  openmesh::PropertyOptions properties;
+  properties.keep_state = true;
+  const auto expect = [&](bool resumed, const std::string& reason) {
+    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
+    EXPECT_EQ(report.resumed, resumed) << report.restart;
+    EXPECT_EQ(report.restart, reason);
+  };
+  expect(false, "there is no state");
+  expect(true, "");
+  properties.restart = true;
+  expect(false, "it was asked for");
   properties.restart = false;
+  options.phi = DistanceScheme::kLinear;
+  expect(false, "the phi was square, is linear");
+  options.precision = Precision::kDouble;
+  expect(false, "the precision was single, is double");
   options.method = Method::kGradient;
-  EXPECT_NO_THROW(openmesh::solve(mesh, sample.cage, options, properties));
+  expect(false, "the method was value, non-negative, is gradient");
+  expect(true, "");
+  properties.keep_state = false;
+  expect(true, "");
+  expect(false, "there is no state");
+}
+
+// The duals that solve the problem do not depend on the penalty: whoever is at the optimum stays
+// there under another one.
+TYPED_TEST(LbcTest, GoesOnUnderAnotherPenaltyOrRefuses) {
+  constexpr int kDimension = kDim<TypeParam>;
+  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
+  SolverOptions options;
+  options.method = Method::kGradient;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-6;
+  options.penalty = 1e-6;
+  openmesh::PropertyOptions properties;
+  properties.keep_state = true;
+  auto mesh = build<TypeParam>(sample.mesh);
+  const auto first = openmesh::solve(mesh, sample.cage, options, properties);
+  ASSERT_EQ(first.status, SolveStatus::kConverged);
+  const auto weights = openmesh::get_weights(mesh);
+  for (const double penalty : {4e-6, 5e-7, 0.}) {
+    options.penalty = penalty;
+    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
+    EXPECT_TRUE(report.resumed);
+    EXPECT_EQ(report.status, SolveStatus::kConverged);
+    EXPECT_LE(report.iterations, first.iterations / 4 + options.check_interval);
+    EXPECT_LT((openmesh::get_weights(mesh) - weights).cwiseAbs().maxCoeff(), 1e-2);
+  }
+
+  options.method = Method::kValue;
+  options.tolerance = 0;
+  options.penalty = 0.02;
+  openmesh::solve(mesh, sample.cage, options, properties);
+  options.penalty = 0.04;
+  expect_refused("under another penalty",
+                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
+  options.penalty = 0;
+  EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
+}
+
+// What an exception leaves half done is no state to go on from.
+TYPED_TEST(LbcTest, AnInterruptedRunLeavesNoState) {
+  constexpr int kDimension = kDim<TypeParam>;
+  const auto sample = make_sample<kDimension>(Shape::kBox, 3, 0.2);
+  for (const auto method : {Method::kValue, Method::kGradient}) {
+    auto mesh = build<TypeParam>(sample.mesh);
+    SolverOptions options;
+    options.method = method;
+    options.tolerance = 1e-20;
+    options.max_iterations = 20;
+    openmesh::PropertyOptions properties;
+    properties.keep_state = true;
+    openmesh::solve(mesh, sample.cage, options, properties);
+    const auto weights = openmesh::get_weights(mesh);
+    auto interrupted = options;
+    interrupted.progress = [](const Progress&) -> bool { throw SolverError("interrupted"); };
+    EXPECT_THROW(openmesh::solve(mesh, sample.cage, interrupted, properties), SolverError);
+    EXPECT_EQ(openmesh::get_weights(mesh), weights);
+    EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
+    EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:gradient")));
+    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
+    EXPECT_FALSE(report.resumed);
+    EXPECT_EQ(report.restart, "the run that left the state did not come to its end");
+    EXPECT_EQ(openmesh::get_weights(mesh), weights);
+  }
+}
+
+TYPED_TEST(LbcTest, PhiIsAPropertyOnRequest) {
+  constexpr int kDimension = kDim<TypeParam>;
+  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
+  auto mesh = build<TypeParam>(sample.mesh);
+  openmesh::PropertyOptions properties;
+  properties.phi = "phi";
+  SolverOptions options;
+  openmesh::solve(mesh, sample.cage, options, properties);
+  const auto weights = openmesh::get_weights(mesh);
+  typename openmesh::PropertyHandles<TypeParam>::template Cell<Wide<double>> handle;
+  ASSERT_TRUE(mesh.get_property_handle(handle, "phi"));
+  auto& phi = mesh.property(handle);
+  // What was left is what was used, whatever the options say.
+  options.phi = DistanceScheme::kConstant;
+  openmesh::solve(mesh, sample.cage, options, properties);
+  EXPECT_EQ(openmesh::get_weights(mesh), weights);
+  // A user's own: constant, which the options have as well.
+  for (std::size_t s = 0; s < phi.n_elements(); ++s) {
+    for (std::size_t i = 0; i < phi.width(); ++i) phi[static_cast<int>(s)][i] = 1;
+  }
+  openmesh::solve(mesh, sample.cage, options, properties);
+  const auto constant = openmesh::get_weights(mesh);
+  properties.phi.clear();
+  openmesh::solve(mesh, sample.cage, options, properties);
+  EXPECT_EQ(openmesh::get_weights(mesh), constant);
+  EXPECT_GT((constant - weights).cwiseAbs().maxCoeff(), 1e-3);
+  properties.phi = "phi";
+  phi[2][1] = -1;
+  expect_refused("for cell 2, control point 1",
+                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
 }
 
 TYPED_TEST(LbcTest, OtherFormsOfTheWeights) {
@@ -303,7 +424,14 @@ TEST(LbcFile, StateAndWeightsSurvive) {
     EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
               0);
     openmesh::solve(mesh, sample.cage, options, properties);
+    // What is loaded and saved again is still there.
+    ASSERT_TRUE(OpenMesh::IO::write_mesh(loaded, path));
+    DoubleMesh again;
+    ASSERT_TRUE(OpenMesh::IO::read_mesh(again, path));
+    EXPECT_EQ(openmesh::get_rest_cage(again), sample.cage.points);
+    EXPECT_TRUE(openmesh::solve(again, sample.cage, options, properties).resumed);
     const auto report = openmesh::solve(loaded, sample.cage, options, properties);
+    EXPECT_EQ(openmesh::get_weights(again), openmesh::get_weights(loaded));
     EXPECT_EQ(report.iterations, 30);
     EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
               0);

@@ -8,10 +8,10 @@
 #include <OpenMesh/Core/Utils/Property.hh>
 
 #include "flbc/errors.h"
-#include "flbc/solver_state.h"
 #include "flbc/openmesh/domain.h"
 #include "flbc/openmesh/tet_mesh.h"
 #include "flbc/openmesh/wide_property.h"
+#include "flbc/solver_state.h"
 
 namespace flbc::openmesh {
 
@@ -70,16 +70,30 @@ class PropertyStorage : public StateStorage {
   double penalty() const override { return penalty_; }
   void keep_penalty(double penalty) override { penalty_ = penalty; }
 
-  //! Goes on from a state with this penalty, if all of it is there.
-  void resume(double penalty, Method method, bool non_negative, Precision precision) {
+  //! Whether all is there that a method goes on from. \param options  resolved
+  bool is_complete(const SolverOptions& options) {
     using A = StateArray;
-    const bool splitting = method == Method::kValue || method == Method::kLbc2014;
-    bool complete = splitting ? has(A::kIterate, precision) && has(A::kSplittingState, precision)
-                              : has(A::kGradient, precision) && has(A::kTvDual, precision) &&
-                                    has(A::kExtrapolatedGradient, precision) &&
-                                    has(A::kIntegrabilityDual, precision);
-    if (splitting && non_negative) complete &= has(A::kNonNegativityDual, precision);
-    penalty_ = complete ? penalty : 0;
+    const auto precision = options.precision;
+    if (options.method == Method::kValue || options.method == Method::kLbc2014) {
+      return has(A::kIterate, precision) && has(A::kSplittingState, precision) &&
+             (options.non_negative != NonNegative::kConstraint ||
+              has(A::kNonNegativityDual, precision));
+    }
+    return has(A::kGradient, precision) && has(A::kTvDual, precision) &&
+           has(A::kExtrapolatedGradient, precision) && has(A::kIntegrabilityDual, precision);
+  }
+
+  //! Goes on from a state with this penalty.
+  void resume(double penalty) { penalty_ = penalty; }
+
+  //! Multiplies the duals of the gradient methods, which are relative to the penalty.
+  void rescale_duals(double factor, Precision precision) {
+    if (factor == 1) return;
+    for (const auto array :
+         {StateArray::kTvDual, StateArray::kIntegrabilityDual, StateArray::kPeriodDual}) {
+      precision == Precision::kSingle ? rescale_as<float>(array, factor)
+                                      : rescale_as<double>(array, factor);
+    }
   }
 
   //! Marks what there is for .om files.
@@ -163,6 +177,16 @@ class PropertyStorage : public StateStorage {
       if (mesh_.get_property_handle(handle, full_name(array))) {
         property(handle).set_persistent(true);
       }
+    });
+  }
+
+  template <class Scalar>
+  void rescale_as(StateArray array, double factor) {
+    with_handle<Scalar>(array, [&](auto handle) {
+      if (!mesh_.get_property_handle(handle, full_name(array))) return;
+      auto& rows = property(handle);
+      const std::size_t count = rows.n_elements() * rows.components() * rows.stride();
+      for (std::size_t i = 0; i < count; ++i) rows.data()[i] *= static_cast<Scalar>(factor);
     });
   }
 

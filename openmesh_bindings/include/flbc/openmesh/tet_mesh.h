@@ -60,6 +60,7 @@ class TetMesh : public TetConnectivity {
   CellHandle add_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d);
 
   const Point& point(VertexHandle vertex) const { return points_[index(vertex)]; }
+  Point& point(VertexHandle vertex) { return points_[index(vertex)]; }
   void set_point(VertexHandle vertex, const Point& point) { points_[index(vertex)] = point; }
 
   //! The number of elements of a kind; 1 for OpenMesh::MeshHandle.
@@ -134,6 +135,16 @@ class TetMesh : public TetConnectivity {
   typename OpenMesh::PropertyT<typename PropHandle::Value>::const_reference property(
       PropHandle handle, typename PropHandle::Handle element) const {
     return property(handle)[element.idx()];
+  }
+
+  //! The container of the properties of a kind of element; whoever adds to it resizes it.
+  template <class Handle>
+  OpenMesh::PropertyContainer& properties() {
+    return properties_.of<Handle>();
+  }
+  template <class Handle>
+  const OpenMesh::PropertyContainer& properties() const {
+    return properties_.of<Handle>();
   }
 
   //! Swaps points, cells and properties; pointers to the data of properties stay valid.

@@ -1,126 +1,216 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights as properties, in the forms in which OpenMesh users hold them, and what they are for.
+//! Weights as properties of a mesh's vertices. Under one name there is one property, in one of two
+//! forms: Wide<double>, a row of all n weights per vertex, or Influences, the few that are not 0.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <OpenMesh/Core/Utils/Property.hh>
 
 #include "flbc/cage.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/openmesh/influences.h"
 #include "flbc/openmesh/wide_property.h"
 
 namespace flbc::openmesh {
 
-//! Name of the property of weights, a row of n numbers per vertex.
+//! Name of the property of weights.
 inline constexpr const char* kWeights = "flbc:weights";
 
-//! Attaches weights to the vertices of any mesh, for example a model's.
-//! \param weights  n x V \throws InputError if their number is not that of the vertices
-template <class Mesh>
-void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& name = kWeights) {
-  if (weights.cols() != static_cast<Eigen::Index>(mesh.n_vertices())) {
-    throw InputError("weights for " + std::to_string(weights.cols()) +
-                     " points do not belong to a mesh with " + std::to_string(mesh.n_vertices()) +
-                     " vertices");
-  }
-  OpenMesh::VPropHandleT<Wide<double>> handle;
+namespace internal {
+
+//! \return the property of the vertices with this name and type; null if there is none
+template <class T, class Mesh>
+const OpenMesh::PropertyT<T>* find_property(const Mesh& mesh, const std::string& name) {
+  OpenMesh::VPropHandleT<T> handle;
+  return mesh.get_property_handle(handle, name) ? &mesh.property(handle) : nullptr;
+}
+
+//! The property with this name and type, made if there is none.
+template <class T, class Mesh>
+OpenMesh::PropertyT<T>& get_property(Mesh& mesh, const std::string& name) {
+  OpenMesh::VPropHandleT<T> handle;
   if (!mesh.get_property_handle(handle, name)) mesh.add_property(handle, name);
-  auto& rows = mesh.property(handle);
+  return mesh.property(handle);
+}
+
+template <class T, class Mesh>
+void remove_property(Mesh& mesh, const std::string& name) {
+  OpenMesh::VPropHandleT<T> handle;
+  if (mesh.get_property_handle(handle, name)) mesh.remove_property(handle);
+}
+
+void require_number_of_vertices(Eigen::Index in_weights, std::size_t in_mesh);
+void require_control_points(std::size_t in_weights, Eigen::Index in_cage);
+[[noreturn]] void refuse_without_weights(const std::string& name);
+
+//! n x V. The numbers behind a row's width are padding.
+WeightMatrix to_matrix(const RowBlock<double>& rows);
+WeightMatrix to_matrix(const InfluenceBlock& block);
+
+//! \param most  pairs per point; 0 = as many as the point with the most of them has
+InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
+
+std::string name_of_cage(const std::string& weights);
+std::string name_of_offset(const std::string& weights);
+
+//! Removes what was under this name, in the other form than T, and what belonged to it.
+template <class T, class Mesh>
+void make_way_for(Mesh& mesh, const std::string& name) {
+  if constexpr (!std::is_same_v<T, Influences>) remove_property<Influences>(mesh, name);
+  if constexpr (!std::is_same_v<T, Wide<double>>) remove_property<Wide<double>>(mesh, name);
+  remove_property<Wide<double>>(mesh, name_of_offset(name));
+}
+
+//! What points outside the cage have in addition to their weights' place: a row of Dim numbers per
+//! vertex; of width 0 if there is none.
+template <class Mesh>
+RowBlock<double> offsets_of(const Mesh& mesh, const std::string& weights) {
+  const auto* property = find_property<Wide<double>>(mesh, name_of_offset(weights));
+  return property ? property->data_vector() : RowBlock<double>();
+}
+template <class Mesh>
+void set_offsets(Mesh& mesh, const RowBlock<double>& offsets, const std::string& weights,
+                 bool persistent) {
+  if (offsets.width() == 0) return;
+  auto& property = get_property<Wide<double>>(mesh, name_of_offset(weights));
+  property.data_vector() = offsets;
+  if (persistent) property.set_persistent(true);
+}
+
+}  // namespace internal
+
+//! Attaches weights to the vertices of any mesh, for example a model's, as Wide<double>.
+//! \param weights  n x V \param persistent  whether .om files keep them
+//! \throws InputError if their number is not that of the vertices
+template <class Mesh>
+void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& name = kWeights,
+                 bool persistent = false) {
+  internal::require_number_of_vertices(weights.cols(), mesh.n_vertices());
+  internal::make_way_for<Wide<double>>(mesh, name);
+  auto& rows = internal::get_property<Wide<double>>(mesh, name);
   rows.set_shape(1, static_cast<std::size_t>(weights.rows()));
   for (Eigen::Index v = 0; v < weights.cols(); ++v) {
     Eigen::Map<Eigen::VectorXd>(rows.data() + static_cast<std::size_t>(v) * rows.stride(),
                                 weights.rows()) = weights.col(v);
   }
+  if (persistent) rows.set_persistent(true);
 }
 
-//! The property of weights. \throws InputError if the mesh has none of this name
+//! Attaches weights to the vertices of any mesh as Influences.
+//! \param most  pairs per vertex; 0 = as many as the vertex with the most weights has
+//! \throws InputError if their number is not that of the vertices, or a vertex has more than `most`
+template <class Mesh>
+void set_influences(Mesh& mesh, const SparseWeights& weights, std::size_t most = 0,
+                    const std::string& name = kWeights, bool persistent = false) {
+  internal::require_number_of_vertices(weights.num_points(), mesh.n_vertices());
+  auto block = internal::to_influences(weights, most);
+  internal::make_way_for<Influences>(mesh, name);
+  auto& property = internal::get_property<Influences>(mesh, name);
+  property.data_vector() = std::move(block);
+  if (persistent) property.set_persistent(true);
+}
+
+//! The property of weights in the form with all of them.
+//! \throws InputError if the mesh has none of this name
 template <class Mesh>
 const OpenMesh::PropertyT<Wide<double>>& weights_property(const Mesh& mesh,
                                                           const std::string& name = kWeights) {
-  OpenMesh::VPropHandleT<Wide<double>> handle;
-  if (!mesh.get_property_handle(handle, name)) {
-    throw InputError("the mesh has no weights: there is no vertex property '" + name + "'");
-  }
-  return mesh.property(handle);
+  const auto* rows = internal::find_property<Wide<double>>(mesh, name);
+  if (!rows) internal::refuse_without_weights(name);
+  return *rows;
 }
 
-//! n x V.
+//! The weights, whichever their form. \return n x V
+//! \throws InputError if the mesh has none of this name
 template <class Mesh>
 WeightMatrix get_weights(const Mesh& mesh, const std::string& name = kWeights) {
-  const auto& rows = weights_property(mesh, name);
-  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
-      rows.data(), static_cast<Eigen::Index>(rows.width()),
-      static_cast<Eigen::Index>(rows.n_elements()),
-      Eigen::OuterStride<>(static_cast<Eigen::Index>(rows.stride())));
+  if (const auto* influences = internal::find_property<Influences>(mesh, name)) {
+    return internal::to_matrix(influences->data_vector());
+  }
+  return internal::to_matrix(weights_property(mesh, name).data_vector());
 }
 
-//! Writes the weights as VProp<std::vector<double>> of this name, which survives .om files for
-//! programs that know nothing of this library.
+//! Writes the weights as VProp<std::vector<double>> of this name, for programs that know nothing of
+//! this library. \param persistent  whether .om files keep them
 template <class Mesh>
-void write_vectors(Mesh& mesh, const std::string& name, const std::string& from = kWeights) {
-  const auto& rows = weights_property(mesh, from);
-  OpenMesh::VPropHandleT<std::vector<double>> handle;
-  if (!mesh.get_property_handle(handle, name)) mesh.add_property(handle, name);
+void write_vectors(Mesh& mesh, const std::string& name, const std::string& from = kWeights,
+                   bool persistent = false) {
+  const auto weights = get_weights(mesh, from);
+  auto& vectors = internal::get_property<std::vector<double>>(mesh, name);
   for (const auto v : mesh.vertices()) {
-    const double* row = rows.data() + static_cast<std::size_t>(v.idx()) * rows.stride();
-    mesh.property(handle, v).assign(row, row + rows.width());
+    const auto column = weights.col(v.idx());
+    vectors[v.idx()].assign(column.data(), column.data() + column.size());
   }
+  if (persistent) vectors.set_persistent(true);
 }
 
 //! Writes the weights above a threshold as VProp<std::vector<std::uint32_t>> name + "_indices" and
 //! VProp<std::vector<double>> name + "_values", control points ascending.
 //! \param threshold  of the absolute value; 0 keeps all that are not zero
+//! \param persistent  whether .om files keep them
 template <class Mesh>
 void write_pairs(Mesh& mesh, const std::string& name, double threshold = 0,
-                 const std::string& from = kWeights) {
-  const auto& rows = weights_property(mesh, from);
-  OpenMesh::VPropHandleT<std::vector<std::uint32_t>> indices;
-  OpenMesh::VPropHandleT<std::vector<double>> values;
-  if (!mesh.get_property_handle(indices, name + "_indices")) {
-    mesh.add_property(indices, name + "_indices");
-  }
-  if (!mesh.get_property_handle(values, name + "_values")) {
-    mesh.add_property(values, name + "_values");
-  }
+                 const std::string& from = kWeights, bool persistent = false) {
+  const auto weights = get_weights(mesh, from);
+  auto& indices = internal::get_property<std::vector<std::uint32_t>>(mesh, name + "_indices");
+  auto& values = internal::get_property<std::vector<double>>(mesh, name + "_values");
   for (const auto v : mesh.vertices()) {
-    auto& kept = mesh.property(indices, v);
-    auto& numbers = mesh.property(values, v);
+    auto& kept = indices[v.idx()];
+    auto& numbers = values[v.idx()];
     kept.clear();
     numbers.clear();
-    const double* row = rows.data() + static_cast<std::size_t>(v.idx()) * rows.stride();
-    for (std::size_t i = 0; i < rows.width(); ++i) {
-      if (!(std::abs(row[i]) > threshold)) continue;
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      const double weight = weights(i, v.idx());
+      if (!(std::abs(weight) > threshold)) continue;
       kept.push_back(static_cast<std::uint32_t>(i));
-      numbers.push_back(row[i]);
+      numbers.push_back(weight);
     }
   }
+  if (!persistent) return;
+  indices.set_persistent(true);
+  values.set_persistent(true);
 }
 
-//! Moves the mesh's points to where a deformed cage takes them, x = sum_i w_i c_i. A third
-//! coordinate of a plane mesh stays.
-//! \throws InputError if the cage has another number of control points than there are weights
+//! Keeps where the control points rest with the weights, as MProp<Wide<double>> of one element: a
+//! row of Dim numbers per control point.
 template <class Mesh, int Dim>
-void deform(Mesh& mesh, const Cage<Dim>& cage, const std::string& name = kWeights) {
-  const auto& rows = weights_property(mesh, name);
-  if (rows.width() != static_cast<std::size_t>(cage.size())) {
-    throw InputError("weights for " + std::to_string(rows.width()) +
-                     " control points do not belong to a cage with " + std::to_string(cage.size()));
-  }
-  for (const auto v : mesh.vertices()) {
-    const Eigen::Map<const Eigen::VectorXd> row(
-        rows.data() + static_cast<std::size_t>(v.idx()) * rows.stride(), cage.size());
-    const Vector<Dim> moved = cage.points * row;
-    auto point = mesh.point(v);
+void set_rest_cage(Mesh& mesh, const PointList<Dim>& control_points,
+                   const std::string& weights = kWeights, bool persistent = false) {
+  OpenMesh::MPropHandleT<Wide<double>> handle;
+  const auto name = internal::name_of_cage(weights);
+  if (!mesh.get_property_handle(handle, name)) mesh.add_property(handle, name);
+  auto& property = mesh.mproperty(handle);
+  property.set_shape(static_cast<std::size_t>(control_points.cols()), Dim);
+  for (Eigen::Index i = 0; i < control_points.cols(); ++i) {
     for (int d = 0; d < Dim; ++d) {
-      using Coordinate = std::decay_t<decltype(point[d])>;
-      point[d] = static_cast<Coordinate>(moved[d]);
+      property[0](static_cast<std::size_t>(i), static_cast<std::size_t>(d)) = control_points(d, i);
     }
-    mesh.set_point(v, point);
   }
+  if (persistent) property.set_persistent(true);
+}
+
+//! What set_rest_cage() left; empty if there is nothing. \return Dim x n
+template <class Mesh>
+Eigen::MatrixXd get_rest_cage(const Mesh& mesh, const std::string& weights = kWeights) {
+  OpenMesh::MPropHandleT<Wide<double>> handle;
+  if (!mesh.get_property_handle(handle, internal::name_of_cage(weights))) return {};
+  const auto rows = mesh.mproperty(handle)[0];
+  Eigen::MatrixXd cage(static_cast<Eigen::Index>(rows.width()),
+                       static_cast<Eigen::Index>(rows.components()));
+  for (Eigen::Index i = 0; i < cage.cols(); ++i) {
+    for (Eigen::Index d = 0; d < cage.rows(); ++d) {
+      cage(d, i) = rows(static_cast<std::size_t>(i), static_cast<std::size_t>(d));
+    }
+  }
+  return cage;
 }
 
 }  // namespace flbc::openmesh

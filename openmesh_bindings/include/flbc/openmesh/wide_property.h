@@ -136,8 +136,11 @@ class PropertyT<flbc::openmesh::Wide<Scalar>> : public BaseProperty {
   std::size_t store(std::ostream& out, bool swap_bytes) const override {
     return flbc::openmesh::store_rows(out, swap_bytes, name(), rows_);
   }
+  //! What came from a file goes into the next one.
   std::size_t restore(std::istream& in, bool swap_bytes) override {
-    return flbc::openmesh::restore_rows(in, swap_bytes, name(), rows_);
+    const std::size_t bytes = flbc::openmesh::restore_rows(in, swap_bytes, name(), rows_);
+    set_persistent(true);
+    return bytes;
   }
 
  private:

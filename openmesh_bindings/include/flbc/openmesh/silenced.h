@@ -11,16 +11,19 @@ namespace flbc::openmesh {
 //! lead to standard error; the library must not print. They are silent while this lives.
 class SilencedOpenMesh {
  public:
-  SilencedOpenMesh() {
+  SilencedOpenMesh() : errors_(omerr().is_enabled()), log_(omlog().is_enabled()) {
     omerr().disable();
     omlog().disable();
   }
   ~SilencedOpenMesh() {
-    omerr().enable();
-    omlog().enable();
+    if (errors_) omerr().enable();
+    if (log_) omlog().enable();
   }
   SilencedOpenMesh(const SilencedOpenMesh&) = delete;
   SilencedOpenMesh& operator=(const SilencedOpenMesh&) = delete;
+
+ private:
+  bool errors_, log_;  // whether they spoke before
 };
 
 }  // namespace flbc::openmesh

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Binds a model to a cage and moves it to where the cage's pose takes it. Files as OpenMesh reads.
+#include <iostream>
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <flbc/openmesh/bind.h>
+
+int main(int argc, char** argv) try {
+  OpenMesh::TriMesh_ArrayKernelT<> cage, model, pose;
+  using namespace OpenMesh::IO;
+  if (argc != 5 || !read_mesh(cage, argv[1]) || !read_mesh(model, argv[2]) ||
+      !read_mesh(pose, argv[3])) {
+    std::cerr << "usage: bind_and_deform CAGE MODEL POSE OUT\n";
+    return 1;
+  }
+  const auto report = flbc::openmesh::bind(model, cage);
+  flbc::openmesh::deform(model, pose);
+  std::cout << report.solve.iterations << " iterations, " << report.quality.mean_influences
+            << " influences per vertex\n";
+  return write_mesh(model, argv[4]) ? 0 : 4;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From a model and a cage to weights on the model, in one call; with deform.h it follows the cage.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "flbc/meshing_options.h"
+#include "flbc/openmesh/convert.h"
+#include "flbc/openmesh/deform.h"
+#include "flbc/openmesh/sparsify.h"
+#include "flbc/openmesh/weights.h"
+#include "flbc/options.h"
+#include "flbc/report.h"
+#include "flbc/tetrahedralize.h"
+#include "flbc/triangulate.h"
+
+namespace flbc::openmesh {
+
+//! What becomes of the model's vertices outside the cage.
+enum class OutsidePoints {
+  kRefuse,  //!< an InputError names the first and how many there are
+  kFollow   //!< they move as the nearest point of the cage does, keeping their offset from it
+};
+
+//! What bind() does and leaves on the model.
+struct BindOptions {
+  //! Vertices of the mesh of the cage's interior; 0 = as few as cells of good shape take. If the
+  //! default is too few for a cage, it gets as many as it takes.
+  Index vertices = kDefaultVertices;
+  static constexpr Index kDefaultVertices = 10000;  //!< that of the program, too
+
+  SolverOptions solver{};                          //!< method, tolerance, threads, progress
+  Index max_influences = 8;                        //!< per vertex; 0 = all weights are kept
+  Reduction reduction = Reduction::kPoisson;       //!< how the others are left out
+  OutsidePoints outside = OutsidePoints::kRefuse;  //!< vertices outside the cage
+  std::string weights = kWeights;                  //!< name of the property
+  bool persistent = false;                         //!< whether .om files keep what is left
+};
+
+//! What bind() tells.
+struct BindReport {
+  SolveReport solve{};  //!< on the mesh of the interior, with its size
+  Quality quality{};    //!< of the weights that are left on the model
+  Index outside = 0;    //!< number of vertices outside the cage
+  double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
+};
+
+//! Makes the mesh of a cage's interior, as triangulate() and tetrahedralize() do.
+template <int Dim>
+using Mesher = std::function<DomainMesh<Dim>(const Cage<Dim>&, const MeshingOptions<Dim>&)>;
+
+namespace internal {
+
+//! What there is to bind. The mesher, which may be empty if there is a domain, makes the domain and
+//! coarser meshes.
+template <int Dim>
+struct BindInput {
+  const Cage<Dim>& cage;
+  const PointList<Dim>& points;
+  const EdgeList& edges;
+  const DomainMesh<Dim>* domain;  // may be null
+  Mesher<Dim> mesher;
+};
+
+//! The weights of points.
+template <int Dim>
+struct Binding {
+  WeightMatrix weights;      //!< n x P
+  RowBlock<double> offsets;  //!< of width 0 if no point lies outside
+  BindReport report;
+};
+
+template <int Dim>
+Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options);
+
+template <class T>
+struct IsCage : std::false_type {};
+template <int Dim>
+struct IsCage<Cage<Dim>> : std::true_type {};
+
+template <class AnyCage>
+auto as_cage(const AnyCage& cage) {
+  if constexpr (IsCage<AnyCage>::value) {
+    return cage;
+  } else if constexpr (kPointSize<AnyCage> == 2) {
+    return to_outline(cage);
+  } else {
+    return to_cage(cage);
+  }
+}
+
+inline std::string name_of_rest(const std::string& weights) {
+  return weights + ":rest";
+}
+
+template <class Mesh>
+void keep_rest(Mesh& mesh, const std::string& weights, bool persistent) {
+  auto& rest = get_property<Wide<double>>(mesh, name_of_rest(weights));
+  rest.set_shape(1, static_cast<std::size_t>(kPointSize<Mesh>));
+  for (const auto vertex : mesh.vertices()) {
+    const auto& point = mesh.point(vertex);
+    const auto row = rest[vertex.idx()];
+    for (int d = 0; d < kPointSize<Mesh>; ++d) {
+      row[static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
+    }
+  }
+  if (persistent) rest.set_persistent(true);
+}
+
+template <int Dim, class Mesh>
+BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* domain,
+                   const Mesher<Dim>& mesher, const BindOptions& options) {
+  if constexpr (!std::is_same_v<Mesh, TetMesh>) refuse_deleted_elements(model);
+  const auto points = points_of<Dim>(model);
+  const auto edges = edge_list_at<Dim>(model, points);
+  auto binding = bind_points<Dim>({cage, points, edges, domain, mesher}, options);
+  if (options.max_influences > 0) {
+    set_influences(model, SparseWeights(binding.weights),
+                   static_cast<std::size_t>(options.max_influences), options.weights,
+                   options.persistent);
+  } else {
+    set_weights(model, binding.weights, options.weights, options.persistent);
+  }
+  set_offsets(model, binding.offsets, options.weights, options.persistent);
+  set_rest_cage(model, cage.points, options.weights, options.persistent);
+  keep_rest(model, options.weights, options.persistent);
+  return std::move(binding.report);
+}
+
+}  // namespace internal
+
+//! Binds a model to a cage: meshes the interior, solves, evaluates the weights at the model's
+//! vertices and leaves the most important ones as a property, by which deform() moves the model.
+//! Where the vertices are now is where they rest; restore_rest() puts them back there.
+//!
+//! The mesh comes from tetrahedralize() or, for a cage in the plane, triangulate(): link the
+//! component flbc::tetgen or flbc::cgal.
+//! \param model  a mesh of triangles or polygons, with points of floats or doubles, or a TetMesh
+//! \param cage  a Cage, or a mesh: a closed surface or, if its points have two coordinates, one
+//! whose outline is the cage
+//! \throws InputError naming what is wrong with cage or model, OptionError, SolverError; the model
+//! is then as it was
+template <class Model, class AnyCage>
+BindReport bind(Model& model, const AnyCage& any_cage, const BindOptions& options = {}) {
+  const auto cage = internal::as_cage(any_cage);
+  if constexpr (std::is_same_v<std::decay_t<decltype(cage)>, Cage<2>>) {
+    return internal::bind_to<2>(model, cage, nullptr, triangulate, options);
+  } else {
+    return internal::bind_to<3>(model, cage, nullptr, tetrahedralize, options);
+  }
+}
+
+//! The same with a mesh of the interior of one's own, for which no component is needed.
+//! \param domain  see normalize_and_validate()
+template <class Model, int Dim>
+BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                const BindOptions& options = {}) {
+  return internal::bind_to<Dim>(model, cage, &domain, {}, options);
+}
+
+//! Puts the vertices back where they were when the model was bound.
+//! \throws InputError if it was not
+template <class Model>
+void restore_rest(Model& model, const std::string& weights = kWeights) {
+  const auto* rest = internal::find_property<Wide<double>>(model, internal::name_of_rest(weights));
+  if (!rest) internal::refuse_without_weights(internal::name_of_rest(weights));
+  for (const auto vertex : model.vertices()) {
+    auto point = model.point(vertex);
+    using Coordinate = std::decay_t<decltype(point[0])>;
+    for (int d = 0; d < kPointSize<Model>; ++d) {
+      point[d] = static_cast<Coordinate>((*rest)[vertex.idx()][static_cast<std::size_t>(d)]);
+    }
+    model.set_point(vertex, point);
+  }
+}
+
+}  // namespace flbc::openmesh

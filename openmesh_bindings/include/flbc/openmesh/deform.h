@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Moving a mesh with its cage by the weights that its vertices have.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+#include "flbc/cage.h"
+#include "flbc/openmesh/convert.h"
+#include "flbc/openmesh/weights.h"
+
+namespace flbc::openmesh {
+
+//! How deform() works.
+struct DeformOptions {
+  //! The property of weights, in either form.
+  std::string weights = kWeights;
+
+  //! Update the normals that the mesh has of its vertices, halfedges and faces.
+  bool normals = false;
+
+  //! At most so many threads; 0 = as many as OpenMP offers. Meshes of less than about half a
+  //! million vertices with 8 influences take one whatever this says: waking others costs more.
+  int threads = 0;
+};
+
+namespace internal {
+
+//! The points of a mesh in place: coordinate d of point p is at data[p * stride + d].
+template <class Scalar>
+struct PointsView {
+  Scalar* data;
+  std::size_t stride;
+};
+
+template <class Mesh>
+auto view_points(Mesh& mesh) {
+  using Point = typename Mesh::Point;
+  using Scalar = typename OpenMesh::vector_traits<Point>::value_type;
+  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>,
+                "points have coordinates of float or double");
+  static_assert(sizeof(Point) % sizeof(Scalar) == 0, "points are their coordinates");
+  Scalar* data = mesh.n_vertices() == 0 ? nullptr : &mesh.point(OpenMesh::VertexHandle(0))[0];
+  return PointsView<Scalar>{data, sizeof(Point) / sizeof(Scalar)};
+}
+
+//! Moves a point per element of `weights` to where control points (Dim x n) take it.
+//! \param offsets  Dim numbers per point to be added, every offset_stride of them; may be null
+//! \throws InputError if the numbers of control points differ
+template <class Block, class Scalar, int Dim>
+void move_points(const Block& weights, const PointList<Dim>& control_points,
+                 const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
+
+template <class Mesh>
+void update_normals(Mesh& mesh) {
+  if constexpr (!std::is_same_v<Mesh, TetMesh> && kPointSize<Mesh> == 3) {
+    const bool has_face_normals = mesh.has_face_normals();
+    // OpenMesh makes all others of them.
+    if (!has_face_normals) mesh.request_face_normals();
+    mesh.update_normals();
+    if (!has_face_normals) mesh.release_face_normals();
+  }
+}
+
+}  // namespace internal
+
+//! Moves the mesh's points to where the control points take them, x = sum_i w_i c_i, plus the
+//! offset of those that bind() found outside. Where points were before has no effect. A third
+//! coordinate of a mesh in a plane stays.
+//! \param control_points  Dim x n
+//! \throws InputError if the mesh has no weights of this name, or for another number of control
+//! points
+template <class Mesh, int Dim>
+void deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
+  static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");
+  const auto points = internal::view_points(mesh);
+  const auto* offset =
+      internal::find_property<Wide<double>>(mesh, internal::name_of_offset(options.weights));
+  const auto* offsets = offset ? &offset->data_vector() : nullptr;
+  if (const auto* influences = internal::find_property<Influences>(mesh, options.weights)) {
+    internal::move_points(influences->data_vector(), control_points, offsets, options.threads,
+                          points);
+  } else {
+    internal::move_points(weights_property(mesh, options.weights).data_vector(), control_points,
+                          offsets, options.threads, points);
+  }
+  if (options.normals) internal::update_normals(mesh);
+}
+
+//! The same for a cage in its pose.
+template <class Mesh, int Dim>
+void deform(Mesh& mesh, const Cage<Dim>& pose, const DeformOptions& options = {}) {
+  deform(mesh, pose.points, options);
+}
+
+//! The same for a cage that is a mesh: a surface whose vertices are the control points or, if its
+//! points have two coordinates, one whose outline is the cage.
+template <class Mesh, class CageMesh>
+void deform(Mesh& mesh, const CageMesh& pose, const DeformOptions& options = {}) {
+  if constexpr (kPointSize<CageMesh> == 2) {
+    deform(mesh, to_outline(pose).points, options);
+  } else {
+    deform(mesh, points_of<3>(pose), options);
+  }
+}
+
+}  // namespace flbc::openmesh

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The memory of a property of few weights per element.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "flbc/errors.h"
+
+namespace flbc::openmesh {
+
+//! The weights of one element: as many pairs of a control point and its weight as the property has
+//! for every element. Pairs that are not used come last and have weight 0. A copy of the view
+//! refers to the same numbers; assigning to it copies the numbers, as OpenMesh's copy_property()
+//! and copy_to() expect. Valid until the property changes its number of elements or its shape.
+//! \tparam Weight  double, const for numbers that may only be read
+template <class Weight>
+class InfluencesView {
+ public:
+  using ControlPoint =
+      std::conditional_t<std::is_const_v<Weight>, const std::uint32_t, std::uint32_t>;
+
+  InfluencesView(ControlPoint* control_points, Weight* weights, std::size_t size)
+      : control_points_(control_points), weights_(weights), size_(size) {}
+  InfluencesView(const InfluencesView& view) = default;
+
+  //! What may be written may be read.
+  template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Weight>>>
+  InfluencesView(const InfluencesView<Other>& view)
+      : InfluencesView(view.control_points(), view.weights(), view.size()) {}
+
+  //! Copies the numbers. \throws InputError if the numbers of pairs differ
+  InfluencesView& operator=(const InfluencesView& view) {
+    assign(view);
+    return *this;
+  }
+  template <class Other>
+  InfluencesView& operator=(const InfluencesView<Other>& view) {
+    assign(view);
+    return *this;
+  }
+
+  //! Number of pairs, used or not.
+  std::size_t size() const { return size_; }
+
+  //! Number of pairs whose weight is not 0.
+  std::size_t count() const {
+    return static_cast<std::size_t>(
+        std::count_if(weights_, weights_ + size_, [](double weight) { return weight != 0; }));
+  }
+
+  //! The control point of pair j < size(), ascending among those that are used.
+  ControlPoint& control_point(std::size_t j) const {
+    assert(j < size_);
+    return control_points_[j];
+  }
+  //! Its weight.
+  Weight& weight(std::size_t j) const {
+    assert(j < size_);
+    return weights_[j];
+  }
+
+  ControlPoint* control_points() const { return control_points_; }
+  Weight* weights() const { return weights_; }
+
+ private:
+  void assign(const InfluencesView<const double>& view) {
+    static_assert(!std::is_const_v<Weight>, "these numbers may only be read");
+    if (view.size() != size_) {
+      throw InputError(std::to_string(view.size()) + " influences cannot be copied to " +
+                       std::to_string(size_));
+    }
+    if (view.weights() == weights_) return;
+    std::copy_n(view.control_points(), size_, control_points_);
+    std::copy_n(view.weights(), size_, weights_);
+  }
+
+  ControlPoint* control_points_;
+  Weight* weights_;
+  std::size_t size_;
+};
+
+//! Like a std::vector whose elements are `most` pairs each: those of element e are numbers
+//! e * most() and following of control_points() and weights(). New pairs are 0.
+class InfluenceBlock {
+ public:
+  InfluenceBlock() = default;
+  //! No elements yet. \param num_control_points  n \param most  pairs per element
+  InfluenceBlock(std::size_t num_control_points, std::size_t most)
+      : num_control_points_(num_control_points), most_(most) {}
+
+  std::size_t size() const { return size_; }
+  std::size_t num_control_points() const { return num_control_points_; }
+  std::size_t most() const { return most_; }
+  std::uint32_t* control_points() { return control_points_.data(); }
+  const std::uint32_t* control_points() const { return control_points_.data(); }
+  double* weights() { return weights_.data(); }
+  const double* weights() const { return weights_.data(); }
+
+  InfluencesView<double> operator[](std::size_t e) {
+    return {control_points() + e * most_, weights() + e * most_, most_};
+  }
+  InfluencesView<const double> operator[](std::size_t e) const {
+    return {control_points() + e * most_, weights() + e * most_, most_};
+  }
+
+  void reserve(std::size_t elements) {
+    control_points_.reserve(elements * most_);
+    weights_.reserve(elements * most_);
+  }
+  void resize(std::size_t elements) {
+    control_points_.resize(elements * most_);
+    weights_.resize(elements * most_);
+    size_ = elements;
+  }
+  //! Keeps the shape, frees the memory.
+  void clear() { *this = InfluenceBlock(num_control_points_, most_); }
+
+  void swap(std::size_t first, std::size_t second) {
+    if (first == second) return;
+    const auto swap_in = [&](auto& numbers) {
+      const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first * most_);
+      std::swap_ranges(begin, begin + static_cast<std::ptrdiff_t>(most_),
+                       numbers.begin() + static_cast<std::ptrdiff_t>(second * most_));
+    };
+    swap_in(control_points_);
+    swap_in(weights_);
+  }
+  void copy(std::size_t from, std::size_t to) {
+    if (from != to) (*this)[to] = (*this)[from];
+  }
+
+ private:
+  std::size_t num_control_points_ = 0;
+  std::size_t most_ = 0;
+  std::size_t size_ = 0;
+  std::vector<std::uint32_t> control_points_;
+  std::vector<double> weights_;
+};
+
+}  // namespace flbc::openmesh

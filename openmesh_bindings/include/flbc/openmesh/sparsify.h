@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Few influences per vertex, on the mesh itself.
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include "flbc/deform.h"
+#include "flbc/openmesh/convert.h"
+#include "flbc/openmesh/weights.h"
+#include "flbc/poisson_reduction.h"
+#include "flbc/quality.h"
+#include "flbc/sparsify.h"
+
+namespace flbc::openmesh {
+
+//! How influences are reduced.
+enum class Reduction {
+  kPoisson,   //!< neighbours agree, so that no seams appear (flbc/poisson_reduction.h)
+  kQuadratic  //!< every vertex for itself, faster (flbc/sparsify.h)
+};
+
+//! How sparsify() works and what it leaves on the mesh.
+struct ReductionOptions {
+  Reduction reduction = Reduction::kPoisson;  //!< meshes without edges are reduced quadratically
+  double threshold = 0;                       //!< as SparsifyOptions::threshold, in [0, 1)
+  std::string weights = kWeights;             //!< the property to reduce
+  std::string into{};       //!< the property that is made; empty: it replaces `weights`
+  bool persistent = false;  //!< whether .om files keep it
+};
+
+namespace internal {
+
+//! \param most  influences per point \return n x P
+template <int Dim>
+WeightMatrix reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                    const EdgeList& edges, const WeightMatrix& weights, Index most,
+                    Reduction reduction, double threshold);
+
+void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
+
+}  // namespace internal
+
+//! Leaves at most `most` influences per vertex, as a property of type Influences: w >= 0, sum w =
+//! 1, and every vertex rests where it did. \param cage  at rest, the one the weights belong to
+//! \return of the weights that are left
+//! \throws OptionError for fewer than Dim + 1 influences, InputError if the mesh has no weights of
+//! this name or they belong to another cage
+template <class Mesh, int Dim>
+Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
+                 const ReductionOptions& options = {}) {
+  const auto weights = get_weights(mesh, options.weights);
+  internal::require_control_points(static_cast<std::size_t>(weights.rows()), cage.cols());
+  const PointList<Dim> rest = cage * weights;
+  // Their lengths are those at rest, wherever the mesh is now.
+  const auto edges = internal::edge_list_at<Dim>(mesh, rest);
+  const auto reduced =
+      internal::reduce(cage, rest, edges, weights, most, options.reduction, options.threshold);
+  const std::string& into = options.into.empty() ? options.weights : options.into;
+  const auto offset = internal::offsets_of(mesh, options.weights);
+  set_influences(mesh, SparseWeights(reduced), static_cast<std::size_t>(most), into,
+                 options.persistent);
+  internal::set_offsets(mesh, offset, into, options.persistent);
+  set_rest_cage(mesh, cage, into, options.persistent);
+  return measure_quality<Dim>(cage, rest, reduced);
+}
+
+//! The same with the cage that solve() or bind() left with the weights.
+//! \throws InputError also if there is none
+template <class Mesh>
+Quality sparsify(Mesh& mesh, Index most, const ReductionOptions& options = {}) {
+  const auto cage = get_rest_cage(mesh, options.weights);
+  internal::require_rest_cage(cage, options.weights);
+  if constexpr (!std::is_same_v<Mesh, TetMesh>) {
+    if (cage.rows() == 2) return sparsify(mesh, PointList<2>(cage), most, options);
+  }
+  if constexpr (kPointSize<Mesh> == 3) {
+    if (cage.rows() == 3) return sparsify(mesh, PointList<3>(cage), most, options);
+  }
+  throw InputError("the cage of the weights '" + options.weights + "' has " +
+                   std::to_string(cage.rows()) + " dimensions, the mesh has other ones");
+}
+
+}  // namespace flbc::openmesh

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/openmesh/deform.h"
+
+#include <omp.h>
+
+#include <cstdint>
+
+namespace flbc::openmesh::internal {
+namespace {
+
+// Numbers that a thread deals with while the others wake up, with something to spare: where other
+// programs keep the cores busy, it may take milliseconds until all have had their turn.
+constexpr std::size_t kWorthThreads = 4'000'000;
+
+int threads_for(std::size_t numbers, int wanted) {
+  if (numbers < kWorthThreads) return 1;
+  return wanted > 0 ? wanted : omp_get_max_threads();
+}
+
+// Sums in the order of deform(SparseWeights), so that the results are the same.
+template <int Dim>
+Vector<Dim> place_of(const InfluenceBlock& weights, std::int64_t p,
+                     const PointList<Dim>& control_points) {
+  const std::size_t most = weights.most();
+  const std::size_t start = static_cast<std::size_t>(p) * most;
+  const std::uint32_t* of = weights.control_points() + start;
+  const double* values = weights.weights() + start;
+  Vector<Dim> place = Vector<Dim>::Zero();
+  for (std::size_t j = 0; j < most; ++j) place += values[j] * control_points.col(of[j]);
+  return place;
+}
+
+template <int Dim>
+Vector<Dim> place_of(const RowBlock<double>& weights, std::int64_t p,
+                     const Eigen::Matrix<double, Eigen::Dynamic, Dim>& coordinates) {
+  const Eigen::Map<const Eigen::VectorXd> row(
+      weights.data() + static_cast<std::size_t>(p) * weights.stride(), coordinates.rows());
+  Vector<Dim> place;
+  for (int d = 0; d < Dim; ++d) place[d] = coordinates.col(d).dot(row);
+  return place;
+}
+
+std::size_t numbers_in(const InfluenceBlock& weights) {
+  return weights.size() * weights.most();
+}
+std::size_t numbers_in(const RowBlock<double>& weights) {
+  return weights.size() * weights.stride();
+}
+std::size_t control_points_of(const InfluenceBlock& weights) {
+  return weights.num_control_points();
+}
+std::size_t control_points_of(const RowBlock<double>& weights) {
+  return weights.width();
+}
+
+// As the loop over a point's weights wants them.
+template <int Dim>
+const PointList<Dim>& arranged(const InfluenceBlock&, const PointList<Dim>& control_points) {
+  return control_points;
+}
+// A coordinate per column: the sums then run over contiguous numbers.
+template <int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> arranged(const RowBlock<double>&,
+                                                    const PointList<Dim>& control_points) {
+  return control_points.transpose();
+}
+
+}  // namespace
+
+template <class Block, class Scalar, int Dim>
+void move_points(const Block& weights, const PointList<Dim>& control_points,
+                 const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
+  require_control_points(control_points_of(weights), control_points.cols());
+  const auto& cage = arranged<Dim>(weights, control_points);
+  const auto count = static_cast<std::int64_t>(weights.size());
+  const int team = threads_for(numbers_in(weights), threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+  for (std::int64_t p = 0; p < count; ++p) {
+    Vector<Dim> place = place_of<Dim>(weights, p, cage);
+    if (offsets) {
+      const auto offset = (*offsets)[static_cast<std::size_t>(p)];
+      for (int d = 0; d < Dim; ++d) place[d] += offset[static_cast<std::size_t>(d)];
+    }
+    Scalar* point = points.data + static_cast<std::size_t>(p) * points.stride;
+    for (int d = 0; d < Dim; ++d) point[d] = static_cast<Scalar>(place[d]);
+  }
+}
+
+#define FLBC_INSTANTIATE(Block, Scalar, Dim)                                                   \
+  template void move_points(const Block&, const PointList<Dim>&, const RowBlock<double>*, int, \
+                            const PointsView<Scalar>&);
+#define FLBC_INSTANTIATE_BLOCK(Block) \
+  FLBC_INSTANTIATE(Block, float, 2)   \
+  FLBC_INSTANTIATE(Block, float, 3)   \
+  FLBC_INSTANTIATE(Block, double, 2)  \
+  FLBC_INSTANTIATE(Block, double, 3)
+FLBC_INSTANTIATE_BLOCK(InfluenceBlock)
+FLBC_INSTANTIATE_BLOCK(RowBlock<double>)
+#undef FLBC_INSTANTIATE_BLOCK
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::openmesh::internal

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/openmesh/influences.h"
+
+#include <array>
+#include <new>
+
+#include "number_stream.h"
+
+namespace flbc::openmesh {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
+constexpr Count kPairBytes = sizeof(std::uint32_t) + sizeof(double);
+
+// What precedes the pairs, all control points before all weights. The shape is there twice, as the
+// size it leads to, so that damage to one of them shows.
+struct Header {
+  Count control_points, most, elements, data_bytes;
+};
+constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof(Header);
+
+Header read_header(std::istream& in, bool swap, const std::string& name, Count elements) {
+  std::array<char, kMagic.size()> magic{};
+  std::array<Count, 4> fields{};
+  if (!read_numbers(in, magic.data(), magic.size(), false)) {
+    refuse_stored(name, "the file ends before it");
+  }
+  if (magic != kMagic) {
+    refuse_stored(name, "the file has a property of another type under this name");
+  }
+  if (!read_numbers(in, fields.data(), fields.size(), swap)) {
+    refuse_stored(name, "the file ends in it");
+  }
+  const Header header{fields[0], fields[1], fields[2], fields[3]};
+  if (header.elements != elements) {
+    refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
+                            " elements, the mesh has " + std::to_string(elements));
+  }
+  if (header.data_bytes > kMostStoredBytes || header.most > kMostStoredBytes ||
+      product(product(header.elements, header.most), kPairBytes) != header.data_bytes) {
+    refuse_stored(name, "its shape is damaged");
+  }
+  return header;
+}
+
+InfluenceBlock read_pairs(std::istream& in, bool swap, const std::string& name,
+                          const Header& header) {
+  const auto left = bytes_left(in);
+  if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
+  InfluenceBlock block(header.control_points, header.most);
+  block.resize(header.elements);
+  const std::size_t count = header.elements * header.most;
+  if (count == 0) return block;
+  if (!read_numbers(in, block.control_points(), count, swap) ||
+      !read_numbers(in, block.weights(), count, swap)) {
+    refuse_stored(name, "the file ends in it");
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    if (block.control_points()[j] < header.control_points) continue;
+    refuse_stored(name, "its element " + std::to_string(j / header.most) + " names control point " +
+                            std::to_string(block.control_points()[j]) + " of " +
+                            std::to_string(header.control_points));
+  }
+  return block;
+}
+
+}  // namespace
+
+std::size_t stored_size(const InfluenceBlock& block) {
+  return kHeaderBytes + block.size() * block.most() * kPairBytes;
+}
+
+std::size_t store_influences(std::ostream& out, bool swap, const std::string& name,
+                             const InfluenceBlock& block) {
+  const std::size_t size = stored_size(block);
+  require_storable(name, size);
+  const std::array<Count, 4> fields = {block.num_control_points(), block.most(), block.size(),
+                                       size - kHeaderBytes};
+  write_numbers(out, kMagic.data(), kMagic.size(), false);
+  write_numbers(out, fields.data(), fields.size(), swap);
+  const std::size_t count = block.size() * block.most();
+  if (count > 0) {
+    write_numbers(out, block.control_points(), count, swap);
+    write_numbers(out, block.weights(), count, swap);
+  }
+  return out.good() ? size : 0;
+}
+
+std::size_t restore_influences(std::istream& in, bool swap, const std::string& name,
+                               InfluenceBlock& block) {
+  const auto header = read_header(in, swap, name, block.size());
+  try {
+    block = read_pairs(in, swap, name, header);
+  } catch (const std::bad_alloc&) {
+    refuse_stored(name, "there is not enough memory for it");
+  }
+  return stored_size(block);
+}
+
+}  // namespace flbc::openmesh

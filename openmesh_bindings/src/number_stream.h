@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Numbers in .om files: what the property types have in common. Sizes are checked against the
+//! stream before memory is taken, so that damaged files end in an error.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <istream>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "flbc/errors.h"
+
+namespace flbc::openmesh {
+
+using Count = std::uint64_t;
+
+// .om files keep the size of a property in 32 bits.
+constexpr Count kMostStoredBytes = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] inline void refuse_stored(const std::string& name, const std::string& why) {
+  throw InputError("property '" + name + "' cannot be read: " + why);
+}
+
+//! \throws IoError if a property takes more bytes than .om files hold
+inline void require_storable(const std::string& name, std::size_t bytes) {
+  if (bytes <= kMostStoredBytes) return;
+  throw IoError("property '" + name + "' takes " + std::to_string(bytes) +
+                " bytes, .om files hold at most " + std::to_string(kMostStoredBytes) +
+                " of one property");
+}
+
+template <class Number>
+void reverse_bytes(Number& number) {
+  auto* bytes = reinterpret_cast<char*>(&number);
+  std::reverse(bytes, bytes + sizeof number);
+}
+
+template <class Number>
+void write_numbers(std::ostream& out, const Number* numbers, std::size_t count, bool swap) {
+  if (!swap) {
+    out.write(reinterpret_cast<const char*>(numbers),
+              static_cast<std::streamsize>(count * sizeof(Number)));
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Number number = numbers[i];
+    reverse_bytes(number);
+    out.write(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+}
+
+template <class Number>
+bool read_numbers(std::istream& in, Number* numbers, std::size_t count, bool swap) {
+  in.read(reinterpret_cast<char*>(numbers), static_cast<std::streamsize>(count * sizeof(Number)));
+  if (swap) std::for_each(numbers, numbers + count, reverse_bytes<Number>);
+  return in.good();
+}
+
+//! The product, or the largest number there is if it is larger.
+inline Count product(Count a, Count b) {
+  constexpr Count kMost = std::numeric_limits<Count>::max();
+  return b > 0 && a > kMost / b ? kMost : a * b;
+}
+
+//! Nothing if the stream cannot be asked.
+inline std::optional<Count> bytes_left(std::istream& in) {
+  const auto here = in.tellg();
+  if (here < 0) return std::nullopt;
+  in.seekg(0, std::ios::end);
+  const auto end = in.tellg();
+  in.seekg(here);
+  return static_cast<Count>(end - here);
+}
+
+}  // namespace flbc::openmesh

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/openmesh/sparsify.h"
+
+namespace flbc::openmesh::internal {
+
+template <int Dim>
+WeightMatrix reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                    const EdgeList& edges, const WeightMatrix& weights, Index most,
+                    Reduction reduction, double threshold) {
+  SparsifyOptions options;
+  options.max_influences = most;
+  options.threshold = threshold;
+  // Without neighbours there are no seams between them.
+  if (reduction == Reduction::kQuadratic || edges.ends.empty()) {
+    return flbc::sparsify<Dim>(control_points, points, weights, options);
+  }
+  return reduce_by_poisson<Dim>(control_points, points, edges, weights, {}, options);
+}
+
+void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) {
+  if (cage.size() > 0) return;
+  throw InputError("the mesh does not know the cage of its weights '" + weights +
+                   "'; give it: sparsify(mesh, cage, k), or set_rest_cage() before");
+}
+
+template WeightMatrix reduce(const PointList<2>&, const PointList<2>&, const EdgeList&,
+                             const WeightMatrix&, Index, Reduction, double);
+template WeightMatrix reduce(const PointList<3>&, const PointList<3>&, const EdgeList&,
+                             const WeightMatrix&, Index, Reduction, double);
+
+}  // namespace flbc::openmesh::internal

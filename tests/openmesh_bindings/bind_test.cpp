@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a model and a cage to a model that follows the cage.
+#include "flbc/openmesh/bind.h"
+
+#include <gtest/gtest.h>
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <sstream>
+
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
+#include "flbc/solver.h"
+#include "support/sample_meshes.h"
+#include "support/wide_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class MeshType, int Dimension>
+struct ModelCase {
+  using Mesh = MeshType;
+  static constexpr int kDim = Dimension;
+  static constexpr double kRounding =
+      std::is_same_v<typename OpenMesh::vector_traits<typename Mesh::Point>::value_type, float>
+          ? 1e-6
+          : 1e-12;
+};
+using DoubleTri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
+using DoublePoly = OpenMesh::PolyMesh_ArrayKernelT<DoublePoints>;
+using FloatTri = OpenMesh::TriMesh_ArrayKernelT<>;
+using FloatPoly = OpenMesh::PolyMesh_ArrayKernelT<>;
+
+template <class Mesh>
+void add_square(Mesh& mesh, const std::array<int, 4>& corners) {
+  std::vector<OpenMesh::VertexHandle> handles;
+  for (const int corner : corners) handles.emplace_back(corner);
+  mesh.add_face(handles);
+}
+
+template <class Action>
+void expect_refused(const std::string& words, const Action& action) {
+  try {
+    action();
+    FAIL() << "accepted, expected: " << words;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+template <class Case>
+class Bind : public ::testing::Test {
+ protected:
+  static constexpr int kDim = Case::kDim;
+  using Mesh = typename Case::Mesh;
+
+  Bind() : sample_(make_sample<kDim>(Shape::kBox, 4, 0.2)) {
+    options_.max_influences = 5;
+    // A sheet in the middle of the box, whatever that is like.
+    const Vector<kDim> middle = sample_.cage.points.rowwise().mean();
+    const PointList<kDim> spread = sample_.cage.points.colwise() - middle;
+    constexpr int kSide = 6;
+    for (int y = 0; y <= kSide; ++y) {
+      for (int x = 0; x <= kSide; ++x) {
+        const double a = 0.6 * x / kSide, b = 0.6 * y / kSide;
+        // Inside: a mean of control points with weights that are none below 0.
+        const Vector<kDim> place =
+            middle + 0.5 * (a - 0.3) * spread.col(0) + 0.5 * (b - 0.3) * spread.col(1);
+        typename Mesh::Point point;
+        for (int d = 0; d < 3; ++d) {
+          point[d] = static_cast<typename Mesh::Scalar>(d < kDim ? place[d] : 0.25);
+        }
+        model_.add_vertex(point);
+      }
+    }
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const int k = y * (kSide + 1) + x;
+        add_square(model_, {k, k + 1, k + kSide + 2, k + kSide + 1});
+      }
+    }
+    rest_ = points();
+  }
+
+  PointList<kDim> points() const { return openmesh::points_of<kDim>(model_); }
+
+  PointList<kDim> random_pose(unsigned seed) const {
+    std::srand(seed);
+    return sample_.cage.points + 0.2 * PointList<kDim>::Random(kDim, sample_.cage.size());
+  }
+
+  Sample<kDim> sample_;
+  Mesh model_;
+  PointList<kDim> rest_;
+  openmesh::BindOptions options_;
+};
+using Cases = ::testing::Types<ModelCase<FloatTri, 2>, ModelCase<DoublePoly, 2>,
+                               ModelCase<DoubleTri, 3>, ModelCase<FloatPoly, 3>>;
+TYPED_TEST_SUITE(Bind, Cases);
+
+TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
+  constexpr int kDimension = TypeParam::kDim;
+  const auto& [cage, domain, name] = this->sample_;
+  const auto solution = solve(cage, domain);
+  auto valid = domain;
+  normalize_and_validate(valid);
+  const auto all =
+      interpolate(valid, solution.weights, locate_points<kDimension>(valid, this->rest_));
+  const auto edges = edges_of_polygons(this->rest_, openmesh::polygons_of(this->model_));
+  for (const auto reduction : {openmesh::Reduction::kPoisson, openmesh::Reduction::kQuadratic}) {
+    this->options_.reduction = reduction;
+    const auto report = openmesh::bind(this->model_, cage, domain, this->options_);
+    const auto expected =
+        reduction == openmesh::Reduction::kPoisson
+            ? reduce_by_poisson<kDimension>(cage.points, this->rest_, edges, all, {}, {5})
+            : sparsify<kDimension>(cage.points, this->rest_, all, {5});
+    EXPECT_EQ(openmesh::get_weights(this->model_), expected);
+    EXPECT_EQ(report.solve.iterations, solution.report.iterations);
+    EXPECT_EQ(report.solve.vertices, domain.num_vertices());
+    EXPECT_LT(report.quality.max_reproduction_error, 1e-12);
+    EXPECT_LT(report.quality.max_partition_error, 1e-12);
+    EXPECT_GE(report.quality.min_weight, 0);
+    EXPECT_EQ(report.outside, 0);
+  }
+  this->options_.max_influences = 0;
+  openmesh::bind(this->model_, cage, domain, this->options_);
+  EXPECT_EQ(openmesh::get_weights(this->model_), all);
+}
+
+TYPED_TEST(Bind, FramesFollowTheCageAndDoNotAccumulate) {
+  constexpr int kDimension = TypeParam::kDim;
+  const auto& cage = this->sample_.cage;
+  openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_);
+  EXPECT_EQ(this->points(), this->rest_);
+  const auto weights = openmesh::get_weights(this->model_);
+  for (unsigned frame = 1; frame < 4; ++frame) {
+    const auto pose = this->random_pose(frame);
+    openmesh::deform(this->model_, pose);
+    const PointList<kDimension> expected = pose * weights;
+    EXPECT_LT((this->points() - expected).cwiseAbs().maxCoeff(), TypeParam::kRounding);
+  }
+  openmesh::deform(this->model_, cage);
+  EXPECT_LT((this->points() - this->rest_).cwiseAbs().maxCoeff(), TypeParam::kRounding);
+  openmesh::deform(this->model_, this->random_pose(9));
+  openmesh::restore_rest(this->model_);
+  EXPECT_EQ(this->points(), this->rest_);
+}
+
+// The vertex at `index` is put before the middle of a facet, at a tenth of the cage's size.
+template <int Dim, class Mesh>
+Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index facet) {
+  Vector<Dim> middle = Vector<Dim>::Zero();
+  for (int k = 0; k < Dim; ++k) middle += cage.points.col(cage.facets(k, facet)) / Dim;
+  const Vector<Dim> centre = cage.points.rowwise().mean();
+  Eigen::Matrix<double, Dim, Dim - 1> edges;
+  for (int k = 1; k < Dim; ++k) {
+    edges.col(k - 1) =
+        cage.points.col(cage.facets(k, facet)) - cage.points.col(cage.facets(0, facet));
+  }
+  // What is left of the way from the centre is normal to the facet.
+  Vector<Dim> normal = middle - centre;
+  normal -= edges * (edges.transpose() * edges).inverse() * (edges.transpose() * normal).eval();
+  const Vector<Dim> place = middle + 0.1 * normal.normalized();
+  auto point = model.point(OpenMesh::VertexHandle(index));
+  for (int d = 0; d < Dim; ++d) point[d] = static_cast<typename Mesh::Scalar>(place[d]);
+  model.set_point(OpenMesh::VertexHandle(index), point);
+  return middle;
+}
+
+TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
+  constexpr int kDimension = TypeParam::kDim;
+  const auto& cage = this->sample_.cage;
+  constexpr int kVertex = 11;
+  constexpr Index kFacet = 1;
+  put_outside<kDimension>(this->model_, cage, kVertex, kFacet);
+  const auto rest = this->points();
+  expect_refused("1 of 49 points lie outside the cage, the first is vertex 11",
+                 [&] { openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_); });
+  EXPECT_THROW(openmesh::get_weights(this->model_), InputError);
+
+  this->options_.outside = openmesh::OutsidePoints::kFollow;
+  const auto report = openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_);
+  EXPECT_EQ(report.outside, 1);
+  openmesh::deform(this->model_, cage);
+  EXPECT_LT((this->points() - rest).cwiseAbs().maxCoeff(), TypeParam::kRounding);
+  const auto pose = this->random_pose(5);
+  openmesh::deform(this->model_, pose);
+  // By symmetry the nearest point is the middle of the facet, which moves as its corners do.
+  Vector<kDimension> moved = rest.col(kVertex);
+  for (int k = 0; k < kDimension; ++k) {
+    const Index corner = cage.facets(k, kFacet);
+    moved += (pose.col(corner) - cage.points.col(corner)) / kDimension;
+  }
+  EXPECT_LT((this->points().col(kVertex) - moved).norm(), 1e-5);
+  // Fewer influences later, or other weights, do not leave it behind or carry it along.
+  openmesh::sparsify(this->model_, 4);
+  openmesh::deform(this->model_, pose);
+  EXPECT_LT((this->points().col(kVertex) - moved).norm(), 1e-5);
+  const auto weights = openmesh::get_weights(this->model_);
+  openmesh::set_weights(this->model_, weights);
+  openmesh::deform(this->model_, pose);
+  EXPECT_LT((this->points().col(kVertex) - pose * weights.col(kVertex)).norm(),
+            TypeParam::kRounding);
+}
+
+TYPED_TEST(Bind, FilesKeepABinding) {
+  this->options_.persistent = true;
+  this->options_.outside = openmesh::OutsidePoints::kFollow;
+  put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, 3, 0);
+  const auto rest = this->points();
+  openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
+  std::stringstream file;
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(this->model_, file, ".om"));
+  typename TypeParam::Mesh loaded;
+  OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
+  const auto pose = this->random_pose(3);
+  openmesh::deform(this->model_, pose);
+  openmesh::deform(loaded, pose);
+  EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), this->points());
+  openmesh::restore_rest(loaded);
+  EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), rest);
+  EXPECT_NO_THROW(openmesh::sparsify(loaded, 4));
+}
+
+TYPED_TEST(Bind, NormalsFollowOnRequest) {
+  openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
+  auto& model = this->model_;
+  model.request_vertex_normals();
+  openmesh::DeformOptions options;
+  options.normals = true;
+  openmesh::deform(model, this->random_pose(7), options);
+  EXPECT_FALSE(model.has_face_normals());
+  auto copy = model;
+  copy.request_face_normals();
+  copy.update_normals();
+  for (const auto v : model.vertices()) {
+    EXPECT_EQ(model.normal(v), copy.normal(v));
+    EXPECT_NEAR(model.normal(v).norm(), 1, 1e-5);
+  }
+}
+
+TYPED_TEST(Bind, BadInputIsNamed) {
+  auto& model = this->model_;
+  const auto& cage = this->sample_.cage;
+  const auto& domain = this->sample_.mesh;
+  const auto bind = [&] { openmesh::bind(model, cage, domain, this->options_); };
+  this->options_.max_influences = 2;
+  expect_refused("influences per point are too few", bind);
+  this->options_.max_influences = -1;
+  expect_refused("max_influences", bind);
+  this->options_.max_influences = 5;
+  model.request_face_status();
+  model.request_edge_status();
+  model.request_vertex_status();
+  model.delete_face(model.face_handle(5), false);
+  expect_refused("face 5; call garbage_collection()", bind);
+  typename TypeParam::Mesh empty;
+  expect_refused("no vertices", [&] { openmesh::bind(empty, cage, domain, this->options_); });
+  expect_refused("has no weights", [&] { openmesh::deform(empty, cage); });
+  expect_refused("has no weights", [&] { openmesh::restore_rest(empty); });
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sparse weights on a mesh: kept through all that OpenMesh does, and moving it as arrays would.
+#include "flbc/openmesh/influences.h"
+
+#include <gtest/gtest.h>
+#include <OpenMesh/Core/IO/MeshIO.hh>
+
+#include <cstring>
+#include <sstream>
+
+#include "flbc/openmesh/deform.h"
+#include "flbc/openmesh/lbc.h"
+#include "flbc/openmesh/sparsify.h"
+#include "support/sample_meshes.h"
+#include "support/wide_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+using DoubleTri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
+using FloatTri = OpenMesh::TriMesh_ArrayKernelT<>;
+struct PlanePoints : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec2d;
+};
+using PlaneTri = OpenMesh::TriMesh_ArrayKernelT<PlanePoints>;
+using openmesh::Influences;
+using openmesh::TetMesh;
+
+template <class Action>
+void expect_refused(const std::string& words, const Action& action) {
+  try {
+    action();
+    FAIL() << "accepted, expected: " << words;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+// Weights of a vertex that tell it from others: up to `most` of n.
+Eigen::VectorXd row_of(int key, Index n, int most) {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+  for (int j = 0; j < key % (most + 1); ++j) row[(key + 3 * j) % n] = 1 + key + 0.125 * j;
+  return row;
+}
+
+constexpr Index kCage = 17;
+constexpr int kMost = 4;
+
+OpenMesh::VPropHandleT<Influences> add_influences(DoubleTri& mesh) {
+  WeightMatrix weights(kCage, mesh.n_vertices());
+  for (const auto v : mesh.vertices()) weights.col(v.idx()) = row_of(key(mesh, v), kCage, kMost);
+  openmesh::set_influences(mesh, SparseWeights(weights), kMost);
+  OpenMesh::VPropHandleT<Influences> handle;
+  EXPECT_TRUE(mesh.get_property_handle(handle, openmesh::kWeights));
+  return handle;
+}
+
+void expect_influences(const DoubleTri& mesh) {
+  const auto weights = openmesh::get_weights(mesh);
+  for (const auto v : mesh.vertices()) {
+    ASSERT_EQ(weights.col(v.idx()), row_of(key(mesh, v), kCage, kMost)) << v.idx();
+  }
+}
+
+TEST(InfluencesProperty, HoldsPairsInOrder) {
+  auto mesh = make_squares<DoubleTri>();
+  add_influences(mesh);
+  expect_influences(mesh);
+  OpenMesh::VProp<Influences> influences(mesh, openmesh::kWeights);
+  for (const auto v : mesh.vertices()) {
+    const auto pairs = influences[v];
+    EXPECT_EQ(pairs.size(), static_cast<std::size_t>(kMost));
+    EXPECT_EQ(pairs.count(), static_cast<std::size_t>(key(mesh, v) % (kMost + 1)));
+    for (std::size_t j = 1; j < pairs.count(); ++j) {
+      EXPECT_LT(pairs.control_point(j - 1), pairs.control_point(j));
+    }
+  }
+  expect_refused("has 4 weights, more than 3", [&] {
+    openmesh::set_influences(mesh, SparseWeights(openmesh::get_weights(mesh)), 3);
+  });
+}
+
+TEST(InfluencesProperty, FollowsItsVertices) {
+  auto mesh = make_squares<DoubleTri>();
+  auto handle = add_influences(mesh);
+  auto& property = mesh.property(handle);
+  property.swap(3, 8);
+  property.swap(8, 3);
+  expect_influences(mesh);
+  const DoubleTri copy = mesh;
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_halfedge_status();
+  mesh.request_face_status();
+  mesh.delete_vertex(OpenMesh::VertexHandle(0));
+  mesh.delete_vertex(OpenMesh::VertexHandle(24));
+  mesh.garbage_collection();
+  ASSERT_LT(mesh.n_vertices(), copy.n_vertices());
+  expect_influences(mesh);
+  expect_influences(copy);
+  const OpenMesh::VertexHandle added = mesh.add_vertex({50, 50, 0});
+  EXPECT_EQ(mesh.property(handle, added).count(), 0U);
+  mesh.copy_property(handle, OpenMesh::VertexHandle(5), added);
+  EXPECT_EQ(mesh.property(handle, added).weight(0),
+            mesh.property(handle, OpenMesh::VertexHandle(5)).weight(0));
+}
+
+TEST(InfluencesProperty, OmFilesKeepItToTheBit) {
+  for (const auto order : {OpenMesh::IO::Options::LSB, OpenMesh::IO::Options::MSB}) {
+    auto mesh = make_squares<DoubleTri>();
+    const auto handle = add_influences(mesh);
+    mesh.property(handle).set_persistent(true);
+    std::stringstream file;
+    ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, file, ".om", OpenMesh::IO::Options::Binary | order));
+    DoubleTri loaded;
+    OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
+    ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
+    expect_influences(loaded);
+  }
+}
+
+TEST(InfluencesProperty, DamagedFilesAreNamed) {
+  auto mesh = make_squares<DoubleTri>();
+  const auto& block = mesh.property(add_influences(mesh)).data_vector();
+  std::stringstream out;
+  const auto size = openmesh::store_influences(out, false, "w", block);
+  const std::string bytes = out.str();
+  ASSERT_EQ(bytes.size(), size);
+  const auto restore = [&](const std::string& damaged) {
+    openmesh::InfluenceBlock read;
+    read.resize(block.size());
+    std::istringstream in(damaged);
+    EXPECT_EQ(openmesh::restore_influences(in, false, "w", read), damaged.size());
+  };
+  restore(bytes);
+  for (const std::size_t length : {0, 5, 20, 60, static_cast<int>(size) - 1}) {
+    expect_refused("property 'w' cannot be read",
+                   [&] { restore(bytes.substr(0, static_cast<std::size_t>(length))); });
+  }
+  constexpr std::size_t kHeader = 40;
+  auto wrong = bytes;
+  const std::uint32_t none = kCage;
+  std::memcpy(&wrong[kHeader + 4 * 4 * kMost], &none, sizeof none);
+  expect_refused("its element 4 names control point 17 of 17", [&] { restore(wrong); });
+  wrong = bytes;
+  wrong[16] = 5;
+  expect_refused("its shape is damaged", [&] { restore(wrong); });
+}
+
+template <class Mesh>
+Mesh build(const DomainMesh<2>& domain) {
+  return openmesh::to_mesh<Mesh>(domain);
+}
+template <class Mesh>
+Mesh build(const DomainMesh<3>& domain) {
+  return TetMesh::from(domain);
+}
+
+template <class Mesh>
+class MeshWeights : public ::testing::Test {
+ protected:
+  static constexpr int kDim = openmesh::kDimension<Mesh>;
+  static constexpr bool kExact = !std::is_same_v<Mesh, FloatTri>;
+
+  MeshWeights() : sample_(make_sample<kDim>(Shape::kCorner, 3, 0.2)) {
+    normalize_and_validate(sample_.mesh);
+    mesh_ = build<Mesh>(sample_.mesh);
+    openmesh::solve(mesh_, sample_.cage);
+    weights_ = openmesh::get_weights(mesh_);
+    pose_ = sample_.cage;
+    for (Eigen::Index i = 0; i < pose_.points.cols(); ++i) {
+      pose_.points(0, i) += 0.125 * static_cast<double>(i % 5);
+      pose_.points(kDim - 1, i) *= 1.5;
+    }
+  }
+
+  PointList<kDim> points() const { return openmesh::points_of<kDim>(mesh_); }
+
+  Sample<kDim> sample_;
+  Mesh mesh_;
+  WeightMatrix weights_;
+  Cage<kDim> pose_;
+};
+using Meshes = ::testing::Types<FloatTri, DoubleTri, PlaneTri, TetMesh>;
+TYPED_TEST_SUITE(MeshWeights, Meshes);
+
+TYPED_TEST(MeshWeights, DeformAsArraysDo) {
+  constexpr int kDimension = TestFixture::kDim;
+  const SparseWeights sparse(this->weights_, 0.05);
+  const auto expected = deform(sparse, this->pose_.points);
+  openmesh::set_influences(this->mesh_, sparse);
+  for (const int threads : {0, 1, 2}) {
+    openmesh::DeformOptions options;
+    options.threads = threads;
+    openmesh::deform(this->mesh_, this->pose_, options);
+    if (TestFixture::kExact) {
+      EXPECT_EQ(this->points(), expected);
+    } else {
+      EXPECT_LT((this->points() - expected).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+  openmesh::set_weights(this->mesh_, this->weights_);
+  openmesh::deform(this->mesh_, this->pose_);
+  const PointList<kDimension> dense = this->pose_.points * this->weights_;
+  EXPECT_LT((this->points() - dense).cwiseAbs().maxCoeff(), TestFixture::kExact ? 1e-13 : 1e-6);
+  Cage<kDimension> other = this->pose_;
+  other.points.conservativeResize(kDimension, other.points.cols() - 1);
+  expect_refused("do not belong to a cage with", [&] { openmesh::deform(this->mesh_, other); });
+}
+
+TYPED_TEST(MeshWeights, SparsifyKeepsWhatCounts) {
+  constexpr int kDimension = TestFixture::kDim;
+  const Index most = kDimension + 2;
+  const PointList<kDimension> rest = this->sample_.cage.points * this->weights_;
+  const auto edges = edges_of_cells(DomainMesh<kDimension>{rest, this->sample_.mesh.cells});
+  double costs[2];
+  for (const auto reduction : {openmesh::Reduction::kPoisson, openmesh::Reduction::kQuadratic}) {
+    openmesh::set_weights(this->mesh_, this->weights_);
+    // Where the mesh is does not matter.
+    openmesh::deform(this->mesh_, this->pose_);
+    openmesh::ReductionOptions options;
+    options.reduction = reduction;
+    const auto quality = openmesh::sparsify(this->mesh_, most, options);
+    EXPECT_LT(quality.max_reproduction_error, 1e-12);
+    const auto few = openmesh::get_weights(this->mesh_);
+    EXPECT_LE((few.array() != 0).colwise().count().maxCoeff(), most);
+    EXPECT_GE(few.minCoeff(), 0);
+    EXPECT_LT((few.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+    EXPECT_LT((this->sample_.cage.points * few - rest).cwiseAbs().maxCoeff(), 1e-12);
+    openmesh::deform(this->mesh_, this->sample_.cage);
+    EXPECT_LT((this->points() - rest).cwiseAbs().maxCoeff(), TestFixture::kExact ? 1e-12 : 1e-6);
+    costs[static_cast<int>(reduction)] =
+        poisson_cost<kDimension>(this->sample_.cage.points, rest, edges, this->weights_, few, {});
+  }
+  EXPECT_LE(costs[static_cast<int>(openmesh::Reduction::kPoisson)],
+            costs[static_cast<int>(openmesh::Reduction::kQuadratic)]);
+}
+
+TYPED_TEST(MeshWeights, SparsifyLeavesTheOthersIfAsked) {
+  openmesh::ReductionOptions options;
+  options.into = "few";
+  openmesh::sparsify(this->mesh_, 5, options);
+  EXPECT_EQ(openmesh::get_weights(this->mesh_), this->weights_);
+  EXPECT_EQ(openmesh::get_weights(this->mesh_, "few").rows(), this->weights_.rows());
+  EXPECT_EQ(openmesh::get_rest_cage(this->mesh_, "few"), this->sample_.cage.points);
+  // Again, from what was left.
+  options.weights = options.into;
+  EXPECT_NO_THROW(openmesh::sparsify(this->mesh_, 4, options));
+  expect_refused("needs", [&] { openmesh::sparsify(this->mesh_, 2); });
+  openmesh::set_weights(this->mesh_, this->weights_, "mine");
+  options.weights = "mine";
+  expect_refused("does not know the cage", [&] { openmesh::sparsify(this->mesh_, 5, options); });
+  EXPECT_NO_THROW(openmesh::sparsify(this->mesh_, this->sample_.cage.points, 5, options));
+}
+
+// Threads come in where there is much to do.
+TEST(ManyVertices, ThreadsChangeNothing) {
+  constexpr int kVertices = 520000;
+  FloatTri mesh;
+  mesh.reserve(kVertices, 0, 0);
+  for (int v = 0; v < kVertices; ++v) mesh.add_vertex({0, 0, 0});
+  auto& property = openmesh::internal::get_property<Influences>(mesh, openmesh::kWeights);
+  property.set_shape(8, 8);
+  PointList<3> pose(3, 8);
+  for (int i = 0; i < 8; ++i) pose.col(i) << i, i * i, 1;
+  for (int v = 0; v < kVertices; ++v) {
+    for (std::size_t j = 0; j < 8; ++j) {
+      property[v].control_point(j) = static_cast<std::uint32_t>((v + j) % 8);
+      property[v].weight(j) = 1.0 / static_cast<double>(j + 1 + v % 3);
+    }
+  }
+  const auto points_with = [&](int threads) {
+    openmesh::DeformOptions options;
+    options.threads = threads;
+    openmesh::deform(mesh, pose, options);
+    return openmesh::points_of<3>(mesh);
+  };
+  const auto alone = points_with(1);
+  EXPECT_EQ(points_with(0), alone);
+  EXPECT_EQ(points_with(3), alone);
+  double sum = 0;
+  for (std::size_t j = 0; j < 8; ++j) sum += property[kVertices - 1].weight(j);
+  EXPECT_NEAR(alone(2, kVertices - 1), sum, 1e-6);
+}
+
+}  // namespace
+}  // namespace flbc::testing
