@@ -143,6 +143,11 @@ class Reader {
   std::size_t at_ = 0, end_;
 };
 
+// OpenMesh's own kernels alone may add a property whose type they do not know.
+struct OpenContainer : OpenMesh::PropertyContainer {
+  static constexpr auto kAdd = &OpenContainer::_add;
+};
+
 // A property without elements, made by OpenMesh's register of types. \return null if the type is
 // not registered
 std::unique_ptr<OpenMesh::BaseProperty> make_property(const std::string& type,
@@ -169,7 +174,7 @@ void read_property(Reader& reader, TetMesh& mesh) {
     if (kind != wanted) return;
     found = true;
     auto* const kept = property.get();
-    container._add(property.release());
+    (container.*OpenContainer::kAdd)(property.release());
     container.resize(elements);
     std::istringstream in(numbers);
     if (kept->n_elements() > 0) kept->restore(in, false);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Component openmesh: a cage from a file, and coordinates on a half-edge mesh.
+// Component openmesh: a cage from a file, and coordinates on a half-edge mesh that follows it.
 #include <fstream>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
+#include <flbc/openmesh/bind.h>
 #include <flbc/openmesh/lbc.h>
 #include <flbc/openmesh/mesh_io.h>
 
@@ -36,5 +37,9 @@ int main() {
     mesh.add_face(mesh.vertex_handle(k), mesh.vertex_handle((k + 1) % 4), mesh.vertex_handle(4));
   }
   flbc::openmesh::solve(mesh, cage);
-  return judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
+  const int fine = judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
+  // With a mesh of one's own, no other component is needed.
+  flbc::openmesh::bind(mesh, cage, flbc::openmesh::to_domain(mesh));
+  flbc::openmesh::deform(mesh, cage);
+  return fine + judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
 }

@@ -3,6 +3,7 @@
 //! From a model and a cage to weights on the model, in one call; with deform.h it follows the cage.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -120,8 +121,8 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   auto binding = bind_points<Dim>({cage, points, edges, domain, mesher}, options);
   if (options.max_influences > 0) {
     set_influences(model, SparseWeights(binding.weights),
-                   static_cast<std::size_t>(options.max_influences), options.weights,
-                   options.persistent);
+                   static_cast<std::size_t>(std::min(options.max_influences, cage.size())),
+                   options.weights, options.persistent);
   } else {
     set_weights(model, binding.weights, options.weights, options.persistent);
   }

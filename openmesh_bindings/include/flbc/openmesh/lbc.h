@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "flbc/coarse_to_fine.h"
+#include "flbc/content_hash.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/domain.h"
 #include "flbc/openmesh/property_storage.h"
@@ -87,7 +88,7 @@ OpenMesh::MPropHandleT<StateText> record_handle(Mesh& mesh, const PropertyOption
   return handle;
 }
 
-//! Decides whether to go on from the state on the mesh, and makes it ready for that.
+//! Decides whether to go on from the state on the mesh, which stays as it is.
 //! \param options  as the caller gave them; gets the penalty with which to go on
 template <class Mesh>
 MeshSolveReport begin(const std::string& kept_text, const StateRecord& record,
@@ -113,11 +114,8 @@ MeshSolveReport begin(const std::string& kept_text, const StateRecord& record,
     report.restart = "the state is incomplete";
     return report;
   }
-  storage.resume(kept.penalty);
   if (options.penalty == 0) options.penalty = kept.requested_penalty;
-  if (!same_penalty) {
-    storage.rescale_duals(kept.used_penalty / options.penalty, resolved.precision);
-  }
+  storage.resume(kept.penalty, same_penalty ? 1 : kept.used_penalty / options.penalty);
   report.resumed = true;
   return report;
 }
@@ -144,9 +142,11 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
                               phi.size() > 0 ? DistanceScheme::kConstant : options.phi);
   if (phi.size() > 0) problem.phi = std::move(phi);
   internal::leave_phi(mesh, problem.phi, properties);
+  if (!properties.phi.empty()) record.phi = content_hash(problem.phi).text();
 
   // Until it is through, what is on the mesh is no state to go on from.
   mesh.property(handle) = to_json(record);
+  storage.rescale_duals(options.precision);
   Solution solution;
   try {
     solution = flbc::solve(problem, options, mesher, &storage);

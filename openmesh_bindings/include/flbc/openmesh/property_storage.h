@@ -83,11 +83,16 @@ class PropertyStorage : public StateStorage {
            has(A::kExtrapolatedGradient, precision) && has(A::kIntegrabilityDual, precision);
   }
 
-  //! Goes on from a state with this penalty.
-  void resume(double penalty) { penalty_ = penalty; }
+  //! Goes on from a state with this penalty. \param dual_factor  see rescale_duals()
+  void resume(double penalty, double dual_factor) {
+    penalty_ = penalty;
+    dual_factor_ = dual_factor;
+  }
 
-  //! Multiplies the duals of the gradient methods, which are relative to the penalty.
-  void rescale_duals(double factor, Precision precision) {
+  //! Multiplies the duals of the gradient methods, which are relative to the penalty, by the old
+  //! penalty divided by the new one.
+  void rescale_duals(Precision precision) {
+    const double factor = dual_factor_;
     if (factor == 1) return;
     for (const auto array :
          {StateArray::kTvDual, StateArray::kIntegrabilityDual, StateArray::kPeriodDual}) {
@@ -204,6 +209,7 @@ class PropertyStorage : public StateStorage {
   const std::string prefix_;
   const std::size_t n_;
   double penalty_ = 0;
+  double dual_factor_ = 1;
 };
 
 }  // namespace flbc::openmesh

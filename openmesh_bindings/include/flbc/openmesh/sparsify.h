@@ -3,6 +3,7 @@
 //! Few influences per vertex, on the mesh itself.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 
@@ -59,7 +60,8 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
       internal::reduce(cage, rest, edges, weights, most, options.reduction, options.threshold);
   const std::string& into = options.into.empty() ? options.weights : options.into;
   const auto offset = internal::offsets_of(mesh, options.weights);
-  set_influences(mesh, SparseWeights(reduced), static_cast<std::size_t>(most), into,
+  set_influences(mesh, SparseWeights(reduced),
+                 static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())), into,
                  options.persistent);
   internal::set_offsets(mesh, offset, into, options.persistent);
   set_rest_cage(mesh, cage, into, options.persistent);
