@@ -59,7 +59,7 @@ CagePlace<Dim> nearest_on_cage(const Cage<Dim>& cage, const Vector<Dim>& point) 
   for (Index f = 0; f < static_cast<Index>(cage.facets.cols()); ++f) {
     PointList<Dim> corners(Dim, Dim);
     for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-    const auto place = nearest_in_hull<Dim>(corners, point);
+    const auto place = nearest_point_in_hull<Dim>(corners, point);
     if (nearest.facet < 0 || place.distance < nearest.in_facet.distance) nearest = {f, place};
   }
   return nearest;

@@ -11,6 +11,7 @@
 #include "flbc/cage.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/io/mesh_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify.h"
 #include "support/glb_file.h"
@@ -293,7 +294,7 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
     // An odd number of triangles, so that what follows their numbers has to be aligned.
     DomainMesh<2> strip{points, CellList<2>(3, 2 * columns - 3)};
     for (Index t = 0; t < 2 * columns - 3; ++t) strip.cells.col(t) << t, t + 1, t + 2;
-    const auto surface = gltf::surface_of_domain(strip);
+    const auto surface = gltf::surface_of_model<2>({io::to_polygons(strip)});
     const GlbFile file(gltf::export_skin<2>(control_points, points, weights, surface).glb);
     EXPECT_EQ(
         file.json["accessors"][file.primitive()["indices"].get<std::size_t>()]["componentType"],
@@ -343,7 +344,7 @@ TYPED_TEST(GltfSkinTest, ErrorsOfStoringAreMeasured) {
 
 TEST(GltfSkin, PointsInsideAMeshDoNotCount) {
   Example<3> example;
-  example.surface = gltf::surface_of_domain(example.sample.mesh);
+  example.surface = gltf::surface_of_model<3>({io::to_polygons(example.sample.mesh)});
   gltf::SkinOptions options;
   options.max_influences = 4;
   const auto skin = example.skin(options);
