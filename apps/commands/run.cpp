@@ -178,10 +178,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "run", "Mesh, solve, check, sparsify, deform, export and draw, all at once");
   command->footer(
       "OUTDIR gets the mesh of the interior, dense and sparse weights, the model in every pose,\n"
-      "model.glb, which is a skin that moves through them, pictures, model.html, in which the
-"
-      "cage can be moved, and report.json. What an earlier run has made there is replaced. Model
-"
+      "model.glb, which is a skin that moves through them, pictures, model.html, in which the\n"
+      "cage can be moved, and report.json. What an earlier run has made there is replaced. Model\n"
       "and skin move by the sparse weights. If a step fails, what was made before stays.");
   command
       ->add_option("CAGE", settings.cage,

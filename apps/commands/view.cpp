@@ -16,7 +16,6 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
-#include "poses/animation.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
 #include "view/influences.h"
