@@ -168,6 +168,35 @@ void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
   arguments.cage_control_points = std::stoi(values.front());
 }
 
+// \return the exit status
+int run_as_told(const CLI::Option& auto_cage, RunArguments& arguments) {
+  check_arguments(arguments);
+  read_auto_cage(auto_cage, arguments);
+  if (arguments.makes_cage) return run_model(arguments);
+  if (arguments.settings.embed && arguments.settings.model.empty()) {
+    throw OptionError("--embed requires MODEL");
+  }
+  const auto cage = load_cage(arguments.settings.cage);
+  return std::visit([&](const auto& any) { return run_cage(any, arguments); }, cage);
+}
+
+// CAGE, MODEL, and the option that makes the first of them of the second.
+CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
+  command
+      .add_option("CAGE", settings.cage,
+                  "closed polylines (2D) or surface (3D); with --auto-cage a model")
+      ->required();
+  command.add_option("MODEL", settings.model,
+                     "what is inside and moves along: .obj .off .ply .stl .om; without it the "
+                     "mesh of the interior");
+  return command
+      .add_option(
+          "--auto-cage",
+          "the file is a model: make a cage round it, of at most N control points (by its shape)")
+      ->expected(0, 1)
+      ->type_name("[N]");
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_status) {
@@ -181,13 +210,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "model.glb, which is a skin that moves through them, pictures, model.html, in which the\n"
       "cage can be moved, and report.json. What an earlier run has made there is replaced. Model\n"
       "and skin move by the sparse weights. If a step fails, what was made before stays.");
-  command
-      ->add_option("CAGE", settings.cage,
-                   "closed polylines (2D) or surface (3D); with --auto-cage a model")
-      ->required();
-  command->add_option("MODEL", settings.model,
-                      "what is inside and moves along: .obj .off .ply .stl .om; without it the "
-                      "mesh of the interior");
+  auto* auto_cage = add_shapes(*command, settings);
   auto* deformed = command->add_option(
       "--deformed", a.deformed, "the cage in its new pose; several, or a pattern as pose_%d.obj");
   auto* keyframes = command->add_option(
@@ -199,10 +222,6 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_option("-k,--max-influences", a.max_influences, "most influences per point (8)");
   command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
       ->check(refuse_vertex_count);
-  auto* auto_cage = command->add_option(
-      "--auto-cage",
-      "the file is a model: make a cage round it, of at most N control points (by its shape)");
-  auto_cage->expected(0, 1)->type_name("[N]");
   command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices");
   command
       ->add_option("--sparsify", a.reduction,
@@ -218,19 +237,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
   add_solver_options(*command, settings);
   command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, auto_cage, &exit_status] {
-    check_arguments(*arguments);
-    read_auto_cage(*auto_cage, *arguments);
-    if (arguments->makes_cage) {
-      exit_status = run_model(*arguments);
-      return;
-    }
-    if (arguments->settings.embed && arguments->settings.model.empty()) {
-      throw OptionError("--embed requires MODEL");
-    }
-    const auto cage = load_cage(arguments->settings.cage);
-    exit_status = std::visit([&](const auto& any) { return run_cage(any, *arguments); }, cage);
-  });
+  command->callback(
+      [arguments, auto_cage, &exit_status] { exit_status = run_as_told(*auto_cage, *arguments); });
 }
 
 }  // namespace flbc::app

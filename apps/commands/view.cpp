@@ -70,12 +70,14 @@ template <int Dim>
 std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& arguments,
                                                    const CageFiles& files,
                                                    const PointList<Dim>& rest) {
-  const bool is_animation = !arguments.keyframes.empty();
-  const auto poses =
-      is_animation ? load_keyframes<Dim>(arguments.keyframes, rest) : load_poses<Dim>(files);
-  const auto times = is_animation ? load_animation<Dim>(arguments.keyframes, rest).times
-                                  : times_of_poses(poses.size(), arguments.frames_per_second);
-  return shown_poses(poses, times);
+  if (arguments.keyframes.empty()) {
+    const auto poses = load_poses<Dim>(files);
+    return shown_poses(poses, times_of_poses(poses.size(), arguments.frames_per_second));
+  }
+  const auto keyframes = load_keyframes<Dim>(arguments.keyframes, rest);
+  std::vector<double> times;
+  for (const auto& keyframe : keyframes) times.push_back(keyframe.time);
+  return shown_poses(keyframes, times);
 }
 
 template <int Dim>

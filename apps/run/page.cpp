@@ -15,7 +15,7 @@ namespace {
 template <int Dim>
 view::ShownCage<Dim> shown_cage(const Run<Dim>& run) {
   const auto& file = run.arguments.settings.cage;
-  if (file != "-") return load_shown_cage<Dim>(file);
+  if (file != "-" && !run.arguments.makes_cage) return load_shown_cage<Dim>(file);
   return {run.cage.points, run.cage.facets, view::edges_of_cage<Dim>({}, run.cage.facets)};
 }
 
@@ -38,7 +38,8 @@ void write_page(Run<Dim>& run) {
   content.model_file = run.has_model() ? path_beside(path, model)
                                        : run.report["mesh"]["file"].template get<std::string>();
   content.weights_file = kSparseWeights;
-  content.cage_file = path_beside(path, run.arguments.settings.cage);
+  const auto& cage = run.arguments.settings.cage;
+  content.cage_file = run.arguments.makes_cage ? cage : path_beside(path, cage);
   content.cage = shown_cage(run);
   content.points = shape.points;
   content.surface = shape.surface;

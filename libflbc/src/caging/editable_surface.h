@@ -13,7 +13,7 @@
 
 namespace flbc {
 
-//! What becomes of the facets round an edge when its ends become one vertex.
+//! The facets round an edge when its ends become one vertex.
 template <int Dim>
 struct Collapse {
   Index kept = -1, removed = -1;             //!< the ends; the vertex that stays has number `kept`
@@ -45,7 +45,7 @@ class EditableSurface {
   //! Vertices of the closed surface, the mirror images included.
   Index num_control_points() const { return num_control_points_; }
 
-  //! What collapsing an edge would do; nothing if the surface were no manifold afterwards.
+  //! The collapse of an edge; nothing if the surface were no manifold afterwards.
   std::optional<Collapse<Dim>> plan_collapse(Index a, Index b) const;
   void collapse(const Collapse<Dim>& plan, const Vector<Dim>& position);
   void move(Index vertex, const Vector<Dim>& position);

@@ -17,7 +17,7 @@ struct Simplex {
   int count = Dim;
 };
 
-//! What points span: corners that coincide are one, and of points on one line only the outermost
+//! The hull of points: corners that coincide are one, and of points on one line only the outermost
 //! stay. \param corners  a column per corner, repeated ones allowed
 template <int Dim>
 Simplex<Dim> simplex_of(const Eigen::Matrix<double, Dim, Dim>& corners);
