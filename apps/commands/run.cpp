@@ -9,6 +9,7 @@
 #include "commands/exit_status.h"
 #include "files/load.h"
 #include "flbc/errors.h"
+#include "flbc/io/model_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "run/facts.h"
@@ -120,7 +121,8 @@ void leave_report(Run<Dim>& run, const std::string& failure) {
 }
 
 template <int Dim>
-int run_cage(const Cage<Dim>& cage, const RunArguments& arguments) {
+int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
+             const io::ModelFile* cage_file = nullptr) {
   const auto& settings = arguments.settings;
   validate<Dim>(SparsifyOptions{arguments.max_influences});
   check_control_point(cage, arguments.control_point);
@@ -129,7 +131,7 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments) {
   CageSolver<Dim> solver(cage, model, settings);
   RunFolder folder(arguments.output,
                    {inputs.files, names_of_results(inputs), arguments.force, arguments.quiet});
-  Run<Dim> run{arguments, cage, inputs, solver, folder};
+  Run<Dim> run{arguments, cage, cage_file, inputs, solver, folder};
   run.report = {{"command", "run"},      {"version", FLBC_VERSION}, {"dim", Dim},
                 {"cage", settings.cage}, {"model", settings.model}, {"inputs", inputs.files}};
   try {
@@ -176,8 +178,9 @@ int run_as_told(const CLI::Option& auto_cage, RunArguments& arguments) {
   if (arguments.settings.embed && arguments.settings.model.empty()) {
     throw OptionError("--embed requires MODEL");
   }
-  const auto cage = load_cage(arguments.settings.cage);
-  return std::visit([&](const auto& any) { return run_cage(any, arguments); }, cage);
+  const io::ModelFile file(arguments.settings.cage);
+  const auto cage = checked_cage(file.model().soup, arguments.settings.cage);
+  return std::visit([&](const auto& any) { return run_cage(any, arguments, &file); }, cage);
 }
 
 // CAGE, MODEL, and the option that makes the first of them of the second.

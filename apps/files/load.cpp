@@ -52,7 +52,11 @@ void require_writable_folder(const std::string& path) {
 }  // namespace
 
 io::AnyCage load_cage(const std::string& path) {
-  auto cage = io::to_cage(io::read_polygons(path), path);
+  return checked_cage(io::read_polygons(path), path);
+}
+
+io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path) {
+  auto cage = io::to_cage(soup, path);
   std::visit([&](const auto& any) { check_cage(any, path); }, cage);
   return cage;
 }

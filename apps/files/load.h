@@ -26,6 +26,9 @@ auto naming(const std::string& path, const Action& action) {
 //! A cage that has passed all checks, self-intersection included where CGAL was built in.
 io::AnyCage load_cage(const std::string& path);
 
+//! The same of a file that has been read. \param path  for messages
+io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path);
+
 //! The vertices of a model. \throws InputError if it has none
 template <int Dim>
 PointList<Dim> load_model(const std::string& path);

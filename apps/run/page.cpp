@@ -11,14 +11,6 @@
 namespace flbc::app {
 namespace {
 
-// With the edges and the text of its file, which cannot be read again from standard input.
-template <int Dim>
-view::ShownCage<Dim> shown_cage(const Run<Dim>& run) {
-  const auto& file = run.arguments.settings.cage;
-  if (file != "-" && !run.arguments.makes_cage) return load_shown_cage<Dim>(file);
-  return {run.cage.points, run.cage.facets, view::edges_of_cage<Dim>({}, run.cage.facets)};
-}
-
 // Without the rest from where animations of cage files start.
 template <int Dim>
 std::vector<double> times_of(const Run<Dim>& run) {
@@ -27,6 +19,14 @@ std::vector<double> times_of(const Run<Dim>& run) {
 }
 
 }  // namespace
+
+template <int Dim>
+view::ShownCage<Dim> shown_cage(const Run<Dim>& run) {
+  if (run.cage_file != nullptr) {
+    return cage_as_shown<Dim>(*run.cage_file, run.arguments.settings.cage);
+  }
+  return {run.cage.points, run.cage.facets, view::edges_of_cage<Dim>({}, run.cage.facets)};
+}
 
 template <int Dim>
 void write_page(Run<Dim>& run) {
@@ -55,6 +55,8 @@ void write_page(Run<Dim>& run) {
   });
 }
 
+template view::ShownCage<2> shown_cage(const Run<2>&);
+template view::ShownCage<3> shown_cage(const Run<3>&);
 template void write_page(Run<2>&);
 template void write_page(Run<3>&);
 

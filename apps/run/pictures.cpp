@@ -11,7 +11,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "run/facts.h"
-#include "view/model_page.h"
+#include "run/page.h"
 
 namespace flbc::app {
 namespace {
@@ -75,10 +75,7 @@ draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
                              control_point);
   }
   const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
-  const auto& file = run.arguments.settings.cage;
-  const auto edges =
-      file == "-" ? view::edges_of_cage<3>({}, run.cage.facets) : load_shown_cage<3>(file).edges;
-  return draw::draw_model({gltf::triangles_of_points(shape.surface), edges},
+  return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
                           {{run.cage.points, shape.points}, {pose.points, points}},
                           {displacements<3>(shape.points, points)},
                           draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation));

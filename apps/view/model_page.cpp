@@ -15,13 +15,18 @@ namespace flbc::app {
 
 template <int Dim>
 view::ShownCage<Dim> load_shown_cage(const std::string& path) {
-  const auto soup = io::read_polygons(path);
+  return cage_as_shown<Dim>(io::ModelFile(path), path);
+}
+
+template <int Dim>
+view::ShownCage<Dim> cage_as_shown(const io::ModelFile& file, const std::string& path) {
+  const auto& soup = file.model().soup;
   const auto cage = io::to_cage(soup, path);
   view::ShownCage<Dim> shown;
   shown.points = io::to_points<Dim>(soup, path);
   if (const auto* same = std::get_if<Cage<Dim>>(&cage)) shown.facets = same->facets;
   shown.edges = view::edges_of_cage<Dim>(soup.polygons, shown.facets);
-  if (io::extension_of(path) == "obj") shown.text = io::read_file(path);
+  if (io::extension_of(path) == "obj") shown.text = file.text();
   return shown;
 }
 
@@ -68,6 +73,7 @@ std::string data_uri(const std::string& media_type, const std::string& bytes) {
 
 #define FLBC_INSTANTIATE(Dim)                                                           \
   template view::ShownCage<Dim> load_shown_cage(const std::string&);                    \
+  template view::ShownCage<Dim> cage_as_shown(const io::ModelFile&, const std::string&); \
   template view::ShownModel<Dim> load_shown_model(const std::string&);                  \
   template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&, \
                                                          const std::vector<double>&);

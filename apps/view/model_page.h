@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/io/model_file.h"
 #include "poses/poses.h"
 #include "view/page.h"
 
@@ -15,6 +16,10 @@ namespace flbc::app {
 //! \throws IoError, InputError
 template <int Dim>
 view::ShownCage<Dim> load_shown_cage(const std::string& path);
+
+//! The same of a file that has been read. \param path  where it was
+template <int Dim>
+view::ShownCage<Dim> cage_as_shown(const io::ModelFile& file, const std::string& path);
 
 //! A model, or a mesh of the interior with its boundary.
 //! \throws IoError, InputError, OptionError

@@ -289,7 +289,7 @@ TYPED_TEST(CertificateTest, SizesThatDoNotFitAreErrors) {
   Field<double, kDim> field(problem);
   const Index n = problem.num_control_points();
   expect_error<InputError>([&] { lower_bound(problem, field.view, weights.leftCols(2).eval()); },
-                           {"2 vertices", std::to_string(n)});
+                           {"2 points", std::to_string(n)});
   field.view.n = n - 1;
   expect_error<InputError>([&] { certify(problem, field.view, weights); },
                            {std::to_string(n - 1), std::to_string(n)});

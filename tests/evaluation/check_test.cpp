@@ -291,10 +291,10 @@ TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
     return "no error";
   };
   const PointList<kDim> fewer = mesh.points.leftCols(7);
-  EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("there are 7 points"),
+  EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("belong to 7 points"),
             std::string::npos);
   const WeightMatrix other = sound.weights.topRows(5);
-  EXPECT_NE(message([&] { check_weights(cage, mesh, other); }).find("for 5 control points"),
+  EXPECT_NE(message([&] { check_weights(cage, mesh, other); }).find("and 5 control points"),
             std::string::npos);
   auto moved = mesh;
   moved.points.array() += 0.5;

@@ -172,6 +172,10 @@ const Model& ModelFile::model() const {
   return content_->file.model;
 }
 
+const std::string& ModelFile::text() const {
+  return content_->file.text;
+}
+
 Index ModelFile::num_loose_normals() const {
   return content_->normals.num_loose();
 }

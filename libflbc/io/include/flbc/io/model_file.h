@@ -34,6 +34,9 @@ class ModelFile {
   //! What the file holds.
   const Model& model() const;
 
+  //! The file as it was read, byte by byte.
+  const std::string& text() const;
+
   //! Number of normals in the file that belong to no polygon with an area: they cannot follow the
   //! vertices and stay as they are.
   Index num_loose_normals() const;
