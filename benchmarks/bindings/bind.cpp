@@ -19,6 +19,7 @@
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/openmesh/bind.h"
 #include "flbc/solver.h"
 
@@ -46,7 +47,7 @@ double median(std::vector<double> values) {
 }
 
 Model load_model(const char* path) {
-  const auto soup = io::read_obj(path);
+  const auto soup = io::read_polygons(path);
   Model model;
   for (const auto& point : soup.points) model.add_vertex({point[0], point[1], point[2]});
   for (const auto& polygon : soup.polygons) {
@@ -129,7 +130,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     const int pairs = argc > 3 ? std::max(1, std::atoi(argv[3])) : 5;
-    const auto cage = std::get<Cage<3>>(io::to_cage(io::read_obj(argv[1]), argv[1]));
+    const auto cage = std::get<Cage<3>>(io::to_cage(io::read_polygons(argv[1]), argv[1]));
     auto model = load_model(argv[2]);
     openmesh::bind(model, cage);
     compare_frames(cage, model, pairs);
