@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Component cgal: a mesh of the square.
-#include "install/consumer/judge.h"
+#include "judge.h"
 
 int main() {
   const auto cage = square();

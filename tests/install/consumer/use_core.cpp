@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The core with a mesh of one's own: four triangles around a point of the square.
-#include "install/consumer/judge.h"
+#include "judge.h"
 
 int main() {
   const auto cage = square();

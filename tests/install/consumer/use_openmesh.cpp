@@ -9,7 +9,7 @@
 #include <flbc/openmesh/lbc.h>
 #include <flbc/openmesh/mesh_io.h>
 
-#include "install/consumer/judge.h"
+#include "judge.h"
 
 namespace {
 

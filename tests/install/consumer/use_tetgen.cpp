@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Component tetgen: a mesh of an octahedron.
-#include "install/consumer/judge.h"
+#include "judge.h"
 
 int main() {
   flbc::Cage<3> cage;
