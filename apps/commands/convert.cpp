@@ -55,7 +55,7 @@ void check_arguments(const ConvertArguments& arguments) {
   for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
 }
 
-// What the new format does not keep is told.
+// Losses of the new format are told.
 void convert_mesh(const std::string& input, const std::string& output, bool quiet) {
   const auto convert = [&](const auto& any) {
     {

@@ -10,7 +10,7 @@
 
 namespace flbc::draw {
 
-//! What the colours of a surface show.
+//! Quantity shown by the colours of a surface.
 struct ShownValues {
   Eigen::VectorXd values{};  //!< P, weights of a control point or lengths; empty: a plain surface
   Index control_point = -1;  //!< whose weights they are, -1 for lengths

@@ -20,7 +20,7 @@ namespace flbc::app {
 constexpr std::initializer_list<io::Content> kMeshFiles = {
     io::Content::kModel, io::Content::kMesh2D, io::Content::kMesh3D};
 
-//! What becomes of a file.
+//! A file and the file it becomes.
 struct MovedFile {
   std::string model;                //!< that is read
   std::string output;               //!< that is written, maybe with a place for a number
@@ -53,7 +53,7 @@ class MovableModel {
   //! Dim x P.
   const PointList<Dim>& points() const { return points_; }
 
-  //! What is in a model's file; null for meshes of the interior.
+  //! Content of a model's file; null for meshes of the interior.
   const io::Model* model() const { return model_ ? &model_->model() : nullptr; }
 
   //! A mesh of the interior; empty for models.

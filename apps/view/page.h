@@ -37,7 +37,7 @@ struct ShownPose {
   PointList<Dim> points{};  //!< Dim x n
 };
 
-//! What goes into a page.
+//! Content of a page.
 template <int Dim>
 struct PageContent {
   std::string title{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What it costs to bind and to move an OpenMesh model instead of plain arrays:
+// Cost of binding and moving an OpenMesh model instead of plain arrays:
 //
 //   flbc_bench_bind CAGE MODEL [PAIRS]
 //

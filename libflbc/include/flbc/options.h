@@ -64,7 +64,7 @@ struct SolverOptions {
   //! How weights follow from gradients. Read by kGradient and kPaper.
   Recovery recovery = Recovery::kAuto;
 
-  //! What becomes of w >= 0. Read by all methods; kConstraint is one of kValue and kLbc2014 only.
+  //! Treatment of w >= 0. Read by all methods; kConstraint is one of kValue and kLbc2014 only.
   NonNegative non_negative = NonNegative::kAuto;
 
   //! For the linear system of each iteration. Read by kValue and kLbc2014.

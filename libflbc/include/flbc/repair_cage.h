@@ -10,7 +10,7 @@
 
 namespace flbc {
 
-//! What has become of a cage.
+//! Outcome of a repair.
 template <int Dim>
 struct RepairedCage {
   Cage<Dim> cage;                    //!< passes validate() and does not intersect itself

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What model files hold and where their numbers stand, a source file for each format.
+//! Content of model files and the places of their numbers, a source file for each format.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct NumberPlace {
   NumberForm form = NumberForm::kText;
 };
 
-//! What three numbers are together.
+//! Meaning of three numbers in a row.
 enum class TripleKind : std::uint8_t { kPoint, kNormal, kFaceNormal };
 
 //! A number that changes when vertices move.

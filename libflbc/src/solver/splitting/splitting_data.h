@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What stays the same during the splitting on the weights, as the inner loops want it.
+//! Constant data of the splitting on the weights, as the inner loops want it.
 #pragma once
 
 #include <vector>

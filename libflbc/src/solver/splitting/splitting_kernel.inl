@@ -108,7 +108,7 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
   }
 }
 
-// What a penalty is judged by, see WeightSplitting::adapt_penalty.
+// Norms by which a penalty is judged, see WeightSplitting::adapt_penalty.
 template <class Scalar, int Dim>
 void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* start, double* dual,
              double* motion) {

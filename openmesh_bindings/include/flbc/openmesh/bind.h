@@ -21,13 +21,13 @@
 
 namespace flbc::openmesh {
 
-//! What becomes of the model's vertices outside the cage.
+//! Treatment of the model's vertices outside the cage.
 enum class OutsidePoints {
   kRefuse,  //!< an InputError names the first and how many there are
   kFollow   //!< they move as the nearest point of the cage does, keeping their offset from it
 };
 
-//! What bind() does and leaves on the model.
+//! Options of bind().
 struct BindOptions {
   //! Vertices of the mesh of the cage's interior; 0 = as few as cells of good shape take. If the
   //! default is too few for a cage, it gets as many as it takes.
@@ -42,7 +42,7 @@ struct BindOptions {
   bool persistent = false;                         //!< whether .om files keep what is left
 };
 
-//! What bind() tells.
+//! Report of bind().
 struct BindReport {
   SolveReport solve{};  //!< on the mesh of the interior, with its size
   Quality quality{};    //!< of the weights that are left on the model

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a file's extension says about it.
+//! A file's format by its extension.
 #pragma once
 
 #include <initializer_list>
@@ -8,7 +8,7 @@
 
 namespace flbc::io {
 
-//! What files hold, or keep of what they hold.
+//! Kinds of content of files.
 enum class Content {
   kModel,     //!< polygons and polylines: models and cages
   kMesh2D,    //!< triangles in the plane

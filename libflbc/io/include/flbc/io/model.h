@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What model files hold, whatever their format.
+//! Content of model files, whatever their format.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct PolygonSoup {
       polylines;  //!< vertices in order; closed if the last is the first
 };
 
-//! What a polygon's corner refers to beside its vertex; -1 = nothing.
+//! Attributes of a polygon's corner beside its vertex; -1 = none.
 struct CornerReferences {
   Index texture_coordinate = -1;
   Index normal = -1;
