@@ -41,11 +41,11 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   const auto& report = solver.report();
   std::cerr << arguments.output << ": " << report.control_points << " control points, "
             << report.vertices << " vertices, " << report.cells
-            << (Dim == 2 ? " triangles; " : " tetrahedra; ") << report.iterations << " iterations, "
+            << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report) << ", "
             << report.seconds.solve << (solver.is_cached() ? " s, from the cache" : " s")
             << "; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
-  if (arguments.settings.options.certify) {
+  if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
   }
   std::cerr << '\n';

@@ -47,6 +47,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"recovery", name_of(options.recovery)},
           {"precision", name_of(options.precision)},
           {"tolerance", options.tolerance},
+          {"gap", *options.gap},
           {"max_iterations", options.max_iterations},
           {"penalty", penalty_asked_for(report, settings)},
           {"relaxation", options.relaxation},
@@ -55,6 +56,16 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
 }
 
 }  // namespace
+
+bool is_certified(const SolveReport& report) {
+  return report.certificate.objective > 0;
+}
+
+std::string describe_iterations(const SolveReport& report) {
+  return std::to_string(report.iterations) +
+         (report.criterion == Criterion::kGap ? " iterations, ended by the certified gap"
+                                              : " iterations");
+}
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context) {
@@ -68,11 +79,12 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["iterations"] = report.iterations;
   json["converged"] = report.status == SolveStatus::kConverged;
   json["status"] = name_of(report.status);
+  json["criterion"] = name_of(report.criterion);
   json["cached"] = context.cached;
   json["primal_residual"] = report.primal_residual;
   json["dual_residual"] = report.dual_residual;
   json["objective"] = report.objective;
-  if (options.certify) {
+  if (is_certified(report)) {
     json["lower_bound"] = report.certificate.lower_bound;
     json["certified_objective"] = report.certificate.objective;
     json["relative_gap"] = report.certificate.relative_gap;

@@ -24,6 +24,12 @@ struct RunContext {
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context);
 
+//! Whether the report has a certificate: asked for, or what ended the iteration.
+bool is_certified(const SolveReport& report);
+
+//! "1100 iterations", and by which criterion they ended if it is not the usual one.
+std::string describe_iterations(const SolveReport& report);
+
 //! Text for a file, with a line break at the end. File names in it need not be UTF-8, which JSON
 //! must be: what is not is replaced.
 std::string to_text(const nlohmann::ordered_json& json);

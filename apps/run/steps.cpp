@@ -10,6 +10,7 @@
 #include "flbc/quality.h"
 #include "poses/file_sequence.h"
 #include "report/checks.h"
+#include "report/report_json.h"
 #include "run/facts.h"
 
 namespace flbc::app {
@@ -57,13 +58,13 @@ void compute_weights(Run<Dim>& run) {
   const auto& report = solver.report();
   Facts facts;
   facts << name_of(report.method);
-  if (report.iterations > 0) facts << ", " << report.iterations << " iterations";
+  if (report.iterations > 0) facts << ", " << describe_iterations(report);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
   if (solver.is_cached()) facts << ", from the cache";
   facts << "; " << delivered.mean_influences
         << " influences above 0.0001 per point, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;
-  if (run.arguments.settings.options.certify) {
+  if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
   }
   run.folder.add(kWeights, facts.text(),

@@ -14,8 +14,8 @@ void add_options(std::ostream& key, const SolverOptions& options) {
   // depend on it. They do not on these: results are the same bits for any number of threads, and a
   // run that was stopped has not converged.
   [[maybe_unused]] const auto& [method, phi, precision, recovery, non_negative, linear_solver,
-                                coarse_to_fine, coarse_levels, tolerance, max_iterations, penalty,
-                                relaxation, check_interval, certify, threads, progress] = options;
+                                coarse_to_fine, coarse_levels, tolerance, gap, max_iterations,
+                                penalty, relaxation, check_interval, certify, threads, progress] = options;
   const auto& [coarsest, factor, looseness] = coarse_levels;
   key << "method " << name_of(method) << '\n'
       << "phi " << name_of(phi) << '\n'
@@ -26,6 +26,7 @@ void add_options(std::ostream& key, const SolverOptions& options) {
       << "coarse_to_fine " << name_of(coarse_to_fine) << '\n'
       << "coarse_levels " << coarsest << ' ' << factor << ' ' << looseness << '\n'
       << "tolerance " << tolerance << '\n'
+      << "gap " << gap.value_or(0) << '\n'
       << "max_iterations " << max_iterations << '\n'
       << "penalty " << penalty << '\n'
       << "relaxation " << relaxation << '\n'

@@ -126,7 +126,7 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) return true;
   std::cerr << "flbc: not converged within " << settings.options.max_iterations
-            << " iterations; the result was written nevertheless (see --max-iterations)\n";
+            << " iterations; the result was written nevertheless (see --max-iterations, --tolerance and --gap)\n";
   return false;
 }
 

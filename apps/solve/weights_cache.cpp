@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kMagic = "flbc weights, format 2\n";
+constexpr std::string_view kMagic = "flbc weights, format 3\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -42,10 +42,10 @@ void visit_levels(ByteReader& archive, std::vector<LevelReport>& levels) {
 
 template <class Archive, class Report>
 void visit_report(Archive& archive, Report& report) {
-  auto& [method, status, control_points, vertices, cells, iterations, primal_residual,
+  auto& [method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
          dual_residual, penalty, published_penalty, objective, certificate, state_scalars_per_cell,
          seconds, quality, coarse_levels] = report;
-  archive(method, status, control_points, vertices, cells, iterations, primal_residual,
+  archive(method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
           dual_residual, penalty, published_penalty, objective, state_scalars_per_cell);
   visit_levels(archive, coarse_levels);
   auto& [certified, lower_bound, relative_gap] = certificate;

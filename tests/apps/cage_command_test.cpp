@@ -38,7 +38,7 @@ TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
     EXPECT_LE(report["cage"]["control_points"], 40);
     EXPECT_EQ(report["model"]["outside"], 0);
     const std::string weights = path("weights.npy");
-    expect("solve " + cage + " --vertices 1500 --tolerance 1e-5 --model " + model + " -o " +
+    expect("solve " + cage + " --vertices 1500 --model " + model + " -o " +
                weights + " -q",
            0, "");
   }

@@ -37,6 +37,9 @@ const char* name_of(LinearSolver solver);
 //! "converged", "iteration limit" or "stopped".
 //! \param status  to be named
 const char* name_of(SolveStatus status);
+//! "none", "tolerance" or "gap".
+//! \param criterion  to be named
+const char* name_of(Criterion criterion);
 
 //! All names of an enumeration, the default first.
 //! \tparam Enum  one of those that name_of() takes

@@ -14,9 +14,16 @@ namespace flbc {
 
 //! How a run ended. Every status comes with usable weights.
 enum class SolveStatus {
-  kConverged,       //!< both residuals fell below their thresholds
+  kConverged,       //!< a Criterion was met
   kIterationLimit,  //!< max_iterations was reached first
   kStopped          //!< the progress callback asked to stop
+};
+
+//! What a run that converged has met.
+enum class Criterion {
+  kNone,       //!< it has not converged, or does not iterate
+  kTolerance,  //!< both residuals, or the estimated error, fell below their thresholds
+  kGap         //!< the certified gap is at most SolverOptions::gap
 };
 
 //! Wall-clock seconds of the stages.
@@ -41,6 +48,7 @@ struct LevelReport {
 struct SolveReport {
   Method method = Method::kAuto;                 //!< the method used, never kAuto
   SolveStatus status = SolveStatus::kConverged;  //!< how the run ended
+  Criterion criterion = Criterion::kNone;        //!< what it has met, if it converged
   Index control_points = 0;                      //!< n
   Index vertices = 0;                            //!< V
   Index cells = 0;                               //!< F
@@ -51,7 +59,7 @@ struct SolveReport {
   double published_penalty = 0;  //!< the same on the scale of the literature (published_penalty())
   //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
   double objective = 0;
-  Certificate certificate{};                 //!< if asked for, in the same units
+  Certificate certificate{};  //!< if asked for or the criterion, in the same units
   double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights

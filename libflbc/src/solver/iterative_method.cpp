@@ -49,13 +49,19 @@ void require_finite(bool finite, const SolveReport& report) {
                     "relaxation, or double precision");
 }
 
-bool finished(int iteration, const SolverOptions& options, SolveReport& report) {
+bool finished(int iteration, const SolverOptions& options, GapCriterion& gap,
+              SolveReport& report) {
   require_finite(std::isfinite(report.primal_residual) && std::isfinite(report.dual_residual),
                  report);
+  const bool last = iteration >= options.max_iterations;
   report.status = SolveStatus::kConverged;
+  report.criterion = Criterion::kTolerance;
   if (report.primal_residual <= 1 && report.dual_residual <= 1) return true;
+  report.criterion = Criterion::kGap;
+  if (gap.is_met(iteration, last)) return true;
+  report.criterion = Criterion::kNone;
   report.status = SolveStatus::kIterationLimit;
-  if (iteration >= options.max_iterations) return true;
+  if (last) return true;
   report.status = SolveStatus::kStopped;
   return options.progress &&
          !options.progress({iteration, report.primal_residual, report.dual_residual});
@@ -105,7 +111,9 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
                          problem.boundary.interior_vertices());
   }
   report.seconds.recover += watch.lap();
-  if (options.certify) report.certificate = certify(problem, result);
+  if (options.certify || report.criterion == Criterion::kGap) {
+    report.certificate = certify(problem, result);
+  }
   report.seconds.certify = watch.lap();
   report.objective = unscaled(problem, objective(problem.mesh, problem.phi, result.weights));
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, result.weights);

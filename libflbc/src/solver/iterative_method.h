@@ -11,6 +11,7 @@
 #include "flbc/report.h"
 #include "flbc/solver.h"
 #include "flbc/solver_state.h"
+#include "solver/gap_criterion.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -79,7 +80,8 @@ Eigen::MatrixXd flux_densities(const LbcProblem<Dim>& problem,
 void require_finite(bool finite, const SolveReport& report);
 
 //! Ends the run or tells the caller, after an evaluation of the residuals that `report` holds.
-//! Sets the status. \return whether to stop
-bool finished(int iteration, const SolverOptions& options, SolveReport& report);
+//! Sets status and criterion. \return whether to stop
+bool finished(int iteration, const SolverOptions& options, GapCriterion& gap,
+              SolveReport& report);
 
 }  // namespace flbc

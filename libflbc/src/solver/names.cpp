@@ -40,6 +40,9 @@ constexpr Named<LinearSolver> kLinearSolverNames[]{{LinearSolver::kAuto, "auto"}
 constexpr Named<SolveStatus> kSolveStatusNames[]{{SolveStatus::kConverged, "converged"},
                                                  {SolveStatus::kIterationLimit, "iteration limit"},
                                                  {SolveStatus::kStopped, "stopped"}};
+constexpr Named<Criterion> kCriterionNames[]{{Criterion::kNone, "none"},
+                                             {Criterion::kTolerance, "tolerance"},
+                                             {Criterion::kGap, "gap"}};
 
 constexpr auto& table_for(Method) {
   return kMethodNames;
@@ -64,6 +67,9 @@ constexpr auto& table_for(LinearSolver) {
 }
 constexpr auto& table_for(SolveStatus) {
   return kSolveStatusNames;
+}
+constexpr auto& table_for(Criterion) {
+  return kCriterionNames;
 }
 
 template <class Enum>
@@ -100,6 +106,9 @@ const char* name_of(LinearSolver value) {
 const char* name_of(SolveStatus value) {
   return find_name(value);
 }
+const char* name_of(Criterion value) {
+  return find_name(value);
+}
 
 template <class Enum>
 std::vector<std::string> names_of() {
@@ -127,6 +136,7 @@ FLBC_INSTANTIATE(Precision)
 FLBC_INSTANTIATE(CoarseToFine)
 FLBC_INSTANTIATE(LinearSolver)
 FLBC_INSTANTIATE(SolveStatus)
+FLBC_INSTANTIATE(Criterion)
 #undef FLBC_INSTANTIATE
 
 }  // namespace flbc

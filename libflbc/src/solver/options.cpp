@@ -14,6 +14,39 @@ void require(bool valid, const char* field, double value, const char* range) {
   throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
 }
 
+NonNegative resolved_non_negative(const SolverOptions& options) {
+  if (options.non_negative != NonNegative::kAuto) return options.non_negative;
+  switch (options.method) {
+    case Method::kAuto:
+    case Method::kValue:
+    case Method::kLbc2014:
+      return NonNegative::kConstraint;
+    case Method::kGradient:
+      return NonNegative::kProject;
+    default:
+      return NonNegative::kOff;
+  }
+}
+
+// \param options  with the method resolved, and the tolerance as given
+double resolved_gap(const SolverOptions& options) {
+  constexpr double kGap = 1e-4;
+  if (options.gap) return *options.gap;
+  const bool by_default = options.method == Method::kValue || options.method == Method::kGradient;
+  return by_default && options.tolerance == 0 && options.non_negative != NonNegative::kOff ? kGap
+                                                                                           : 0;
+}
+
+void validate_gap(const SolverOptions& options, bool iterative) {
+  const double gap = options.gap.value_or(0);
+  require(std::isfinite(gap) && gap >= 0, "gap", gap, "positive, or 0 for none");
+  if (gap == 0) return;
+  if (!iterative) throw OptionError("gap needs a method that minimises, which this one does not");
+  if (resolved_non_negative(options) == NonNegative::kOff) {
+    throw OptionError("gap proves nothing of weights that may be negative; see non_negative");
+  }
+}
+
 void validate(const CoarseLevels& levels) {
   require(levels.coarsest >= 0, "coarse_levels.coarsest", levels.coarsest,
           "a number of vertices, or 0 for where it pays");
@@ -46,6 +79,7 @@ void validate(const SolverOptions& options) {
   if (options.certify && !iterative) {
     throw OptionError("certify needs a method that minimises, which this one does not");
   }
+  validate_gap(options, iterative);
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
   validate(options.coarse_levels);
@@ -60,11 +94,8 @@ SolverOptions resolve(SolverOptions options) {
   if (options.recovery == Recovery::kAuto) {
     options.recovery = paper ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
   }
-  if (options.non_negative == NonNegative::kAuto) {
-    options.non_negative = value || lbc2014 ? NonNegative::kConstraint
-                           : gradient       ? NonNegative::kProject
-                                            : NonNegative::kOff;
-  }
+  options.non_negative = resolved_non_negative(options);
+  options.gap = resolved_gap(options);
   constexpr Index kCoarsest = 500;
   if (options.coarse_to_fine == CoarseToFine::kOn && options.coarse_levels.coarsest == 0) {
     options.coarse_levels.coarsest = kCoarsest;

@@ -18,7 +18,7 @@ namespace {
 // is reached or the caller stops the run.
 template <class Scalar, int Dim>
 void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
-             SolveReport& report) {
+             GapCriterion& gap, SolveReport& report) {
   // The paper's dual threshold is 10 times its primal one; one tolerance keeps their ratio.
   const double components = admm.num_residual_components();
   const double primal_threshold =
@@ -31,8 +31,15 @@ void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& opt
     report.iterations = iteration;
     report.primal_residual = residuals.primal / primal_threshold;
     report.dual_residual = residuals.dual / dual_threshold;
-    if (finished(iteration, options, report)) return;
+    if (finished(iteration, options, gap, report)) return;
   }
+}
+
+template <class Scalar, int Dim>
+WeightMatrix recover(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcProblem<Dim>& problem,
+                     Recovery recovery) {
+  return recovery == Recovery::kBreadthFirst ? integrate_breadth_first(problem, admm.gradients())
+                                             : integrate_least_squares(problem, admm.gradients());
 }
 
 template <class Scalar, int Dim>
@@ -65,23 +72,22 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   } else {
     admm->start_from_weights(harmonic_coordinates(problem));
   }
-  iterate(*admm, options, report);
+  const auto certify_weights = [admm, &problem](const WeightMatrix& weights) {
+    return certify(problem, admm->flux(), weights);
+  };
+  GapCriterion gap(*options.gap,
+                   [&] { return certify_weights(recover(*admm, problem, options.recovery)); });
+  iterate(*admm, options, gap, report);
   report.state_scalars_per_cell = admm->state_scalars_per_cell();
   report.penalty = options.penalty;
   if (storage != nullptr) storage->keep_penalty(options.penalty);
   report.seconds.solve = watch.lap();
-  MethodResult result;
-  result.weights = options.recovery == Recovery::kBreadthFirst
-                       ? integrate_breadth_first(problem, admm->gradients())
-                       : integrate_least_squares(problem, admm->gradients());
+  MethodResult result{recover(*admm, problem, options.recovery), certify_weights};
   report.seconds.recover = watch.lap();
   if (warm_start.final_state) {
     *warm_start.final_state = keep_state(*admm, problem, options.penalty);
     warm_start.final_state->weights = result.weights;
   }
-  result.certify = [admm, &problem](const WeightMatrix& weights) {
-    return certify(problem, admm->flux(), weights);
-  };
   return result;
 }
 

@@ -55,7 +55,7 @@ double largest_penalty(const LbcProblem<Dim>& problem) {
 template <class Scalar, int Dim>
 void iterate_value(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
                    double measure, const SolverOptions& options, bool adaptive, bool warm,
-                   SolveReport& report) {
+                   GapCriterion& gap, SolveReport& report) {
   constexpr double kBalance = 0.3;
   constexpr int kFewest = 8;
   const double n = problem.num_control_points();
@@ -81,7 +81,7 @@ void iterate_value(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& pro
     const bool look = iteration % options.check_interval == 0 ||
                       (iteration >= kFewest && report.primal_residual <= 1) ||
                       iteration == options.max_iterations;
-    if (look && finished(iteration, options, report)) return;
+    if (look && finished(iteration, options, gap, report)) return;
   }
 }
 
@@ -114,7 +114,7 @@ double penalty_2014(const LbcProblem<Dim>& problem, const splitting::Metric& met
 // Ends by the thresholds of section 5 of the paper.
 template <class Scalar, int Dim>
 void iterate_2014(Splitting<Scalar, Dim>& splitting, const SolverOptions& options,
-                  SolveReport& report) {
+                  GapCriterion& gap, SolveReport& report) {
   const double primal_threshold = options.tolerance * splitting.num_residual_components();
   const double dual_threshold = 10 * primal_threshold;
   for (int iteration = 1;; ++iteration) {
@@ -126,7 +126,7 @@ void iterate_2014(Splitting<Scalar, Dim>& splitting, const SolverOptions& option
     const auto residuals = splitting.iterate_with_residuals();
     report.primal_residual = residuals.primal / primal_threshold;
     report.dual_residual = residuals.dual / dual_threshold;
-    if (finished(iteration, options, report)) return;
+    if (finished(iteration, options, gap, report)) return;
   }
 }
 
@@ -182,24 +182,23 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   } else {
     splitting->start_from_weights(harmonic_coordinates(problem));
   }
+  const auto certify_weights = [splitting, &problem](const WeightMatrix& weights) {
+    return certify(problem, splitting->flux(), weights);
+  };
+  GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
   if (value) {
     iterate_value(*splitting, problem, metric.cell.sum(), options,
                   options.penalty == 0 && !resumed && !warm_start.from, warm_start.from != nullptr,
-                  report);
+                  gap, report);
   } else {
-    iterate_2014(*splitting, options, report);
+    iterate_2014(*splitting, options, gap, report);
   }
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();
   report.penalty = splitting->penalty();
   if (storage != nullptr) storage->keep_penalty(report.penalty);
   report.seconds.solve = watch.lap();
   if (warm_start.final_state) *warm_start.final_state = keep_state(*splitting, problem);
-  MethodResult result;
-  result.weights = splitting->weights();
-  result.certify = [splitting, &problem](const WeightMatrix& weights) {
-    return certify(problem, splitting->flux(), weights);
-  };
-  return result;
+  return {splitting->weights(), certify_weights};
 }
 
 }  // namespace

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs that end because their weights are proved to be near the optimum.
+#include <cmath>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/editing.h"
+#include "flbc/errors.h"
+#include "flbc/meshing.h"
+#include "flbc/names.h"
+#include "flbc/solver.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class GapCriterionTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(GapCriterionTest, Dimensions);
+
+// Cages on which weights are nearly undetermined: every function is a little of all.
+Cage<2> round_cage(std::integral_constant<int, 2>) {
+  constexpr int kCorners = 40;
+  Cage<2> cage{PointList<2>(2, kCorners), FacetList<2>(2, kCorners)};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / kCorners;
+    cage.points.col(i) << std::cos(angle), std::sin(angle);
+    cage.facets.col(i) << i, (i + 1) % kCorners;
+  }
+  return cage;
+}
+
+// A globe of 7 parallels and 10 meridians.
+Cage<3> round_cage(std::integral_constant<int, 3>) {
+  constexpr int kParallels = 7, kMeridians = 10, kPole = kParallels * kMeridians;
+  Cage<3> cage{PointList<3>(3, kPole + 2), FacetList<3>(3, 2 * kPole)};
+  Index facet = 0;
+  const auto add = [&](Index a, Index b, Index c) { cage.facets.col(facet++) << a, b, c; };
+  for (int j = 0; j < kParallels; ++j) {
+    const double height = std::acos(-1.0) * (j + 1) / (kParallels + 1);
+    for (int i = 0; i < kMeridians; ++i) {
+      const double angle = 2 * std::acos(-1.0) * (i + 0.5 * (j % 2)) / kMeridians;
+      cage.points.col(j * kMeridians + i) << std::sin(height) * std::cos(angle),
+          std::sin(height) * std::sin(angle), std::cos(height);
+      const int here = j * kMeridians + i, next = j * kMeridians + (i + 1) % kMeridians;
+      if (j == 0) add(kPole, here, next);
+      if (j + 1 == kParallels) {
+        add(here, kPole + 1, next);
+      } else {
+        const int below = here + kMeridians, next_below = next + kMeridians;
+        if (j % 2 == 0) {
+          add(here, below, next);
+          add(below, next_below, next);
+        } else {
+          add(here, below, next_below);
+          add(here, next_below, next);
+        }
+      }
+    }
+  }
+  cage.points.col(kPole) << 0, 0, 1;
+  cage.points.col(kPole + 1) << 0, 0, -1;
+  return cage;
+}
+
+DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
+  return triangulate(cage, {vertices});
+}
+DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
+  return tetrahedralize(cage, {vertices});
+}
+
+SolverOptions never_by_tolerance(double gap) {
+  SolverOptions options;
+  options.tolerance = 1e-30;
+  options.gap = gap;
+  options.max_iterations = 900;
+  return options;
+}
+
+TYPED_TEST(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
+  const auto cage = round_cage(TypeParam());
+  const auto mesh = mesh_of(cage, 1500);
+  const auto solution = solve(cage, mesh);
+  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  EXPECT_EQ(solution.report.criterion, Criterion::kGap);
+  EXPECT_GE(solution.report.iterations, 500);
+  EXPECT_LE(solution.report.certificate.relative_gap, 1e-4);
+  EXPECT_GT(solution.report.primal_residual, 1);
+  EXPECT_NEAR(solution.report.certificate.objective, solution.report.objective,
+              1e-9 * solution.report.objective);
+  EXPECT_GE(solution.weights.minCoeff(), 0);
+  SolverOptions without;
+  without.gap = 0;
+  const auto report = solve(cage, mesh, without).report;
+  EXPECT_NE(report.criterion, Criterion::kGap);
+  EXPECT_EQ(report.certificate.objective, 0);
+  EXPECT_GT(report.iterations, solution.report.iterations);
+  EXPECT_LE(solution.report.objective, (1 + 1e-4) * report.objective);
+}
+
+TYPED_TEST(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient}) {
+    SCOPED_TRACE(name_of(method));
+    // The iteration of kGradient does not know that weights are not negative.
+    const double gap = method == Method::kGradient ? 0.9 : 0.2;
+    auto options = never_by_tolerance(gap);
+    options.method = method;
+    const auto solution = solve(sample.cage, sample.mesh, options);
+    EXPECT_EQ(solution.report.criterion, Criterion::kGap);
+    EXPECT_EQ(solution.report.iterations, 500);
+    EXPECT_LE(solution.report.certificate.relative_gap, gap);
+    options.gap = 0;
+    options.max_iterations = 500;
+    const auto plain = solve(sample.cage, sample.mesh, options);
+    EXPECT_EQ(plain.report.status, SolveStatus::kIterationLimit);
+    EXPECT_TRUE((plain.weights.array() == solution.weights.array()).all());
+  }
+}
+
+TYPED_TEST(GapCriterionTest, ASmallerGapTakesLongerAndTheLastIterationIsLookedAt) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kRing, 3, 0.2);
+  auto options = never_by_tolerance(1e-12);
+  EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.status, SolveStatus::kIterationLimit);
+  options.max_iterations = 550;  // between the first certificate and the second
+  options.certify = true;
+  const double gap = solve(sample.cage, sample.mesh, options).report.certificate.relative_gap;
+  options.max_iterations = 500;
+  ASSERT_LT(gap, solve(sample.cage, sample.mesh, options).report.certificate.relative_gap);
+  options.gap = 1.0001 * gap;
+  options.max_iterations = 550;
+  const auto report = solve(sample.cage, sample.mesh, options).report;
+  EXPECT_EQ(report.criterion, Criterion::kGap);
+  EXPECT_EQ(report.iterations, 550);
+}
+
+TYPED_TEST(GapCriterionTest, HoldsForSolversThatAreKeptAndForWarmStarts) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  const auto options = never_by_tolerance(0.2);
+  const auto once = solve(sample.cage, sample.mesh, options);
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  EXPECT_TRUE((solver.solve().weights.array() == once.weights.array()).all());
+  EXPECT_EQ(solver.solution().report.criterion, Criterion::kGap);
+  EXPECT_EQ(solver.solve().report.criterion, Criterion::kGap);  // resumed
+  EditableCoordinates<kDim> editable(sample.cage, sample.mesh, options);
+  EXPECT_EQ(editable.solution().report.criterion, Criterion::kGap);
+  EXPECT_EQ(editable.move(sample.cage.points).report.criterion, Criterion::kGap);
+}
+
+TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {
+  SolverOptions options;
+  EXPECT_EQ(*resolve(options).gap, 1e-4);
+  EXPECT_EQ(*resolve(resolve(options)).gap, 1e-4);
+  options.method = Method::kGradient;
+  EXPECT_EQ(*resolve(options).gap, 1e-4);
+  for (const auto method : {Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
+    options.method = method;
+    EXPECT_EQ(*resolve(options).gap, 0);
+  }
+  options = {};
+  options.tolerance = 1e-12;
+  EXPECT_EQ(*resolve(options).gap, 0);
+  options.gap = 1e-3;
+  EXPECT_EQ(*resolve(options).gap, 1e-3);
+}
+
+TEST(GapOption, RefusesGapsThatProveNothing) {
+  const auto refused = [](auto change) {
+    SolverOptions options;
+    options.gap = 1e-3;
+    change(options);
+    EXPECT_THROW(validate(options), OptionError);
+  };
+  refused([](auto& o) { o.gap = -1; });
+  refused([](auto& o) { o.gap = std::nan(""); });
+  refused([](auto& o) { o.non_negative = NonNegative::kOff; });
+  refused([](auto& o) { o.method = Method::kPaper; });
+  refused([](auto& o) { o.method = Method::kHarmonic; });
+}
+
+}  // namespace
+}  // namespace flbc::testing
