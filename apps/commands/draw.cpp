@@ -10,7 +10,7 @@
 #include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
 #include "draw/model_view.h"
-#include "draw/png_writer.h"
+#include "draw/picture_file.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
 #include "files/held_signals.h"
@@ -48,7 +48,8 @@ constexpr const char* kPlain = "plain";
 
 void check_arguments(const DrawArguments& arguments) {
   draw::validate(arguments.options);
-  require_writable(arguments.output, "png");
+  draw::picture_format(arguments.output);
+  require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   if (arguments.domain.empty() == arguments.model.empty()) {
     throw OptionError("give either the domain's mesh or --model");
   }
@@ -103,7 +104,9 @@ draw::Image picture(const Cage<2>& cage, const DomainMesh<2>& domain, const Weig
 
 draw::Image picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
-  if (arguments.all) throw OptionError("--all draws 3D coordinates on a --model only");
+  if (arguments.all) {
+    return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
+  }
   return draw::draw_slices(cage, domain, weights.row(arguments.control_point),
                            arguments.control_point, arguments.slices, arguments.options);
 }
@@ -184,10 +187,12 @@ draw::Image picture_of_domain(const Cage<Dim>& cage, const DrawArguments& argume
 template <int Dim>
 void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
   check_control_point(arguments.control_point, cage.size());
-  const auto png = draw::encode_png(arguments.model.empty() ? picture_of_domain(cage, arguments)
-                                                            : picture_of_model(cage, arguments));
+  const auto picture = draw::encode_picture(arguments.model.empty()
+                                                ? picture_of_domain(cage, arguments)
+                                                : picture_of_model(cage, arguments),
+                                            draw::picture_format(arguments.output));
   const HeldSignals held;
-  io::write_file(arguments.output, [&](std::ostream& file) { file << png; });
+  io::write_file(arguments.output, [&](std::ostream& file) { file << picture; });
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
@@ -197,7 +202,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
   model->excludes(domain);
   command.add_option("--weights", a.weights, "weights at its vertices")->required();
   command.add_option("--cage", a.cage, "the cage they belong to")->required();
-  command.add_option("-o,--output", a.output, "the picture, .png")->required();
+  command.add_option("-o,--output", a.output, std::string("the picture: ") + draw::kPictureExtensions)->required();
   auto* point =
       command.add_option("--control-point", a.control_point, "which function, from 0 (0)");
   command.add_option("--pose", a.pose, "the cage in another place: the model at rest and there")
@@ -214,7 +219,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
                   "degrees (three-quarter)")
       ->needs(model)
       ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
-  command.add_flag("--all", a.all, "a sheet of all functions (3D: on a model)")->excludes(point);
+  command.add_flag("--all", a.all, "a sheet of all functions")->excludes(point);
   command.add_option("--slices", a.slices, "number of slices (3D) (3)");
   command.add_option("--width", a.options.width, "width in pixels (1200)");
   command.add_option("--isolines", a.options.isolines, "number of isolines between 0 and 1 (10)");
@@ -229,6 +234,7 @@ void add_draw_command(CLI::App& app, int&) {
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);
+    arguments->options.layers = draw::has_layers(draw::picture_format(arguments->output));
     std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

@@ -26,6 +26,10 @@ void check_arguments(const RunArguments& arguments) {
   if (arguments.reduction != kPoisson && arguments.reduction != kQuadratic) {
     throw OptionError("--sparsify: '" + arguments.reduction + "' is none of poisson|quadratic");
   }
+  const auto& pictures = arguments.pictures;
+  if (pictures != "png" && pictures != "svg" && pictures != "pdf") {
+    throw OptionError("--pictures: '" + pictures + "' is none of png|svg|pdf");
+  }
   const double rate = arguments.frames_per_second;
   if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
     throw OptionError("--fps must be from 0.001 to 1000000");
@@ -237,6 +241,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
       ->needs(deformed);
   command->add_option("--control-point", a.control_point,
                       "whose function is drawn, from 0 (the one that moves most)");
+  command->add_option("--pictures", a.pictures, "format of pictures (png)")
+      ->type_name("png|svg|pdf");
   add_solver_options(*command, settings);
   command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");

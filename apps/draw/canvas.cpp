@@ -68,6 +68,18 @@ void for_each_near(const Vector<2>& center, double reach, int width, int height,
   }
 }
 
+// Of samples in a layer that no filled area covers.
+constexpr Color kNothing{-1, -1, -1};
+
+// Samples are averaged in blocks of two by two, where there are that many.
+int block_size(int supersampling) {
+  return supersampling % 2 == 0 ? 2 : 1;
+}
+
+std::uint8_t to_channel(float component) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(component, 0.0F, 1.0F)));
+}
+
 std::size_t checked_size(int width, int height, int supersampling) {
   if (width < 1 || height < 1 || supersampling < 1) {
     throw OptionError("a picture needs at least one pixel, not " + std::to_string(width) + " x " +
@@ -83,13 +95,78 @@ std::size_t checked_size(int width, int height, int supersampling) {
 
 }  // namespace
 
-Canvas::Canvas(int width, int height, Color background, int supersampling)
+Canvas::Canvas(int width, int height, Color background, int supersampling, Kind kind)
     : supersampling_(supersampling),
       width_(width * supersampling),
       height_(height * supersampling),
-      samples_(checked_size(width, height, supersampling), background),
-      mask_(samples_.size(), 0),
-      dirty_{width_, -1, height_, -1} {
+      samples_(checked_size(width, height, supersampling),
+               kind == Kind::kLayers ? kNothing : background),
+      mask_(kind == Kind::kLayers ? 0 : samples_.size(), 0),
+      dirty_{width_, -1, height_, -1},
+      kind_(kind) {
+}
+
+void Canvas::touch(const Corners& corners) {
+  if (kind_ == Kind::kPixels) return;
+  for (const Vector<2>& corner : to_samples(corners)) {
+    const Range x = samples_between(corner.x() - 1, corner.x() + 1, width_);
+    const Range y = samples_between(corner.y() - 1, corner.y() + 1, height_);
+    dirty_ = {std::min(dirty_.left, x.first), std::max(dirty_.right, x.last),
+              std::min(dirty_.top, y.first), std::max(dirty_.bottom, y.last)};
+  }
+}
+
+// The areas filled since the last layer, and no more than the rectangle in which they are.
+FilledLayer Canvas::filled_areas() const {
+  const int block = block_size(supersampling_);
+  const int left = dirty_.left / block, right = std::min(dirty_.right / block, width_ / block - 1);
+  const int top = dirty_.top / block, bottom = std::min(dirty_.bottom / block, height_ / block - 1);
+  FilledLayer layer;
+  layer.pixel_size = static_cast<double>(block) / supersampling_;
+  layer.corner = layer.pixel_size * Vector<2>(left, top);
+  layer.width = std::max(0, right - left + 1);
+  layer.height = std::max(0, bottom - top + 1);
+  layer.channels.reserve(std::size_t{4} * layer.width * layer.height);
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x) {
+      Color sum;
+      int covered = 0;
+      for (int k = 0; k < block * block; ++k) {
+        const auto row = static_cast<std::size_t>(y * block + k / block);
+        const Color& sample = samples_[row * width_ + x * block + k % block];
+        if (sample.r < 0) continue;
+        sum = {sum.r + sample.r, sum.g + sample.g, sum.b + sample.b};
+        ++covered;
+      }
+      const float share = covered > 0 ? 1.0F / static_cast<float>(covered) : 0;
+      const auto alpha = static_cast<float>(covered) / static_cast<float>(block * block);
+      for (const float part : {sum.r * share, sum.g * share, sum.b * share, alpha}) {
+        layer.channels.push_back(to_channel(part));
+      }
+    }
+  }
+  return layer;
+}
+
+// What has been filled before becomes a layer of its own below this one.
+bool Canvas::keep(Layer layer) {
+  if (kind_ == Kind::kPixels) return false;
+  auto filled = filled_areas();
+  if (!filled.channels.empty()) {
+    layers_.emplace_back(std::move(filled));
+    for (int y = dirty_.top; y <= dirty_.bottom; ++y) {
+      const auto row = samples_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
+      std::fill(row + dirty_.left, row + dirty_.right + 1, kNothing);
+    }
+  }
+  dirty_ = {width_, -1, height_, -1};
+  layers_.push_back(std::move(layer));
+  return true;
+}
+
+bool Canvas::keep_text(const Vector<2>& position, std::string_view text, double height,
+                       Color color) {
+  return keep(TextLayer{position, std::string(text), height, color});
 }
 
 Corners Canvas::to_samples(const Corners& corners) const {
@@ -97,12 +174,14 @@ Corners Canvas::to_samples(const Corners& corners) const {
 }
 
 void Canvas::fill_triangle(const Corners& corners, Color color, float opacity) {
+  touch(corners);
   for_each_sample(to_samples(corners), width_, height_,
                   [&](int x, int y, double, double) { blend(x, y, color, opacity); });
 }
 
 void Canvas::draw_segments(const std::vector<Segment>& segments, double width, Color color,
                            float opacity) {
+  if (segments.empty() || keep(LineLayer{segments, width, color, opacity})) return;
   for (const auto& segment : segments) {
     cover({segment.a * supersampling_, segment.b * supersampling_}, width / 2 * supersampling_);
   }
@@ -140,23 +219,20 @@ void Canvas::paint_covered(Color color, float opacity) {
 }
 
 void Canvas::fill_disc(const Vector<2>& center, double radius, Color color) {
+  if (keep(DiscLayer{center, radius, color})) return;
   const double r = radius * supersampling_;
   for_each_near(center * supersampling_, r + 1, width_, height_, [&](int x, int y, double d) {
     blend(x, y, color, static_cast<float>(coverage(r - d)));
   });
 }
 
-void Canvas::draw_circle(const Vector<2>& center, double radius, double width, Color color) {
-  const double r = radius * supersampling_;
-  const double half = width / 2 * supersampling_;
-  const auto reach = r + half + 1;
-  for_each_near(center * supersampling_, reach, width_, height_, [&](int x, int y, double d) {
-    blend(x, y, color, static_cast<float>(coverage(half - std::abs(d - r))));
-  });
-}
-
 Image Canvas::resolve() const {
-  Image image{width(), height(), {}};
+  Image image{width(), height(), {}, layers_};
+  if (kind_ == Kind::kLayers) {
+    auto filled = filled_areas();
+    if (!filled.channels.empty()) image.layers.emplace_back(std::move(filled));
+    return image;
+  }
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
   const float share = 1.0F / static_cast<float>(supersampling_ * supersampling_);
   for (int y = 0; y < height_; ++y) {

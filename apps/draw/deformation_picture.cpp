@@ -70,7 +70,7 @@ Image draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,
   const PictureLayout layout = plan_picture(both, options);
   const PixelMap map(both, layout.frame);
   const double unit = std::max(0.6, pixel_unit(options));
-  Canvas canvas(layout.width, layout.height, kWhite);
+  Canvas canvas = new_canvas(layout.width, layout.height, options);
   const auto paint = [&](const DrawnShape& shape, const Vector<2>& place) {
     const Vector<2> shift = place - content.low;
     const Cage<2> cage{shape.control_points.colwise() + shift, facets};

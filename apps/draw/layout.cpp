@@ -63,4 +63,25 @@ PictureLayout plan_picture(const Box& content, const WeightPictureOptions& optio
   return layout;
 }
 
+SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options) {
+  const double aspect = std::clamp(content.size().y() / content.size().x(), 0.2, 5.0);
+  const int columns =
+      std::clamp(static_cast<int>(std::lround(std::sqrt(4.0 / 3 * aspect * count))), 1, count);
+  const int rows = (count + columns - 1) / columns;
+  const double unit = pixel_unit(options);
+  const double margin = 26 * unit;
+  const double label = 44 * unit;
+  const double width = (options.width - margin) / columns - margin;
+  const double height = aspect * width;
+  const double row_height = label + height + margin;
+  SheetLayout sheet{
+      options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)), {}, 18 * unit};
+  for (int k = 0; k < count; ++k) {
+    const Vector<2> corner(margin + (k % columns) * (width + margin),
+                           label + (k / columns) * row_height);
+    sheet.frames.push_back({corner, corner + Vector<2>(width, height)});
+  }
+  return sheet;
+}
+
 }  // namespace flbc::draw

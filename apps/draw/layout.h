@@ -3,6 +3,8 @@
 //! Where things stand in a picture.
 #pragma once
 
+#include <vector>
+
 #include "draw/picture_options.h"
 #include "draw/primitives.h"
 
@@ -48,5 +50,21 @@ struct PictureLayout {
 //! than 0.27 times and no more than 1.3 times the width.
 PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options,
                            Strip strip = Strip::kNone);
+
+//! A sheet of small pictures in rows, with a label above each.
+struct SheetLayout {
+  int width;                  //!< of the sheet in pixels
+  int height;                 //!< of the sheet in pixels
+  std::vector<Box> frames{};  //!< of the pictures
+  double label_height;        //!< of a digit
+  //! Middle of the baseline of a picture's label.
+  Vector<2> label(int k) const {
+    return {frames[k].center().x(), frames[k].low.y() - label_height};
+  }
+};
+
+//! Pictures are as wide as the content demands, their number per row makes the sheet about 4:3.
+//! \param count  of pictures, >= 1
+SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options);
 
 }  // namespace flbc::draw

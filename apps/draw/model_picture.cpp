@@ -2,7 +2,6 @@
 #include "draw/model_picture.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "draw/weight_painter.h"
 #include "flbc/errors.h"
@@ -98,7 +97,7 @@ Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
   const double largest = is_lengths(shown) ? shown.values.maxCoeff() : 1;
   const Eigen::VectorXd values =
       largest > 0 ? Eigen::VectorXd(shown.values / largest) : shown.values;
-  Canvas canvas(layout.width, layout.height, kWhite);
+  Canvas canvas = new_canvas(layout.width, layout.height, options);
   for (std::size_t k = 0; k < places.size(); ++k) {
     paint_model(canvas,
                 {model, places[k], values, shown.control_point, view, PixelMap(all, layout.frame),
@@ -118,26 +117,15 @@ Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
     throw InputError("the weights do not belong to this model and cage");
   }
   const Box content = common_box({place}, view);
-  const double aspect = std::clamp(content.size().y() / content.size().x(), 0.2, 5.0);
-  const int columns =
-      std::clamp(static_cast<int>(std::lround(std::sqrt(4.0 / 3 * aspect * count))), 1, count);
-  const int rows = (count + columns - 1) / columns;
-  const double unit = pixel_unit(options);
-  const double margin = 26 * unit;
-  const double label = 44 * unit;
-  const double width = (options.width - margin) / columns - margin;
-  const double row_height = label + aspect * width + margin;
-  Canvas canvas(options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)),
-                kWhite);
+  const auto sheet = plan_sheet(content, count, options);
+  Canvas canvas = new_canvas(sheet.width, sheet.height, options);
   for (int i = 0; i < count; ++i) {
     const Eigen::VectorXd values = weights.row(i);
     check_weight(values, static_cast<Index>(place.points.cols()), i, count);
-    const Vector<2> corner(margin + (i % columns) * (width + margin),
-                           label + (i / columns) * row_height);
-    const Box frame{corner, corner + Vector<2>(width, aspect * width)};
-    paint_model(canvas, {model, place, values, i, view, PixelMap(content, frame), Vector<2>::Zero(),
-                         std::max(0.4, 0.5 * unit)});
-    paint_symbol(canvas, {frame.center().x(), corner.y() - 18 * unit}, i, 18 * unit);
+    paint_model(canvas,
+                {model, place, values, i, view, PixelMap(content, sheet.frames[i]),
+                 Vector<2>::Zero(), std::max(0.4, 0.5 * pixel_unit(options))});
+    paint_symbol(canvas, sheet.label(i), i, sheet.label_height);
   }
   return canvas.resolve();
 }

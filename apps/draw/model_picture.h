@@ -16,10 +16,6 @@ struct ShownValues {
   Index control_point = -1;  //!< whose weights they are, -1 for lengths
 };
 
-//! The view that shows most models well: from the front, the right and above.
-constexpr double kUsualAzimuth = 35;
-constexpr double kUsualElevation = 18;
-
 //! Draws the model in one or several places, side by side or, if they are wide, one above the
 //! other, in the same scale and the same frame.
 //! \param places  at least one

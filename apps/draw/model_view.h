@@ -9,6 +9,10 @@
 
 namespace flbc::draw {
 
+//! The view that shows most models well: from the front, the right and above.
+constexpr double kUsualAzimuth = 35;
+constexpr double kUsualElevation = 18;
+
 //! A view by angles in degrees, with the y axis upwards.
 //! \param azimuth  0 = from the front (z), 90 = from the side of x
 //! \param elevation  90 = from above

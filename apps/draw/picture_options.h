@@ -12,6 +12,7 @@ struct WeightPictureOptions {
   bool mesh_edges = false;      //!< show the edges of the domain mesh (in 3D: of the slices)
   bool slice_panels = true;     //!< 3D: show each slice also from straight before it
   bool color_bar = true;        //!< explain the colours at the right side
+  bool layers = false;          //!< lines stay lines and text stays text, for vector formats
 };
 
 //! \throws OptionError naming the first option outside its range

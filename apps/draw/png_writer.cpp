@@ -26,19 +26,15 @@ std::vector<std::uint8_t> to_bytes(const Image& image) {
   return bytes;
 }
 
-}  // namespace
-
-std::string encode_png(const Image& image) {
-  if (image.width < 1 || image.height < 1) throw IoError("cannot write an empty picture as PNG");
-
+std::string encode(int width, int height, png_uint_32 format,
+                   const std::vector<std::uint8_t>& bytes) {
   // The simplified interface of libpng reports errors by value, so that no longjmp crosses C++.
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width);
-  header.height = static_cast<png_uint_32>(image.height);
-  header.format = PNG_FORMAT_RGB;
+  header.width = static_cast<png_uint_32>(width);
+  header.height = static_cast<png_uint_32>(height);
+  header.format = format;
 
-  const auto bytes = to_bytes(image);
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string encoded(size, '\0');
   const int done = png_image_write_to_memory(&header, encoded.data(), &size, /*convert_to_8bit=*/0,
@@ -46,6 +42,17 @@ std::string encode_png(const Image& image) {
   if (done == 0) throw IoError(std::string("cannot encode the picture as PNG: ") + header.message);
   encoded.resize(size);
   return encoded;
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  if (image.pixels.empty()) throw IoError("cannot write an empty picture as PNG");
+  return encode(image.width, image.height, PNG_FORMAT_RGB, to_bytes(image));
+}
+
+std::string encode_png(const FilledLayer& layer) {
+  return encode(layer.width, layer.height, PNG_FORMAT_RGBA, layer.channels);
 }
 
 }  // namespace flbc::draw

@@ -14,4 +14,7 @@ namespace flbc::draw {
 //! \throws IoError if libpng cannot encode the picture, for example because it is empty
 std::string encode_png(const Image& image);
 
+//! The same of a layer, with its transparency.
+std::string encode_png(const FilledLayer& layer);
+
 }  // namespace flbc::draw

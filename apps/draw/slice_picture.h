@@ -19,4 +19,9 @@ Image draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::V
                   Index control_point, int number_of_slices = 3,
                   const WeightPictureOptions& options = {});
 
+//! Draws all coordinate functions in this way, as a sheet of small pictures in rows.
+//! \param weights  n x V \throws as draw_slices()
+Image draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh, const WeightMatrix& weights,
+                       int number_of_slices = 3, const WeightPictureOptions& options = {});
+
 }  // namespace flbc::draw

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flbc::draw {
@@ -39,6 +40,7 @@ constexpr Glyph kGlyphs[] = {
 constexpr double kUnitsPerHeight = 9;
 constexpr int kGap = 3;
 constexpr int kSpaceWidth = 3;
+constexpr double kStrokeUnits = 1.15;
 
 const Glyph* find_glyph(char character) {
   const auto* const found =
@@ -85,24 +87,39 @@ Polyline parse_stroke(std::string_view stroke) {
   return points;
 }
 
-void append_glyph(const Glyph& glyph, const Vector<2>& position, double unit,
+void append_glyph(const StrokedGlyph& glyph, const Vector<2>& position, double height,
                   std::vector<Segment>& segments) {
   const auto place = [&](const Vector<2>& p) {
-    return Vector<2>(position.x() + unit * p.x(), position.y() - unit * p.y());
+    return Vector<2>(position.x() + height * p.x(), position.y() - height * p.y());
   };
-  std::string_view rest = glyph.strokes;
-  while (!rest.empty()) {
-    const auto comma = std::min(rest.find(','), rest.size());
-    const Polyline points = parse_stroke(rest.substr(0, comma));
+  for (const auto& points : glyph.strokes) {
     if (points.size() == 1) segments.push_back({place(points[0]), place(points[0])});
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       segments.push_back({place(points[i]), place(points[i + 1])});
     }
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
 }
 
 }  // namespace
+
+StrokedGlyph stroked_glyph(char character) {
+  StrokedGlyph result;
+  result.advance = (width_of(character) + kGap) / kUnitsPerHeight;
+  const Glyph* const glyph = find_glyph(character);
+  std::string_view rest = glyph != nullptr ? glyph->strokes : std::string_view();
+  while (!rest.empty()) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    Polyline points = parse_stroke(rest.substr(0, comma));
+    for (auto& p : points) p /= kUnitsPerHeight;
+    result.strokes.push_back(std::move(points));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return result;
+}
+
+double stroke_width() {
+  return kStrokeUnits / kUnitsPerHeight;
+}
 
 double text_width(std::string_view text, double height) {
   int units = 0;
@@ -112,15 +129,15 @@ double text_width(std::string_view text, double height) {
 
 void draw_text(Canvas& canvas, const Vector<2>& position, std::string_view text, double height,
                Color color) {
-  const double unit = height / kUnitsPerHeight;
+  if (canvas.keep_text(position, text, height, color)) return;
   std::vector<Segment> segments;
   Vector<2> cursor = position;
   for (const char character : text) {
-    const Glyph* const glyph = find_glyph(character);
-    if (glyph != nullptr) append_glyph(*glyph, cursor, unit, segments);
-    cursor.x() += (width_of(character) + kGap) * unit;
+    const auto glyph = stroked_glyph(character);
+    append_glyph(glyph, cursor, height, segments);
+    cursor.x() += glyph.advance * height;
   }
-  canvas.draw_segments(segments, 1.15 * unit, color);
+  canvas.draw_segments(segments, stroke_width() * height, color);
 }
 
 }  // namespace flbc::draw

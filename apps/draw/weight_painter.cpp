@@ -96,6 +96,13 @@ double pixel_unit(const WeightPictureOptions& options) {
   return options.width / 1200.0;
 }
 
+Canvas new_canvas(int width, int height, const WeightPictureOptions& options) {
+  if (!options.layers) return {width, height, kWhite};
+  // Filled areas get two pixels for each of the picture's, but for pictures that are large anyway.
+  constexpr int kLarge = 2400;
+  return {width, height, kWhite, width > kLarge ? 2 : 4, Canvas::Kind::kLayers};
+}
+
 void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                   const Eigen::VectorXd& values, const WeightPictureOptions& options) {
   // Lines below a pixel's width would fade in small pictures.

@@ -16,6 +16,9 @@ constexpr Color kHighlight{0.90F, 0.07F, 0.10F};
 //! The size of what is 1 pixel wide in a picture of the usual width.
 double pixel_unit(const WeightPictureOptions& options);
 
+//! A white canvas, of layers if options say so.
+Canvas new_canvas(int width, int height, const WeightPictureOptions& options);
+
 //! Paints a function: its colours, its isolines and, if wanted, the edges of the mesh.
 //! \param points  2 x V, \param values  V
 void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,

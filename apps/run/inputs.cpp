@@ -41,6 +41,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   const auto& settings = arguments.settings;
   RunInputs<Dim> inputs;
   inputs.makes_cage = arguments.makes_cage;
+  inputs.picture_format = arguments.pictures;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
   if (arguments.keyframes.empty()) {
     load_deformed(cage, arguments, inputs);
@@ -63,8 +64,10 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
   }
-  names.insert(names.end(), {kSkin, kFunction});
-  if (!inputs.poses.empty()) names.emplace_back(kDeformation);
+  names.emplace_back(kSkin);
+  for (const char* picture : {kFunction, inputs.poses.empty() ? kModelPicture : kDeformation}) {
+    names.push_back(std::string(picture) + "." + inputs.picture_format);
+  }
   names.emplace_back(kPage);
   names.emplace_back(kReport);
   return names;

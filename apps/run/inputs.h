@@ -19,6 +19,7 @@ template <int Dim>
 struct RunInputs {
   std::vector<std::string> files{};  //!< that are read, the cage's among them unless it is made
   bool makes_cage = false;           //!< the cage is a result
+  std::string picture_format{};      //!< extension of pictures, without the dot
   std::vector<Pose<Dim>> poses{};    //!< of the cage
   gltf::Animation<Dim> animation{};  //!< through them
   Shape<Dim> shape{};                //!< the model's; empty without one

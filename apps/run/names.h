@@ -11,8 +11,10 @@ constexpr const char* kDomainWeights = "domain_weights.npy";
 constexpr const char* kWeights = "weights.npy";
 constexpr const char* kSparseWeights = "sparse_weights.mtx";
 constexpr const char* kSkin = "model.glb";
-constexpr const char* kFunction = "function.png";
-constexpr const char* kDeformation = "deformation.png";
+// Pictures; the extension depends on the format.
+constexpr const char* kFunction = "function";
+constexpr const char* kModelPicture = "model";
+constexpr const char* kDeformation = "deformation";
 constexpr const char* kPage = "model.html";
 
 //! The report, in which the names of all files are: the next run knows by them what is its own.

@@ -4,7 +4,7 @@
 #include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
 #include "draw/model_view.h"
-#include "draw/png_writer.h"
+#include "draw/picture_file.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
 #include "flbc/deform.h"
@@ -31,22 +31,50 @@ Index choose_control_point(const Run<Dim>& run) {
   return static_cast<Index>(chosen);
 }
 
+template <int Dim>
+draw::WeightPictureOptions options_of(const Run<Dim>& run) {
+  draw::WeightPictureOptions options;
+  options.layers = run.arguments.pictures != "png";
+  return options;
+}
+
 draw::Image draw_function(const Run<2>& run, Index control_point) {
   return draw::draw_weights(run.cage, run.solver.domain(),
-                            run.solver.domain_weights().row(control_point), control_point);
+                            run.solver.domain_weights().row(control_point), control_point,
+                            options_of(run));
 }
 
 draw::Image draw_function(const Run<3>& run, Index control_point) {
   return draw::draw_slices(run.cage, run.solver.domain(),
-                           run.solver.domain_weights().row(control_point), control_point);
+                           run.solver.domain_weights().row(control_point), control_point, 3,
+                           options_of(run));
+}
+
+draw::ObliqueView usual_view() {
+  return draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation);
+}
+
+// The shape at rest by the sparse weights.
+draw::Image draw_rest(const Run<2>& run, Index control_point) {
+  return draw::draw_weights(
+      run.cage, {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
+      run.sparse.row(control_point), control_point, options_of(run));
+}
+
+draw::Image draw_rest(const Run<3>& run, Index control_point) {
+  return draw::draw_model({gltf::triangles_of_points(run.shape().surface), shown_cage(run).edges},
+                          {{run.cage.points, run.shape().points}},
+                          {run.sparse.row(control_point), control_point}, usual_view(),
+                          options_of(run));
 }
 
 template <int Dim>
-void add_picture(Run<Dim>& run, const std::string& name, const std::string& facts,
+void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
                  const draw::Image& image) {
-  const auto png = draw::encode_png(image);
+  const auto name = std::string(title) + "." + run.arguments.pictures;
+  const auto picture = draw::encode_picture(image, draw::picture_format(name));
   run.folder.add(name, facts, [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << png; });
+    io::write_file(path, [&](std::ostream& file) { file << picture; });
   });
   run.report["pictures"]["files"].push_back(name);
 }
@@ -61,7 +89,7 @@ draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   return draw::draw_deformation(
       run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
       {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)},
-      weights.row(control_point), control_point);
+      weights.row(control_point), control_point, options_of(run));
 }
 
 // The shape at rest and in the pose, coloured by how far it moves; slices through the mesh of the
@@ -72,13 +100,13 @@ draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
     const auto& weights = run.solver.domain_weights();
     const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
     return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
-                             control_point);
+                             control_point, 3, options_of(run));
   }
   const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
                           {{run.cage.points, shape.points}, {pose.points, points}},
                           {displacements<3>(shape.points, points)},
-                          draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation));
+                          usual_view(), options_of(run));
 }
 
 template <int Dim>
@@ -103,7 +131,12 @@ void draw_pictures(Run<Dim>& run) {
   Facts facts;
   facts << "the coordinate function of control point " << control_point;
   add_picture(run, kFunction, facts.text(), draw_function(run, control_point));
-  if (!run.poses().empty()) draw_farthest_pose(run, control_point);
+  if (!run.poses().empty()) {
+    draw_farthest_pose(run, control_point);
+  } else if (run.shape().surface.triangles.cols() > 0) {
+    add_picture(run, kModelPicture, "at rest, with its weights for this control point",
+                draw_rest(run, control_point));
+  }
 }
 
 template void draw_pictures(Run<2>&);

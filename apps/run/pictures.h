@@ -7,8 +7,9 @@
 
 namespace flbc::app {
 
-//! function.png: one coordinate function on the mesh, in 3D on slices; with poses also
-//! deformation.png: what the cage moves at rest and in the pose where it moves farthest.
+//! function.png: one coordinate function on the mesh, in 3D on slices. With poses also
+//! deformation.png: what the cage moves at rest and in the pose where it moves farthest; without
+//! them model.png: what it will move, coloured by that function.
 template <int Dim>
 void draw_pictures(Run<Dim>& run);
 

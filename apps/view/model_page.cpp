@@ -9,7 +9,7 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
-#include "view/base64.h"
+#include "draw/base64.h"
 
 namespace flbc::app {
 
@@ -68,7 +68,7 @@ std::string path_beside(const std::string& page, const std::string& file) {
 }
 
 std::string data_uri(const std::string& media_type, const std::string& bytes) {
-  return "data:" + media_type + ";base64," + view::to_base64(bytes);
+  return "data:" + media_type + ";base64," + draw::to_base64(bytes);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                           \

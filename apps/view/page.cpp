@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "draw/base64.h"
 #include "draw/colormap.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "view/base64.h"
 #include "view/influences.h"
 #include "view/page_template.h"
 
@@ -24,7 +24,7 @@ std::string pack(const Values& values) {
   std::vector<Number> numbers;
   numbers.reserve(static_cast<std::size_t>(values.size()));
   for (const auto value : values) numbers.push_back(static_cast<Number>(value));
-  return numbers_to_base64(numbers);
+  return draw::numbers_to_base64(numbers);
 }
 
 // Indices below `limit` in as few bytes as they need.
@@ -71,7 +71,7 @@ Json pack_weights(const SparseWeights& weights) {
     }
     counts.push_back(static_cast<std::uint8_t>(count));
   }
-  return {{"counts", numbers_to_base64(counts)},
+  return {{"counts", draw::numbers_to_base64(counts)},
           {"controlPoints", pack_indices(weights.control_points(), weights.num_control_points())},
           {"values", pack<float>(weights.values())}};
 }
@@ -145,7 +145,7 @@ std::string pack_palette() {
       bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * part)));
     }
   }
-  return numbers_to_base64(bytes);
+  return draw::numbers_to_base64(bytes);
 }
 
 // Where the weights put the points of the resting cage, seen from the middle: single precision then

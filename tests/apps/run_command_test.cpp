@@ -214,8 +214,8 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   expect_run("out", common, 0, "points");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "function.png", "model.html", "report.json", "notes.txt",
-                   "deformed_009.obj"}));
+                   "model.glb", "function.png", "model.png", "model.html", "report.json",
+                   "notes.txt", "deformed_009.obj"}));
   EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
 }
 

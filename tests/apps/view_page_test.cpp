@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "draw/base64.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
-#include "view/base64.h"
 #include "view/influences.h"
 #include "view/page.h"
 
@@ -183,10 +183,10 @@ TEST(ViewBase64, IsThatOfTheStandard) {
                                                           {"foob", "Zm9vYg=="},
                                                           {"fooba", "Zm9vYmE="},
                                                           {"foobar", "Zm9vYmFy"}};
-  for (const auto& [bytes, text] : examples) EXPECT_EQ(to_base64(bytes), text);
+  for (const auto& [bytes, text] : examples) EXPECT_EQ(draw::to_base64(bytes), text);
   std::string all;
   for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
-  EXPECT_EQ(from_base64(to_base64(all)), all);
+  EXPECT_EQ(from_base64(draw::to_base64(all)), all);
 }
 
 TEST(ViewCage, EdgesArePolygonsAndNotTheirDiagonals) {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace flbc::view {
+namespace flbc::draw {
 
 //! The bytes in base64 (RFC 4648, with padding).
 std::string to_base64(std::string_view bytes);
@@ -20,4 +20,4 @@ std::string numbers_to_base64(const std::vector<Number>& numbers) {
   return to_base64({bytes, numbers.size() * sizeof(Number)});
 }
 
-}  // namespace flbc::view
+}  // namespace flbc::draw

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/base64.h"
+#include "draw/base64.h"
 
 #include <algorithm>
 
-namespace flbc::view {
+namespace flbc::draw {
 namespace {
 
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -30,4 +30,4 @@ std::string to_base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace flbc::view
+}  // namespace flbc::draw

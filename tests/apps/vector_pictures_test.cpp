@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vector pictures of the program, as other programs read them.
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<png_byte> bytes{};
+};
+
+Pixels read_png(const std::string& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  Pixels pixels;
+  if (png_image_begin_read_from_file(&header, path.c_str()) == 0) return pixels;
+  header.format = PNG_FORMAT_RGB;
+  pixels.bytes.resize(PNG_IMAGE_SIZE(header));
+  if (png_image_finish_read(&header, nullptr, pixels.bytes.data(), 0, nullptr) == 0) return {};
+  pixels.width = static_cast<int>(header.width);
+  pixels.height = static_cast<int>(header.height);
+  return pixels;
+}
+
+bool has_program(const std::string& name) {
+  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+// Whether every element ends, in order.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  for (auto begin = xml.find('<'); begin != std::string::npos; begin = xml.find('<', begin + 1)) {
+    const auto end = xml.find('>', begin);
+    ASSERT_NE(end, std::string::npos);
+    const auto tag = xml.substr(begin + 1, end - begin - 1);
+    ASSERT_FALSE(tag.empty());
+    ASSERT_EQ(tag.find('<'), std::string::npos);
+    if (tag.front() == '?' || tag.back() == '/') continue;
+    if (tag.front() == '/') {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ(tag.substr(1), open.back());
+      open.pop_back();
+    } else {
+      open.push_back(tag.substr(0, tag.find(' ')));
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+class VectorPictures : public CommandLineTest {
+ protected:
+  // Pictures of one scene in all formats. \return the arguments but for the output
+  void draw(const std::string& arguments) const {
+    for (const char* extension : {"png", "svg", "pdf"}) {
+      const auto result = run("draw " + arguments + " --width 600 -o " + path("p.") + extension);
+      ASSERT_EQ(result.status, 0) << result.errors;
+    }
+  }
+
+  std::string output_of(const std::string& command) const {
+    const auto out = path("text.txt");
+    EXPECT_EQ(std::system((command + " >" + out + " 2>/dev/null").c_str()), 0) << command;
+    return slurp(out);
+  }
+
+  // The mean difference of channels, in 1/255; and the share of pixels that differ clearly.
+  void expect_same_picture(const std::string& other) const {
+    const auto a = read_png(path("p.png")), b = read_png(path(other));
+    ASSERT_EQ(a.width, b.width) << other;
+    ASSERT_EQ(a.height, b.height) << other;
+    double sum = 0;
+    int clear = 0;
+    for (std::size_t k = 0; k < a.bytes.size(); ++k) {
+      const int difference = std::abs(a.bytes[k] - b.bytes[k]);
+      sum += difference;
+      clear += difference > 64;
+    }
+    const auto count = static_cast<double>(a.bytes.size());
+    EXPECT_LT(sum / count, 4) << other;
+    EXPECT_LT(clear / count, 0.02) << other;
+  }
+
+  void expect_all_formats_agree(const std::string& arguments, const std::string& label) const {
+    SCOPED_TRACE(arguments);
+    draw(arguments);
+    const auto svg = slurp(path("p.svg")), pdf = slurp(path("p.pdf"));
+    expect_well_formed(svg);
+    EXPECT_NE(svg.find(">" + label + "</text>"), std::string::npos);
+    EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+    EXPECT_LT(svg.size(), 1500000U);
+    EXPECT_LT(pdf.size(), 1500000U);
+    draw(arguments);
+    EXPECT_EQ(slurp(path("p.svg")), svg);
+    EXPECT_EQ(slurp(path("p.pdf")), pdf);
+    if (has_program("pdftotext")) {
+      const auto text = output_of("pdftotext " + path("p.pdf") + " -");
+      EXPECT_NE(text.find(label), std::string::npos) << text;
+    }
+    if (has_program("pdftoppm")) {  // a pixel is 0.375 points of 1/72 inch
+      output_of("pdftoppm -png -r 192 -singlefile " + path("p.pdf") + " " + path("of_pdf"));
+      expect_same_picture("of_pdf.png");
+    }
+    if (has_program("rsvg-convert")) {
+      output_of("rsvg-convert " + path("p.svg") + " -o " + path("of_svg.png"));
+      expect_same_picture("of_svg.png");
+    }
+  }
+};
+
+TEST_F(VectorPictures, ShowWhatPngShowsInThePlane) {
+  const auto cage = sample("2d/figure_cage.obj"), model = sample("2d/figure_model.obj");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("w.npy") +
+                " --save-domain " + path("d.obj"))
+                .status,
+            0);
+  const auto domain = path("d.obj") + " --weights " + path("w.npy") + " --cage " + cage;
+  expect_all_formats_agree(domain + " --control-point 3 --mesh", "0.5");
+  expect_all_formats_agree(domain + " --all", "17");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("m.npy") +
+                " --model " + model)
+                .status,
+            0);
+  expect_all_formats_agree("--model " + model + " --weights " + path("m.npy") + " --cage " + cage +
+                               " --pose " + sample("2d/figure_cage_pose.obj"),
+                           "0.5");
+}
+
+TEST_F(VectorPictures, ShowWhatPngShowsInSpace) {
+  const auto cage = sample("3d/limb_cage.obj"), model = sample("3d/limb_model.obj");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("w.npy") +
+                " --save-domain " + path("d.mesh"))
+                .status,
+            0);
+  const auto domain = path("d.mesh") + " --weights " + path("w.npy") + " --cage " + cage;
+  expect_all_formats_agree(domain + " --control-point 3", "0.5");
+  expect_all_formats_agree(domain + " --all", "11");
+  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("m.npy") +
+                " --model " + model)
+                .status,
+            0);
+  const auto of_model = "--model " + model + " --weights " + path("m.npy") + " --cage " + cage;
+  expect_all_formats_agree(of_model + " --pose " + sample("3d/limb_cage_pose.obj"), "d");
+  expect_all_formats_agree(of_model + " --all", "11");
+}
+
+TEST_F(VectorPictures, UnknownFormatsAreNamed) {
+  const auto cage = sample("2d/figure_cage.obj");
+  const auto result = run("draw d.obj --weights w.npy --cage " + cage + " -o " + path("p.jpg"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find(".png, .svg, .pdf"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("'.jpg'"), std::string::npos) << result.errors;
+}
+
+TEST_F(VectorPictures, OfARunAsWell) {
+  const auto result =
+      run("run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
+          " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " +
+          path("out"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  for (const char* name : {"out/function.svg", "out/model.svg"}) {
+    expect_well_formed(slurp(path(name)));
+    EXPECT_GT(slurp(path(name)).size(), 1000U) << name;
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing
