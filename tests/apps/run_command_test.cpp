@@ -296,7 +296,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // Not converged is no failure of a step.
   expect_run("early", sample("2d/letter_cage.obj") + " --max-iterations 10 --vertices 500 -q", 3,
              "not converged within 10 iterations");
-  EXPECT_EQ(names_in("early").size(), 7U);
+  EXPECT_EQ(names_in("early").size(), 8U);
   EXPECT_EQ(report("early")["solve"]["converged"], false);
 }
 
