@@ -23,6 +23,10 @@ namespace {
 
 void check_arguments(const RunArguments& arguments) {
   validate(arguments.settings.options);
+  if (arguments.settings.outside == OutsidePoints::kExtend) {
+    throw OptionError(
+        "--outside extend: skins have no negative weights; take nearest, or flbc solve and deform");
+  }
   if (arguments.reduction != kPoisson && arguments.reduction != kQuadratic) {
     throw OptionError("--sparsify: '" + arguments.reduction + "' is none of poisson|quadratic");
   }

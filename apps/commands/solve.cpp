@@ -8,6 +8,7 @@
 #include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "flbc/bounding_box.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
@@ -48,7 +49,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
   }
-  std::cerr << '\n';
+  std::cerr << describe(solver.placement(), bounding_box_diagonal(solver.cage().points)) << '\n';
 }
 
 template <int Dim>

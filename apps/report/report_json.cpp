@@ -38,6 +38,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"domain", settings.domain},
           {"model", settings.model},
           {"embed", settings.embed},
+          {"outside", name_of(settings.outside)},
           {"vertices", settings.vertices},
           {"method", name_of(given.method)},
           {"non_negative", name_of(options.non_negative)},

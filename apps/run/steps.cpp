@@ -3,6 +3,7 @@
 
 #include "files/load.h"
 #include "files/model_facets.h"
+#include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
@@ -31,6 +32,7 @@ void mesh_interior(Run<Dim>& run) {
   solver.make_domain();
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
+  run.inputs.shape.points = solver.points();  // vertices beside the cage are where it puts them
   const auto name = std::string(kDomain) + domain_extension<Dim>();
   run.report["mesh"] = {{"file", name},
                         {"vertices", domain.num_vertices()},
@@ -64,6 +66,7 @@ void compute_weights(Run<Dim>& run) {
   facts << "; " << delivered.mean_influences
         << " influences above 0.0001 per point, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;
+  facts << describe(solver.placement(), bounding_box_diagonal(run.cage.points));
   if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
   }

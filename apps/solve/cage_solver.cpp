@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/cage_solver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "files/held_signals.h"
 #include "files/load.h"
-#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
-#include "flbc/interpolate.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
@@ -34,6 +35,22 @@ Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Solv
   return solve(cage, domain, options, mesher);
 }
 
+template <int Dim>
+const PointBeside<Dim>& farthest(const std::vector<PointBeside<Dim>>& points) {
+  return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.distance < b.distance;
+  });
+}
+
+template <int Dim>
+nlohmann::ordered_json beside_json(const std::vector<PointBeside<Dim>>& points) {
+  nlohmann::ordered_json json{{"count", points.size()}};
+  if (points.empty()) return json;
+  json["farthest"] = farthest(points).point;
+  json["distance"] = farthest(points).distance;
+  return json;
+}
+
 // Weights that cannot be kept are delivered nevertheless.
 template <int Dim>
 void keep(const WeightsCache& cache, const std::string& key, const SolvedDomain<Dim>& solved) {
@@ -51,6 +68,10 @@ template <int Dim>
 CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
     : cage_(cage), model_(model), settings_(settings) {
+  if (settings.embed && settings.outside != OutsidePoints::kFail) {
+    throw OptionError("--outside: vertices that become vertices of the mesh must be inside; leave "
+                      "--embed or --outside out");
+  }
   if (!settings.cache.empty()) cache_.emplace(settings.cache);
 }
 
@@ -85,7 +106,9 @@ void CageSolver<Dim>::make_domain() {
     solved_.mesh_seconds = seconds.count();
   }
   if (settings_.model.empty() || settings_.embed) return;
-  places_ = naming(settings_.model, [&] { return locate_points(solved_.domain, model_); });
+  placement_ = naming(settings_.model, [&] {
+    return place_points(cage_, solved_.domain, model_, settings_.outside);
+  });
 }
 
 template <int Dim>
@@ -107,7 +130,8 @@ void CageSolver<Dim>::solve(bool quiet) {
 
 template <int Dim>
 const PointList<Dim>& CageSolver<Dim>::points() const {
-  return settings_.model.empty() ? solved_.domain.points : model_;
+  if (settings_.model.empty()) return solved_.domain.points;
+  return settings_.embed ? model_ : placement_.points;
 }
 
 template <int Dim>
@@ -115,12 +139,35 @@ WeightMatrix CageSolver<Dim>::rows() const {
   const auto& weights = solved_.solution.weights;
   if (settings_.model.empty()) return weights;
   if (settings_.embed) return weights.middleCols(cage_.size(), model_.cols());
-  return interpolate(solved_.domain, weights, places_);
+  return weights_at(cage_, solved_.domain, weights, placement_);
 }
 
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
-  return report_json(report(), settings_, {Dim, mesh_seconds(), is_cached_, delivered});
+  auto json = report_json(report(), settings_, {Dim, mesh_seconds(), is_cached_, delivered});
+  if (!settings_.model.empty()) {
+    json["outside"] = {{"policy", name_of(settings_.outside)},
+                       {"on_cage", beside_json(placement_.on_cage)},
+                       {"outside", beside_json(placement_.outside)}};
+  }
+  return json;
+}
+
+template <int Dim>
+std::string describe(const Placement<Dim>& placement, double size) {
+  std::ostringstream text;
+  text.precision(3);
+  if (!placement.on_cage.empty()) {
+    text << "; " << placement.on_cage.size() << " vertices beside the cage by a hair, "
+         << farthest(placement.on_cage).distance / size << " of its size at most, are put on it";
+  }
+  if (!placement.outside.empty()) {
+    text << "; " << placement.outside.size() << " vertices outside the cage, by up to "
+         << 100 * farthest(placement.outside).distance / size << " % of its size, "
+         << (placement.policy == OutsidePoints::kNearest ? "follow its nearest point"
+                                                         : "are extrapolated");
+  }
+  return text.str();
 }
 
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
@@ -132,5 +179,7 @@ bool tell_convergence(const SolveReport& report, const SolveSettings& settings) 
 
 template class CageSolver<2>;
 template class CageSolver<3>;
+template std::string describe(const Placement<2>&, double);
+template std::string describe(const Placement<3>&, double);
 
 }  // namespace flbc::app

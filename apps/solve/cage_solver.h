@@ -10,6 +10,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/coordinates.h"
+#include "flbc/placement.h"
 #include "solve/solve_settings.h"
 #include "solve/weights_cache.h"
 
@@ -32,16 +33,21 @@ class CageSolver {
   //! \param quiet  without a progress bar
   void solve(bool quiet);
 
+  const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return solved_.domain; }
   const WeightMatrix& domain_weights() const { return solved_.solution.weights; }
   const SolveReport& report() const { return solved_.solution.report; }
   bool is_cached() const { return is_cached_; }
   double mesh_seconds() const { return solved_.mesh_seconds; }
 
-  //! What gets weights: the model's vertices, or those of the mesh.
+  //! What gets weights: the model's vertices, or those of the mesh. Vertices beside the cage are
+  //! where their weights put them.
   const PointList<Dim>& points() const;
   //! Their weights.
   WeightMatrix rows() const;
+
+  //! Where the model's vertices are; empty for embedded ones and without a model.
+  const Placement<Dim>& placement() const { return placement_; }
 
   //! The report of the whole. \param delivered  quality of rows()
   nlohmann::ordered_json json(const Quality& delivered) const;
@@ -56,8 +62,12 @@ class CageSolver {
   std::string key_;
   SolvedDomain<Dim> solved_;
   bool is_cached_ = false;
-  std::vector<Location<Dim>> places_;  // of the model's vertices
+  Placement<Dim> placement_;  // of the model's vertices
 };
+
+//! How many vertices lie beside the cage, and what became of them; empty for none.
+template <int Dim>
+std::string describe(const Placement<Dim>& placement, double size);
 
 //! That weights are not what was asked for, on standard error. \return whether they are
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings);

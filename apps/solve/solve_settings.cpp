@@ -47,6 +47,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "penalty of the augmented Lagrangian, as published: for a domain scaled to "
                      "radius 250 (by method)");
   command.add_option("--relaxation", options.relaxation, "over-relaxation in (0, 2) (by method)");
+  add_choice(command, "--outside", settings.outside,
+             "what becomes of the model's vertices outside the cage: nearest: weights of the "
+             "nearest point of the cage; extend: those and an affine function of the offset, which "
+             "reproduce the vertex but may be negative (fail)");
   command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_option("--cache", settings.cache,
                      "keep weights in this folder, and take them from there if the numbers of "

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "flbc/options.h"
+#include "flbc/placement.h"
 
 namespace flbc::app {
 
@@ -16,6 +17,7 @@ struct SolveSettings {
   std::string domain;  //!< mesh of the interior; empty: one is made
   std::string model;   //!< whose vertices get weights; empty: those of the mesh do
   bool embed = false;  //!< the model's vertices become vertices of the mesh
+  OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
   std::string cache;   //!< folder of weights computed before
   double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method

@@ -175,11 +175,11 @@ TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
   constexpr Index kFacet = 1;
   put_outside<kDimension>(this->model_, cage, kVertex, kFacet);
   const auto rest = this->points();
-  expect_refused("1 of 49 points lie outside the cage, the first is vertex 11",
+  expect_refused("1 of 49 points lie outside the cage, the farthest is vertex 11",
                  [&] { openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_); });
   EXPECT_THROW(openmesh::get_weights(this->model_), InputError);
 
-  this->options_.outside = openmesh::OutsidePoints::kFollow;
+  this->options_.outside = openmesh::OutsidePoints::kNearest;
   const auto report = openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_);
   EXPECT_EQ(report.outside, 1);
   openmesh::deform(this->model_, cage);
@@ -206,7 +206,7 @@ TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
 
 TYPED_TEST(Bind, FilesKeepABinding) {
   this->options_.persistent = true;
-  this->options_.outside = openmesh::OutsidePoints::kFollow;
+  this->options_.outside = openmesh::OutsidePoints::kNearest;
   put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, 3, 0);
   const auto rest = this->points();
   openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);

@@ -236,7 +236,7 @@ TYPED_TEST(NonNegativeTest, PointsOutsideAreNamed) {
   const PointList<kDim> control_points = 10 * lattice<kDim>(3);
   const double size = bounding_box_diagonal<kDim>(control_points);
   PointList<kDim> points = PointList<kDim>::Constant(kDim, 400, 5);
-  points(0, 5) = 10 + 0.5e-9 * size;
+  points(0, 5) = 10 + 0.5e-6 * size;
   points(0, 123) = 10.25;
   points(0, 321) = -1;
   const WeightMatrix rows = WeightMatrix::Constant(control_points.cols(), 400, -1);
@@ -257,13 +257,13 @@ TYPED_TEST(NonNegativeTest, PointsOutsideAreNamed) {
   points.conservativeResize(kDim, 300);
   expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
                            {"300", "400"});
-  points(0, 123) = 10 + 2e-9 * size;
+  points(0, 123) = 10 + 2e-6 * size;
   weights.conservativeResize(control_points.cols(), 300);
   expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
                            {"point 123"});
-  points(0, 123) = 10 + 0.5e-9 * size;
+  points(0, 123) = 10 + 0.5e-6 * size;
   project_non_negative<kDim>(control_points, points, weights);
-  EXPECT_LE((control_points * weights.col(123) - points.col(123)).norm(), 0.6e-9 * size);
+  EXPECT_LE((control_points * weights.col(123) - points.col(123)).norm(), 0.6e-6 * size);
 }
 
 TYPED_TEST(NonNegativeTest, ThreadsDoNotMatter) {

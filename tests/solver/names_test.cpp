@@ -11,7 +11,7 @@ namespace {
 template <class Enum>
 class NamesTest : public ::testing::Test {};
 using Enumerations = ::testing::Types<Method, NonNegative, DistanceScheme, Recovery, Precision,
-                                      CoarseToFine, LinearSolver, SolveStatus, Criterion>;
+                                      CoarseToFine, LinearSolver, SolveStatus, Criterion, OutsidePoints>;
 TYPED_TEST_SUITE(NamesTest, Enumerations);
 
 TYPED_TEST(NamesTest, GoBothWays) {

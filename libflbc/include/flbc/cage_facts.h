@@ -25,7 +25,7 @@ struct CageFacts {
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
-//! Points outside a cage by more than 1e-6 of its size; those inside holes are outside.
+//! Points outside a cage by more than kBoundaryTolerance of its size; those inside holes are outside.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
 //! \return their indices, ascending

@@ -3,6 +3,7 @@
 //! All of libflbc's core.
 #pragma once
 
+#include "flbc/boundary_tolerance.h"
 #include "flbc/boundary_values.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -33,6 +34,7 @@
 #include "flbc/non_negative.h"
 #include "flbc/options.h"
 #include "flbc/padded_rows.h"
+#include "flbc/placement.h"
 #include "flbc/poisson_reduction.h"
 #include "flbc/poses.h"
 #include "flbc/published_penalty.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flbc/options.h"
+#include "flbc/placement.h"
 #include "flbc/report.h"
 
 namespace flbc {
@@ -40,6 +41,9 @@ const char* name_of(SolveStatus status);
 //! "none", "tolerance" or "gap".
 //! \param criterion  to be named
 const char* name_of(Criterion criterion);
+//! "fail", "nearest" or "extend".
+//! \param policy  to be named
+const char* name_of(OutsidePoints policy);
 
 //! All names of an enumeration, the default first.
 //! \tparam Enum  one of those that name_of() takes

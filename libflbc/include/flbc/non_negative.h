@@ -12,10 +12,10 @@ namespace flbc {
 //! Replaces every column by the nearest one (in the Euclidean norm) with w >= 0, sum w = 1 and
 //! sum w c = x. Afterwards no weight is below 0 (nor -0), and sum and reproduction hold to 1e-13,
 //! the latter relative to the size of the control points. Columns that are like that already
-//! stay. A point beside the convex hull of the control points by no more than 1e-9 of their
-//! size counts as the nearest point of the hull. Where rounding hides the nearest weights (points
-//! on the hull's boundary where control points lie in a facet but for 1e-8 of the size or less)
-//! the weights may be other feasible ones.
+//! stay. A point beside the convex hull of the control points by no more than kBoundaryTolerance of
+//! their size counts as the nearest point of the hull. Where rounding hides the nearest weights
+//! (points on the hull's boundary where control points lie in a facet but for 1e-8 of the size or
+//! less) the weights may be other feasible ones.
 //! The projection is computed in its dual by a semismooth Newton method (Qi and Sun 1993).
 //! \param control_points  Dim x n, n >= 1, finite
 //! \param points  Dim x P, finite, in the units of the control points

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/cage_facts.h"
+#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ CageFacts<Dim> measure_cage(const Cage<Dim>& cage) {
 
 template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points) {
-  const CageLocator<Dim> locator(cage, 1e-6 * bounding_box_diagonal(cage.points));
+  const CageLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_outside(num_points);  // not bool: neighbours are written at the same time
 #pragma omp parallel for schedule(static)

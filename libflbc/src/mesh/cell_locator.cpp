@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/messages.h"
+#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
@@ -133,7 +134,7 @@ Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double toleranc
 template <int Dim>
 std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh,
                                          const PointList<Dim>& points) {
-  const double tolerance = 1e-6 * bounding_box_diagonal(mesh.points);
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(mesh.points);
   const CellLocator<Dim> locator(mesh);
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<Location<Dim>> places(num_points);

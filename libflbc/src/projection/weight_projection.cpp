@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "linear/dense.h"
@@ -18,8 +19,6 @@ namespace {
 constexpr double kExact = 4e-14;
 // Violation that a few more steps may still improve.
 constexpr double kPolished = 2e-15;
-// Distances from the hull, relative to the size, that rounding of someone else's points explains.
-constexpr double kOutside = 1e-9;
 constexpr double kNewtonDelta = 1e-12;
 
 }  // namespace
@@ -77,7 +76,7 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
   work.row = weights;
   if (!newton_round(sums_of(point), kNewtonDelta, work)) {
     const auto nearest = nearest_point_in_hull(points_, point);
-    if (nearest.distance > kOutside * size_) return nearest.distance;
+    if (nearest.distance > kBoundaryTolerance * size_) return nearest.distance;
     work.row = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
       // Rounding hides the nearest weights: any feasible ones are better than none.

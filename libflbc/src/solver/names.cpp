@@ -43,6 +43,9 @@ constexpr Named<SolveStatus> kSolveStatusNames[]{{SolveStatus::kConverged, "conv
 constexpr Named<Criterion> kCriterionNames[]{{Criterion::kNone, "none"},
                                              {Criterion::kTolerance, "tolerance"},
                                              {Criterion::kGap, "gap"}};
+constexpr Named<OutsidePoints> kOutsidePointsNames[]{{OutsidePoints::kFail, "fail"},
+                                                     {OutsidePoints::kNearest, "nearest"},
+                                                     {OutsidePoints::kExtend, "extend"}};
 
 constexpr auto& table_for(Method) {
   return kMethodNames;
@@ -70,6 +73,9 @@ constexpr auto& table_for(SolveStatus) {
 }
 constexpr auto& table_for(Criterion) {
   return kCriterionNames;
+}
+constexpr auto& table_for(OutsidePoints) {
+  return kOutsidePointsNames;
 }
 
 template <class Enum>
@@ -109,6 +115,9 @@ const char* name_of(SolveStatus value) {
 const char* name_of(Criterion value) {
   return find_name(value);
 }
+const char* name_of(OutsidePoints value) {
+  return find_name(value);
+}
 
 template <class Enum>
 std::vector<std::string> names_of() {
@@ -137,6 +146,7 @@ FLBC_INSTANTIATE(CoarseToFine)
 FLBC_INSTANTIATE(LinearSolver)
 FLBC_INSTANTIATE(SolveStatus)
 FLBC_INSTANTIATE(Criterion)
+FLBC_INSTANTIATE(OutsidePoints)
 #undef FLBC_INSTANTIATE
 
 }  // namespace flbc

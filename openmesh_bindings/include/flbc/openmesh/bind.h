@@ -15,17 +15,17 @@
 #include "flbc/openmesh/sparsify.h"
 #include "flbc/openmesh/weights.h"
 #include "flbc/options.h"
+#include "flbc/placement.h"
 #include "flbc/report.h"
 #include "flbc/tetrahedralize.h"
 #include "flbc/triangulate.h"
 
 namespace flbc::openmesh {
 
-//! Treatment of the model's vertices outside the cage.
-enum class OutsidePoints {
-  kRefuse,  //!< an InputError names the first and how many there are
-  kFollow   //!< they move as the nearest point of the cage does, keeping their offset from it
-};
+//! Treatment of the model's vertices outside the cage. With kNearest they move as the nearest point
+//! of the cage does, keeping their offset from it. kExtend needs BindOptions::max_influences = 0,
+//! because negative weights cannot be reduced.
+using flbc::OutsidePoints;
 
 //! Options of bind().
 struct BindOptions {
@@ -37,7 +37,7 @@ struct BindOptions {
   SolverOptions solver{};                          //!< method, tolerance, threads, progress
   Index max_influences = 8;                        //!< per vertex; 0 = all weights are kept
   Reduction reduction = Reduction::kPoisson;       //!< how the others are left out
-  OutsidePoints outside = OutsidePoints::kRefuse;  //!< vertices outside the cage
+  OutsidePoints outside = OutsidePoints::kFail;    //!< vertices outside the cage
   std::string weights = kWeights;                  //!< name of the property
   bool persistent = false;                         //!< whether .om files keep what is left
 };

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Weights at any points: inside the cage, a hair beside it, or outside.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cage.h"
+#include "flbc/cell_locator.h"
+#include "flbc/domain_mesh.h"
+
+namespace flbc {
+
+//! Treatment of points outside the cage.
+enum class OutsidePoints {
+  kFail,     //!< an InputError says how many there are, which is the farthest, and how far it is
+  kNearest,  //!< the weights of the nearest point of the cage: >= 0, with sum 1; they reproduce that
+             //!< point
+  kExtend    //!< those plus an affine function of the offset from it: the offset follows the affine
+             //!< map that fits the control points around best. The sum is 1 and the point is
+             //!< reproduced; weights may be negative. Continuous across the cage.
+};
+
+//! A point beside the cage and the place on the cage that is nearest to it.
+template <int Dim>
+struct PointBeside {
+  Index point = -1;
+  Index facet = -1;
+  Vector<Dim> coordinates = Vector<Dim>::Zero();  //!< barycentric in the facet: >= 0, sum 1
+  double distance = 0;
+};
+
+//! Where points are.
+template <int Dim>
+struct Placement {
+  OutsidePoints policy = OutsidePoints::kFail;
+  PointList<Dim> points;              //!< Dim x P, where the weights put them
+  std::vector<Location<Dim>> places;  //!< of P points, coordinates >= 0; cell -1: not inside
+  //! Outside by no more than kBoundaryTolerance, and put on the cage; ascending.
+  std::vector<PointBeside<Dim>> on_cage;
+  std::vector<PointBeside<Dim>> outside;  //!< by more; ascending
+};
+
+//! Finds points with respect to a cage.
+//! \param cage  n control points, has passed validate()
+//! \param mesh  valid, of the cage's interior
+//! \param points  Dim x P, finite, in the units of the cage
+//! \param policy  what becomes of points outside by more than kBoundaryTolerance
+//! \throws InputError if there are such and the policy is OutsidePoints::kFail
+template <int Dim>
+Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                            const PointList<Dim>& points,
+                            OutsidePoints policy = OutsidePoints::kFail);
+
+//! Weights at placed points: linear in the cells and facets, and beyond by the policy. Not negative
+//! where the mesh's are not, except for OutsidePoints::kExtend.
+//! \param cage, mesh  as for place_points()
+//! \param weights  n x V, of the mesh's vertices
+//! \param placement  as place_points() gives it
+//! \return n x P
+template <int Dim>
+WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                        const WeightMatrix& weights, const Placement<Dim>& placement);
+
+}  // namespace flbc

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models that reach out of their cage, by a hair or by more, as users see them.
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+class OutsideCommand : public CommandLineTest {
+ protected:
+  std::string square() const {
+    return file("square.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
+  }
+  // A triangle, two of whose corners are outside by so much.
+  std::string model(const std::string& distance) const {
+    return file("model.obj", "v 0.5 0.5 0\nv 0.3 -" + distance + " 0\nv -" + distance +
+                                 " 0.6 0\nf 1 2 3\n");
+  }
+  std::string solve(const std::string& options) const {
+    return "solve " + square() + " --vertices 300 --model " + path("model.obj") + " -o " +
+           path("w.npy") + " --report " + path("report.json") + ' ' + options;
+  }
+  nlohmann::json report(const std::string& name) const {
+    return nlohmann::json::parse(slurp(path(name)));
+  }
+};
+
+TEST_F(OutsideCommand, AHairHasOneAnswer) {
+  for (const std::string distance : {"0.000000001", "0.00000001", "0.0000001", "0.000001"}) {
+    SCOPED_TRACE(distance);
+    const auto of = model(distance);
+    EXPECT_NE(run("check " + square() + " --model " + of).output.find("none outside"),
+              std::string::npos);
+    const auto solved = run(solve(""));
+    EXPECT_EQ(solved.status, 0) << solved.errors;
+    EXPECT_NE(solved.errors.find("2 vertices beside the cage by a hair"), std::string::npos)
+        << solved.errors;
+    EXPECT_GE(io::read_weights(path("w.npy")).minCoeff(), 0);
+    EXPECT_EQ(report("report.json")["outside"]["on_cage"]["count"], 2);
+    EXPECT_EQ(report("report.json")["outside"]["outside"]["count"], 0);
+    const auto weights = " --weights " + path("w.npy");
+    EXPECT_EQ(run("check " + square() + " --model " + of + weights).status, 0);
+    EXPECT_EQ(run("sparsify " + path("w.npy") + " --cage " + square() + " --points " + of +
+                  " -k 3 -q -o " + path("few.npy"))
+                  .status,
+              0);
+    EXPECT_EQ(run("run " + square() + ' ' + of + " --vertices 300 -q -o " + path("out")).status, 0);
+    EXPECT_EQ(report("out/report.json")["solve"]["outside"]["on_cage"]["count"], 2);
+  }
+  const auto of = model("0.00001");
+  EXPECT_NE(run("check " + square() + " --model " + of).output.find("2 of 3 points lie outside"),
+            std::string::npos);
+  for (const auto& command :
+       {solve(""), "run " + square() + ' ' + of + " --vertices 300 -q -o " + path("none")}) {
+    const auto refused = run(command);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.errors.find("2 of 3 points lie outside the cage"), std::string::npos);
+    EXPECT_NE(refused.errors.find("--outside nearest"), std::string::npos);
+  }
+}
+
+TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
+  const auto of = model("0.25");
+  EXPECT_EQ(run(solve("--outside fail")).status, 2);
+  ASSERT_EQ(run(solve("--outside nearest")).status, 0);
+  const auto nearest = io::read_weights(path("w.npy"));
+  EXPECT_GE(nearest.minCoeff(), 0);
+  EXPECT_NEAR(nearest(0, 1), 0.7, 1e-12);  // (0.3, 0) between control points 0 and 1
+  EXPECT_NEAR(nearest(1, 1), 0.3, 1e-12);
+  EXPECT_EQ(report("report.json")["outside"]["outside"]["count"], 2);
+  EXPECT_NEAR(report("report.json")["outside"]["outside"]["distance"], 0.25, 1e-12);
+  EXPECT_EQ(report("report.json")["options"]["outside"], "nearest");
+  ASSERT_EQ(run(solve("--outside extend")).status, 0);
+  const auto extended = io::read_weights(path("w.npy"));
+  EXPECT_NEAR(extended.col(1).sum(), 1, 1e-12);
+  EXPECT_NEAR(extended(1, 1) + extended(2, 1), 0.3, 1e-12);   // x
+  EXPECT_NEAR(extended(2, 1) + extended(3, 1), -0.25, 1e-12);  // y
+  EXPECT_EQ(run("deform " + of + " --weights " + path("w.npy") + " --cage " + square() +
+                " --rest " + square() + " -q -o " + path("moved.obj"))
+                .status,
+            0);
+  const auto to = " --vertices 300 -q -o " + path("out");
+  EXPECT_EQ(run("run " + square() + ' ' + of + " --outside nearest" + to).status, 0);
+  EXPECT_EQ(run("run " + square() + ' ' + of + " --outside extend" + to).status, 1);
+  EXPECT_EQ(run(solve("--outside nearest --embed")).status, 1);
+  EXPECT_EQ(run(solve("--outside there")).status, 1);
+}
+
+}  // namespace
+}  // namespace flbc::testing
