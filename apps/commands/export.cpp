@@ -34,6 +34,9 @@ struct ExportArguments {
   gltf::SkinOptions options;
 };
 
+// Influences that every reader knows.
+constexpr Index kOneSet = 4;
+
 // Beyond that vertices visibly tremble.
 constexpr double kWorthATell = 1e-5;
 
@@ -81,6 +84,10 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
             << " influences per vertex";
   const bool are_reduced = skin.given_influences > skin.influences;
   if (are_reduced) std::cerr << " (before " << skin.given_influences << ')';
+  if (skin.influences > kOneSet) {
+    std::cerr << ", of which readers of one set, as three.js, see the largest " << kOneSet
+              << " (-k 4 suits all)";
+  }
   if (!animation.poses.empty()) {
     std::cerr << ", " << animation.poses.size() << " poses in " << animation.times.back()
               << " s that move " << skin.moving_joints << " joints";

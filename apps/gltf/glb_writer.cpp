@@ -24,6 +24,9 @@ namespace {
 // More than that, with its description, might not fit the 32 bits in which the file has its length.
 constexpr std::size_t kMaxBytes = 4'000'000'000;
 
+// Of the joints drawn as bones, relative to the cage's size.
+constexpr float kBoneLength = 0.02F;
+
 template <class Number>
 constexpr int component_type() {
   if constexpr (std::is_same_v<Number, std::uint8_t>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
@@ -191,29 +194,49 @@ class ModelBuilder {
     return 0;
   }
 
+  // Control points hang under one joint in the middle of the cage. Programs that draw joints as
+  // bones make those without children as long as the shortest of their parent's: the helper's.
   void add_joints() {
-    const auto num_joints = scene_.joints.cols();
-    tinygltf::Node cage;
-    cage.name = "cage";
+    const auto num_points = scene_.joints.cols();
+    const Eigen::Vector3f low = scene_.joints.rowwise().minCoeff();
+    const Eigen::Vector3f size = scene_.joints.rowwise().maxCoeff() - low;
+    centre_ = low + size / 2;
     tinygltf::Skin skin;
-    skin.name = cage.name;
+    skin.name = "cage";
     skin.skeleton = kCageNode;
-    Eigen::MatrixXf inverse_binds(16, num_joints);
-    for (Eigen::Index i = 0; i < num_joints; ++i) skin.joints.push_back(joint_node(i));
-    cage.children = skin.joints;
-    model_.nodes.push_back(cage);
-    for (Eigen::Index i = 0; i < num_joints; ++i) {
-      const Eigen::Vector3f place = scene_.joints.col(i);
-      tinygltf::Node joint;
-      joint.name = "control_point_" + std::to_string(i);
-      joint.translation = to_doubles(place);
-      model_.nodes.push_back(joint);
-      Eigen::Matrix4f inverse_bind = Eigen::Matrix4f::Identity();
-      inverse_bind.col(3).head<3>() = -place;
-      inverse_binds.col(i) = inverse_bind.reshaped();
+    add_joint("cage", centre_, Eigen::Vector3f::Zero());
+    for (Eigen::Index i = 0; i < num_points; ++i) {
+      add_joint("control_point_" + std::to_string(i), scene_.joints.col(i) - centre_, centre_);
+      skin.joints.push_back(joint_node(i));
     }
-    skin.inverseBindMatrices = add_accessor<float>(inverse_binds, 0);
+    add_joint("cage_end", Eigen::Vector3f(kBoneLength * size.norm(), 0, 0), centre_);
+    const int helper = joint_node(num_points);
+    model_.nodes[kCageNode].children = skin.joints;
+    model_.nodes[kCageNode].children.push_back(helper);
+    skin.joints.insert(skin.joints.end(), {kCageNode, helper});
+    skin.inverseBindMatrices = add_inverse_binds(skin.joints);
     model_.skins.push_back(skin);
+  }
+
+  // Appends a node. \param parent  where its parent is
+  void add_joint(const std::string& name, const Eigen::Vector3f& place,
+                 const Eigen::Vector3f& parent) {
+    tinygltf::Node joint;
+    joint.name = name;
+    joint.translation = to_doubles(place);
+    model_.nodes.push_back(joint);
+    places_.push_back(parent + place);
+  }
+
+  // A matrix per joint, which undoes its place at rest.
+  int add_inverse_binds(const std::vector<int>& joints) {
+    Eigen::MatrixXf inverse_binds(16, joints.size());
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      Eigen::Matrix4f inverse_bind = Eigen::Matrix4f::Identity();
+      inverse_bind.col(3).head<3>() = -places_[joints[k] - kCageNode];
+      inverse_binds.col(static_cast<Eigen::Index>(k)) = inverse_bind.reshaped();
+    }
+    return add_accessor<float>(inverse_binds, 0);
   }
 
   static int joint_node(Eigen::Index joint) { return kFirstJoint + static_cast<int>(joint); }
@@ -228,7 +251,7 @@ class ModelBuilder {
     for (const Channel& moving : scene_.channels) {
       tinygltf::AnimationSampler sampler;
       sampler.input = input;
-      sampler.output = add_accessor<float>(moving.translations, 0);
+      sampler.output = add_accessor<float>(moving.translations.colwise() - centre_, 0);
       sampler.interpolation = "LINEAR";
       tinygltf::AnimationChannel channel;
       channel.sampler = static_cast<int>(animation.samplers.size());
@@ -242,6 +265,8 @@ class ModelBuilder {
 
   const GlbScene& scene_;
   tinygltf::Model model_;
+  Eigen::Vector3f centre_;               // of the cage
+  std::vector<Eigen::Vector3f> places_;  // of the nodes from kCageNode on, at rest
 };
 
 }  // namespace

@@ -32,8 +32,9 @@ struct GlbScene {
   std::vector<Channel> channels{};         //!< joints that move
 };
 
-//! The content of a .glb file. Two nodes are roots of the scene: that of the mesh, and "cage", the
-//! parent of the joints "control_point_0" and so on.
+//! The content of a .glb file. Two nodes are roots of the scene: that of the mesh, and the joint
+//! "cage" in the middle of the cage. Its children are the joints "control_point_0" and so on, and
+//! "cage_end", near it, which moves nothing but makes programs draw short bones.
 //! \throws InputError if it exceeds the 4 GB such a file can have
 std::string encode_glb(const GlbScene& scene);
 

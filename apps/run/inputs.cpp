@@ -64,7 +64,7 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
   }
-  names.emplace_back(kSkin);
+  names.insert(names.end(), {kSkin, kFullSkin});
   for (const char* picture : {kFunction, inputs.poses.empty() ? kModelPicture : kDeformation}) {
     names.push_back(std::string(picture) + "." + inputs.picture_format);
   }

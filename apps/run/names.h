@@ -10,7 +10,8 @@ constexpr const char* kDomain = "domain";  //!< the extension depends on the dim
 constexpr const char* kDomainWeights = "domain_weights.npy";
 constexpr const char* kWeights = "weights.npy";
 constexpr const char* kSparseWeights = "sparse_weights.mtx";
-constexpr const char* kSkin = "model.glb";
+constexpr const char* kSkin = "model.glb";        //!< of four influences, which every reader knows
+constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
 // Pictures; the extension depends on the format.
 constexpr const char* kFunction = "function";
 constexpr const char* kModelPicture = "model";

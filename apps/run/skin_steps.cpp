@@ -76,6 +76,57 @@ std::string facts_of(const WeightMatrix& before, const WeightMatrix& after, cons
   return facts.text();
 }
 
+// Influences per vertex that a skin has room for.
+constexpr Index kFewJoints = 4, kManyJoints = 8;
+
+template <int Dim>
+std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
+  const auto& times = run.inputs.animation.times;
+  Facts facts;
+  facts << skin.vertices << " vertices, " << skin.triangles << " triangles, " << skin.joints
+        << " joints";
+  if (!run.poses().empty()) {
+    facts << ", of which " << skin.moving_joints << " move within " << times.back() << " s";
+  }
+  facts << ", at most " << skin.influences << " influences per vertex";
+  if (skin.influences > kFewJoints) {
+    facts << ", of which readers of one set, as three.js, see the largest 4";
+  }
+  const double change = skin.position_change / bounding_box_diagonal<Dim>(run.shape().points);
+  if (change > kWorthATell) {
+    facts << "; single precision, which glTF has, moves vertices by up to " << change
+          << " of the size";
+  }
+  return facts.text();
+}
+
+// \return what the report says about it
+template <int Dim>
+Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
+  const auto& shape = run.shape();
+  const auto& animation = run.inputs.animation;
+  gltf::SkinOptions options;
+  options.max_influences = max_influences;
+  options.name = shape.name;
+  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
+                                      options, animation);
+  run.folder.add(name, facts_of(skin, run), [&](const std::string& path) {
+    io::write_file(path, [&](std::ostream& file) { file << skin.glb; });
+  });
+  const double size = bounding_box_diagonal<Dim>(shape.points);
+  return {{"file", name},
+          {"bytes", skin.glb.size()},
+          {"vertices", skin.vertices},
+          {"triangles", skin.triangles},
+          {"joints", skin.joints},
+          {"moving_joints", skin.moving_joints},
+          {"max_influences", skin.influences},
+          {"times", animation.times},
+          {"position_change", skin.position_change / size},
+          {"deformation_error",
+           {{"rms", skin.deformation_error.rms / size}, {"max", skin.deformation_error.max / size}}}};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -111,48 +162,15 @@ void reduce_influences(Run<Dim>& run) {
 
 template <int Dim>
 void export_shape(Run<Dim>& run) {
-  const auto& shape = run.shape();
-  if (shape.surface.triangles.cols() == 0) {
+  if (run.shape().surface.triangles.cols() == 0) {
     const std::string reason = "the model has no triangles";
     run.report["export"] = {{"left_out", reason}};
     run.folder.tell(kSkin, "left out: " + reason);
     return;
   }
-  constexpr Index kFewJoints = 4;
-  gltf::SkinOptions options;
-  if (run.arguments.max_influences <= kFewJoints) options.max_influences = kFewJoints;
-  options.name = shape.name;
-  const auto& animation = run.inputs.animation;
-  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
-                                      options, animation);
-  const double size = bounding_box_diagonal<Dim>(shape.points);
-  run.report["export"] = {
-      {"file", kSkin},
-      {"bytes", skin.glb.size()},
-      {"vertices", skin.vertices},
-      {"triangles", skin.triangles},
-      {"joints", skin.joints},
-      {"moving_joints", skin.moving_joints},
-      {"max_influences", skin.influences},
-      {"times", animation.times},
-      {"position_change", skin.position_change / size},
-      {"deformation_error",
-       {{"rms", skin.deformation_error.rms / size}, {"max", skin.deformation_error.max / size}}}};
-  Facts facts;
-  facts << skin.vertices << " vertices, " << skin.triangles << " triangles, " << skin.joints
-        << " joints";
-  if (!run.poses().empty()) {
-    facts << ", of which " << skin.moving_joints << " move within " << animation.times.back()
-          << " s";
-  }
-  const double change = skin.position_change / size;
-  if (change > kWorthATell) {
-    facts << "; single precision, which glTF has, moves vertices by up to " << change
-          << " of the size";
-  }
-  run.folder.add(kSkin, facts.text(), [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << skin.glb; });
-  });
+  run.report["export"] = write_skin(run, kSkin, kFewJoints);
+  if (run.arguments.max_influences <= kFewJoints) return;
+  run.report["export"]["full"] = write_skin(run, kFullSkin, kManyJoints);
 }
 
 #define FLBC_INSTANTIATE(Dim)                 \

@@ -59,7 +59,8 @@ void reduce_influences(Run<Dim>& run);
 template <int Dim>
 void deform_shape(Run<Dim>& run);
 
-//! model.glb, at rest or moving from there to the poses. Left out if there are no triangles.
+//! model.glb, at rest or moving from there to the poses, and where more than four influences are
+//! asked for model_8.glb. Left out if there are no triangles.
 template <int Dim>
 void export_shape(Run<Dim>& run);
 

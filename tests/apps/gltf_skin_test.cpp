@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -174,11 +175,12 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   const auto& nodes = file.json["nodes"];
   const auto& skin = file.json["skins"][0];
   const auto n = example.sample.cage.size();
-  ASSERT_EQ(skin["joints"].size(), n);
-  // The joints have one parent, which is a root of the scene, as is the mesh.
-  const auto& parent = nodes[skin["skeleton"].get<std::size_t>()];
-  EXPECT_EQ(parent["children"], skin["joints"]);
-  EXPECT_FALSE(parent.contains("translation"));
+  ASSERT_EQ(skin["joints"].size(), n + 2);
+  // The control points have one parent, which is a joint and a root of the scene, as is the mesh.
+  const auto& parent = file.root_joint();
+  ASSERT_EQ(parent["children"].size(), n + 1);
+  EXPECT_EQ(skin["joints"][n], skin["skeleton"]);
+  EXPECT_EQ(skin["joints"][n + 1], parent["children"][n]);
   EXPECT_EQ(file.json["scenes"][0]["nodes"].size(), 2);
   EXPECT_EQ(file.json["scenes"][0]["nodes"][1], skin["skeleton"]);
   const auto& mesh = nodes[file.json["scenes"][0]["nodes"][0].get<std::size_t>()];
@@ -186,16 +188,24 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   EXPECT_EQ(mesh["skin"], 0);
   EXPECT_EQ(mesh["name"], "caf\xc3\xa9");
   const Eigen::MatrixXd binds = file.accessor(skin["inverseBindMatrices"]);
+  ASSERT_EQ(binds.cols(), n + 2);
   const Eigen::MatrixXd joints = file.joints();
   for (Index i = 0; i < n; ++i) {
+    EXPECT_EQ(skin["joints"][i], parent["children"][i]);
     const auto& joint = nodes[skin["joints"][i].template get<std::size_t>()];
     EXPECT_EQ(joint["name"], "control_point_" + std::to_string(i));
     EXPECT_LT((joints.col(i) - in_space<Dim>(example.sample.cage.points).col(i)).norm(), 1e-6);
-    // Exactly the inverse, so that nothing moves at rest.
+    // The inverse but for rounding, so that nothing moves at rest.
     Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
     expected.col(3).head<3>() = -joints.col(i);
-    EXPECT_EQ(binds.col(i).reshaped(4, 4), expected);
+    EXPECT_LT((binds.col(i).reshaped(4, 4) - expected).norm(), 1e-6);
   }
+  // Bones are short: none is nearer to the root than the joint that moves nothing.
+  const auto& helper = nodes[skin["joints"][n + 1].template get<std::size_t>()]["translation"];
+  const double length = Eigen::Vector3d(helper[0].template get<double>(), helper[1].template get<double>(),
+                                       helper[2].template get<double>())
+                            .norm();
+  EXPECT_NEAR(length, 0.02 * bounding_box_diagonal<Dim>(example.sample.cage.points), 1e-6);
   EXPECT_TRUE(file.json["accessors"][file.number_of("POSITION")].contains("min"));
 
   options.name = "caf\xe9";  // Latin-1: a name, but no UTF-8

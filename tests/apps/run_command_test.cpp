@@ -66,8 +66,8 @@ class RunCommand : public CommandLineTest {
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{domain,         "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                         "deformed.obj", "model.glb",   "function.png",       "deformation.png",
-                         "model.html",   "report.json"};
+                         "deformed.obj", "model.glb",   "model_8.glb",        "function.png",
+                         "deformation.png", "model.html", "report.json"};
     EXPECT_EQ(names_in("out"), expected);
     for (const auto& file : expected) {
       EXPECT_NE(result.errors.find("  " + file + ' '), std::string::npos) << file;
@@ -87,7 +87,10 @@ class RunCommand : public CommandLineTest {
                 "out/deformed.obj");
     expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
                     " --fps 1 --cages " + cage + " " + pose,
-                "m.glb", "out/model.glb");
+                "m.glb", "out/model_8.glb");
+    expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
+                    " -k 4 --fps 1 --cages " + cage + " " + pose,
+                "m4.glb", "out/model.glb");
     expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
                     " --control-point " + json["pictures"]["control_point"].dump(),
                 "f.png", "out/function.png");
@@ -110,6 +113,8 @@ class RunCommand : public CommandLineTest {
     EXPECT_EQ(json["deform"][0]["file"], "deformed.obj");
     EXPECT_GT(json["deform"][0]["largest_displacement"], 0.1);
     EXPECT_EQ(json["export"]["bytes"], fs::file_size(path("out/model.glb")));
+    EXPECT_LE(json["export"]["max_influences"], 4);
+    EXPECT_EQ(json["export"]["full"]["bytes"], fs::file_size(path("out/model_8.glb")));
     for (const char* step : {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures", "page"})
       EXPECT_GE(json["seconds"][step], 0) << step;
   }
@@ -172,7 +177,7 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
                0, "of which");
     const auto domain = path("out/domain" + extension);
     EXPECT_EQ(names_in("out"), (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
-                                      "deformed" + extension, "model.glb", "function.png",
+                                      "deformed" + extension, "model.glb", "model_8.glb", "function.png",
                                       "deformation.png", "model.html", "report.json"}));
     expect_same(
         "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --cage " + pose,
@@ -214,7 +219,7 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   expect_run("out", common, 0, "points");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "function.png", "model.png", "model.html", "report.json",
+                   "model.glb", "model_8.glb", "function.png", "model.png", "model.html", "report.json",
                    "notes.txt", "deformed_009.obj"}));
   EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
 }
@@ -296,7 +301,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // Not converged is no failure of a step.
   expect_run("early", sample("2d/letter_cage.obj") + " --max-iterations 10 --vertices 500 -q", 3,
              "not converged within 10 iterations");
-  EXPECT_EQ(names_in("early").size(), 8U);
+  EXPECT_EQ(names_in("early").size(), 9U);
   EXPECT_EQ(report("early")["solve"]["converged"], false);
 }
 

@@ -58,8 +58,9 @@ export class SpecifiedSkin {
     return this.primitive.getAttribute('JOINTS_1') ? 8 : 4;
   }
 
+  // The number of control points.
   get joints() {
-    return this.skin.listJoints().length;
+    return this.skin.listJoints().filter((joint) => /^control_point_/.test(joint.getName())).length;
   }
 
   // Which vertex of the model each one is.

@@ -110,15 +110,28 @@ class GlbFile {
     return result;
   }
 
-  //! 3 x n, by the nodes.
+  //! The joint of which all others are children.
+  const Json& root_joint() const {
+    return json["nodes"][json["skins"][0]["skeleton"].get<std::size_t>()];
+  }
+
+  //! Where the root joint is.
+  Eigen::Vector3d root() const {
+    const auto& translation = root_joint()["translation"];
+    return Eigen::Vector3d(translation[0].get<double>(), translation[1].get<double>(),
+                           translation[2].get<double>());
+  }
+
+  //! 3 x n, by the nodes of the control points.
   Eigen::MatrixXd joints() const {
     const auto& nodes = json["skins"][0]["joints"];
-    Eigen::MatrixXd result(3, nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
+    constexpr std::size_t kOthers = 2;
+    Eigen::MatrixXd result(3, nodes.size() - kOthers);
+    for (std::size_t i = 0; i + kOthers < nodes.size(); ++i) {
       const auto& translation = json["nodes"][nodes[i].get<std::size_t>()]["translation"];
       for (std::size_t axis = 0; axis < 3; ++axis) result(axis, i) = translation[axis];
     }
-    return result;
+    return result.colwise() + root();
   }
 
   //! The same at a moment of the animation, linearly between its keys.
@@ -135,7 +148,7 @@ class GlbFile {
       const auto& nodes = json["skins"][0]["joints"];
       const auto joint = std::find(nodes.begin(), nodes.end(), channel["target"]["node"]);
       EXPECT_NE(joint, nodes.end());
-      result.col(joint - nodes.begin()) = between(times, values, time);
+      result.col(joint - nodes.begin()) = root() + between(times, values, time);
     }
     return result;
   }
