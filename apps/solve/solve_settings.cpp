@@ -35,7 +35,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.add_flag("--certify", options.certify, "prove how near the optimum the weights are");
   add_choice(command, "--phi", options.phi, "growth of the distance weights (square)");
   add_choice(command, "--recovery", options.recovery, "how weights follow from gradients (auto)");
-  add_choice(command, "--precision", options.precision, "arithmetic of the iteration (single)");
+  add_choice(command, "--precision", options.precision, "numbers of the iteration (auto: half where the tolerance allows)");
   command.add_option(
       "--tolerance", options.tolerance,
       "accuracy wanted (by method: value and paper 1e-7, gradient 2.5e-5, lbc2014 5e-8)");

@@ -17,7 +17,8 @@ StateRecord describe(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   StateRecord record;
   record.method = name_of(options.method);
   if (options.non_negative == NonNegative::kConstraint) record.method += ", non-negative";
-  record.precision = name_of(options.precision);
+  record.precision =
+      name_of(options.precision == Precision::kDouble ? Precision::kDouble : Precision::kSingle);
   record.phi = phi.size() > 0 ? content_hash(phi).text() : name_of(options.phi);
   record.control_points = cage.size();
   record.cage = content_hash(cage.points, cage.facets).text();

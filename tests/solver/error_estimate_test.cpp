@@ -2,6 +2,7 @@
 // The estimate that Method::kValue stops by, on errors that are known because they are made up.
 #include "solver/splitting/error_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -228,6 +229,14 @@ class WeightHistoryTest : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(WeightHistoryTest, Scalars);
 
+template <class Scalar>
+typename WeightHistory<Scalar>::ReadRow rows_of(const std::vector<Scalar>& weights,
+                                                std::size_t stride) {
+  return [&weights, stride](Index vertex, Scalar* row) {
+    std::copy_n(weights.data() + vertex * stride, stride, row);
+  };
+}
+
 TYPED_TEST(WeightHistoryTest, ComparesWithTheWeightsASpanAgo) {
   using History = WeightHistory<TypeParam>;
   const std::vector<Index> vertices{0, 2, 3};  // vertex 1 is on the boundary
@@ -239,7 +248,7 @@ TYPED_TEST(WeightHistoryTest, ComparesWithTheWeightsASpanAgo) {
       weights[v * kStride] = static_cast<TypeParam>(iteration * (v + 1));
     }
     weights[kStride] = static_cast<TypeParam>(1e6 * iteration);
-    const double difference = history(iteration, weights.data());
+    const double difference = history(iteration, rows_of(weights, kStride));
     if (iteration % History::kStep != 0 || iteration < History::kSpan) {
       EXPECT_LT(difference, 0) << iteration;
     } else {
@@ -254,13 +263,14 @@ TYPED_TEST(WeightHistoryTest, ASampleOfALargeMeshServes) {
   std::iota(vertices.begin(), vertices.end(), 0);
   History history(vertices, 8);
   std::vector<TypeParam> weights(8 * vertices.size());
-  history(0, weights.data());
+  const auto rows = rows_of(weights, 8);
+  history(0, rows);
   double sum = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     weights[8 * v + 3] = static_cast<TypeParam>(std::sin(1e-4 * static_cast<double>(v)));
     sum += std::pow(static_cast<double>(weights[8 * v + 3]), 2);
   }
-  EXPECT_NEAR(history(History::kSpan, weights.data()), sum / 1e5, 0.01 * sum / 1e5);
+  EXPECT_NEAR(history(History::kSpan, rows), sum / 1e5, 0.01 * sum / 1e5);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "flbc/coordinates.h"
+#include "flbc/harmonic.h"
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
@@ -106,7 +107,7 @@ TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
         problem.mesh.num_vertices(),
         100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
     splitting::WeightSplitting<double, kDim> splitting(problem, metric, 300 / per_cell, 1.65);
-    splitting.start_from_harmonic(8);
+    splitting.start_from_weights(harmonic_coordinates(problem));
     for (int iteration = 0; iteration < 8000; ++iteration) splitting.iterate();
     expect_optimal(problem, splitting.weights(), reference.non_negative);
   }

@@ -31,8 +31,14 @@ enum class NonNegative {
   kOff          //!< neither: the paper's problem
 };
 
-//! Arithmetic of the iteration; set-up and recovery are always in double precision.
-enum class Precision { kSingle, kDouble };
+//! Numbers of the iteration; set-up and recovery are always in double precision.
+enum class Precision {
+  kAuto,    //!< kHalf where the tolerance allows, for Method::kValue; else kSingle
+  kHalf,    //!< Method::kValue only: duals of cells in half precision, all else and all arithmetic in
+            //!< single; kSingle on meshes of less than 10,000 cells
+  kSingle,  //!< float
+  kDouble   //!< double
+};
 
 //! How weights are recovered from gradients.
 enum class Recovery {
@@ -60,7 +66,7 @@ struct SolverOptions {
   DistanceScheme phi = DistanceScheme::kSquare;
 
   //! Of the iteration. Read by kValue, kLbc2014, kGradient and kPaper.
-  Precision precision = Precision::kSingle;
+  Precision precision = Precision::kAuto;
 
   //! How weights follow from gradients. Read by kGradient and kPaper.
   Recovery recovery = Recovery::kAuto;

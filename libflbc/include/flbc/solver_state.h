@@ -12,9 +12,12 @@ namespace flbc {
 
 //! The arrays that an iteration keeps between two steps.
 enum class StateArray {
-  kIterate,               //!< w, on vertices (kValue, kLbc2014)
-  kNonNegativityDual,     //!< u + dual of u = w, u >= 0, on vertices (the same)
-  kSplittingState,        //!< z + dual of z = grad w, on cells (the same)
+  kIterate,               //!< w, on vertices (kLbc2014); 2 w - W, scaled (kValue)
+  kRelaxedIterate,        //!< W, on vertices, scaled (kValue)
+  kNonNegativityDual,     //!< q = u + dual of u = w, u >= 0, on vertices (kLbc2014); q - W, scaled
+                          //!< (kValue)
+  kSplittingState,        //!< y = z + dual of z = grad w, on cells (kLbc2014); grad W - y, scaled
+                          //!< (kValue)
   kGradient,              //!< g, on cells (kGradient, kPaper)
   kExtrapolatedGradient,  //!< 2 g - g before, on cells (the same)
   kTvDual,                //!< dual of Z = G, on cells (the same)
@@ -29,7 +32,7 @@ struct StateShape {
   std::size_t elements;    //!< number of vertices, cells or facets, 1 for the mesh
   std::size_t components;  //!< rows per element
   std::size_t stride;      //!< numbers per row, >= n
-  Precision precision;     //!< float or double
+  Precision precision;     //!< kHalf (two bytes), kSingle (float) or kDouble
 };
 
 //! Provides the memory. The iteration works on it in place, so it must not move during a solve.
@@ -42,6 +45,9 @@ class StateStorage {
   //! \return memory aligned to 64 bytes; what an earlier run left there if penalty() > 0, else
   //! anything
   virtual void* allocate(const StateShape& shape) = 0;
+
+  //! Whether there is room for half precision, which the iteration does without otherwise.
+  virtual bool holds_half() const { return false; }
 
   //! What keep_penalty() was told by the run that left what is there, from which to go on; 0 =
   //! start afresh.

@@ -3,9 +3,9 @@
 //! Which of the copies of an inner loop, compiled for several instruction sets, this processor is
 //! given.
 //!
-//! A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it by
-//! FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the set's
-//! name, has a table `kKernel<...>` in the namespace of that name and hands it out by
+//! A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it
+//! by FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the
+//! set's name, has a table `kKernel<...>` in the namespace of that name and hands it out by
 //! FLBC_DEFINE_KERNEL.
 #pragma once
 
@@ -32,7 +32,8 @@ KernelList<Kernel> supported_kernels() {
       __builtin_cpu_supports("avx512dq")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx512>();
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c")) {
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+      __builtin_cpu_supports("f16c")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx2>();
   }
 #endif
@@ -49,21 +50,21 @@ const Kernel& select_kernel() {
 }  // namespace flbc
 
 //! Within namespace flbc: the kernel space::Kernel<arguments> exists for every instruction set.
-#define FLBC_DECLARE_KERNEL(space, ...)                                                      \
-  template <>                                                                                \
-  const space::Kernel<__VA_ARGS__>&                                                          \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::baseline>();                        \
-  template <>                                                                                \
-  const space::Kernel<__VA_ARGS__>&                                                          \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx2>();                            \
-  template <>                                                                                \
-  const space::Kernel<__VA_ARGS__>&                                                          \
+#define FLBC_DECLARE_KERNEL(space, ...)                               \
+  template <>                                                         \
+  const space::Kernel<__VA_ARGS__>&                                   \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::baseline>(); \
+  template <>                                                         \
+  const space::Kernel<__VA_ARGS__>&                                   \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx2>();     \
+  template <>                                                         \
+  const space::Kernel<__VA_ARGS__>&                                   \
   kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx512>();
 
 //! Within namespace flbc: the copy for the instruction set this file is compiled for.
-#define FLBC_DEFINE_KERNEL(space, ...)                                              \
-  template <>                                                                       \
-  const space::Kernel<__VA_ARGS__>&                                                 \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::FLBC_ISA>() {              \
-    return space::FLBC_ISA::kKernel<__VA_ARGS__>;                                   \
+#define FLBC_DEFINE_KERNEL(space, ...)                                 \
+  template <>                                                          \
+  const space::Kernel<__VA_ARGS__>&                                    \
+  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::FLBC_ISA>() { \
+    return space::FLBC_ISA::kKernel<__VA_ARGS__>;                      \
   }

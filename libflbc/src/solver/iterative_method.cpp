@@ -90,8 +90,10 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
       report.seconds.solve = watch.lap();
       break;
     case Method::kValue:
+      result = solve_by_value(problem, options, report, storage, warm_start);
+      break;
     case Method::kLbc2014:
-      result = solve_by_splitting(problem, options, report, storage, warm_start);
+      result = solve_lbc2014(problem, options, report, storage);
       break;
     default:
       result = solve_by_gradients(problem, options, report, storage, warm_start);

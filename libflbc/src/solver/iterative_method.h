@@ -46,11 +46,16 @@ MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOpti
                                 SolveReport& report, StateStorage* storage,
                                 WarmStart<Dim> warm_start);
 
-//! Method::kValue and kLbc2014. Parameters as above.
+//! Method::kValue. Parameters as above.
 template <int Dim>
-MethodResult solve_by_splitting(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                                SolveReport& report, StateStorage* storage,
-                                WarmStart<Dim> warm_start);
+MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                            SolveReport& report, StateStorage* storage,
+                            WarmStart<Dim> warm_start);
+
+//! Method::kLbc2014. Parameters as above.
+template <int Dim>
+MethodResult solve_lbc2014(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                           SolveReport& report, StateStorage* storage);
 
 //! Any method, up to weights that may be negative. Parameters as above, but the penalty is in the
 //! user's unit and the report is made anew.

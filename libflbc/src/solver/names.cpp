@@ -30,7 +30,9 @@ constexpr Named<DistanceScheme> kDistanceSchemeNames[]{{DistanceScheme::kSquare,
 constexpr Named<Recovery> kRecoveryNames[]{{Recovery::kAuto, "auto"},
                                            {Recovery::kBreadthFirst, "breadth-first"},
                                            {Recovery::kLeastSquares, "least-squares"}};
-constexpr Named<Precision> kPrecisionNames[]{{Precision::kSingle, "single"},
+constexpr Named<Precision> kPrecisionNames[]{{Precision::kAuto, "auto"},
+                                             {Precision::kHalf, "half"},
+                                             {Precision::kSingle, "single"},
                                              {Precision::kDouble, "double"}};
 constexpr Named<CoarseToFine> kCoarseToFineNames[]{
     {CoarseToFine::kAuto, "auto"}, {CoarseToFine::kOn, "on"}, {CoarseToFine::kOff, "off"}};

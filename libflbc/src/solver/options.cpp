@@ -80,6 +80,10 @@ void validate(const SolverOptions& options) {
     throw OptionError("certify needs a method that minimises, which this one does not");
   }
   validate_gap(options, iterative);
+  const bool value = options.method == Method::kAuto || options.method == Method::kValue;
+  if (options.precision == Precision::kHalf && !value) {
+    throw OptionError("precision half is for the method value only; choose single or double");
+  }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
   validate(options.coarse_levels);
@@ -102,6 +106,13 @@ SolverOptions resolve(SolverOptions options) {
   }
   if (options.tolerance == 0)
     options.tolerance = value ? 1e-7 : gradient ? 2.5e-5 : lbc2014 ? 5e-8 : 1e-7;
+  // Radii in half precision are phi rounded by 1.4e-4 on average. That moves weights by as much on
+  // meshes of some dozen cells, squared 1e-8, and by a few 1e-11 squared on models.
+  constexpr double kHalfIsEnough = 1e-7;
+  if (options.precision == Precision::kAuto) {
+    options.precision =
+        value && options.tolerance >= kHalfIsEnough ? Precision::kHalf : Precision::kSingle;
+  }
   if (options.relaxation == 0) {
     options.relaxation = value ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
   }

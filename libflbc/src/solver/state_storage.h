@@ -18,10 +18,12 @@ AlignedArray<Scalar> state_array(StateStorage* storage, StateArray array, std::s
                                  std::size_t components, std::size_t stride) {
   const std::size_t size = elements * components * stride;
   if (storage == nullptr) return AlignedArray<Scalar>(size);
-  const auto precision = sizeof(Scalar) == sizeof(float) ? Precision::kSingle : Precision::kDouble;
+  const auto precision = sizeof(Scalar) == 2               ? Precision::kHalf
+                         : sizeof(Scalar) == sizeof(float) ? Precision::kSingle
+                                                           : Precision::kDouble;
   auto* data =
       static_cast<Scalar*>(storage->allocate({array, elements, components, stride, precision}));
-  if (storage->penalty() == 0) std::fill_n(data, size, Scalar(0));
+  if (storage->penalty() == 0) std::fill_n(data, size, Scalar{});
   return AlignedArray<Scalar>::borrow(data, size);
 }
 
@@ -29,14 +31,16 @@ AlignedArray<Scalar> state_array(StateStorage* storage, StateArray array, std::s
 class KeptState : public StateStorage {
  public:
   void* allocate(const StateShape& shape) override {
-    const std::size_t bytes =
-        shape.precision == Precision::kSingle ? sizeof(float) : sizeof(double);
+    const std::size_t bytes = shape.precision == Precision::kHalf     ? 2
+                              : shape.precision == Precision::kSingle ? sizeof(float)
+                                                                      : sizeof(double);
     const std::size_t size = shape.elements * shape.components * shape.stride * bytes;
     auto& array = arrays_[shape.array];
     if (array.size() != size) array = AlignedArray<unsigned char>(size);
     return array.data();
   }
 
+  bool holds_half() const override { return true; }
   double penalty() const override { return penalty_; }
   void keep_penalty(double penalty) override { penalty_ = penalty; }
 

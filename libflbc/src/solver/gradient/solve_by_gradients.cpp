@@ -97,9 +97,9 @@ template <int Dim>
 MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOptions& options,
                                 SolveReport& report, StateStorage* storage,
                                 WarmStart<Dim> warm_start) {
-  return options.precision == Precision::kSingle
-             ? solve<float>(problem, options, report, storage, warm_start)
-             : solve<double>(problem, options, report, storage, warm_start);
+  return options.precision == Precision::kDouble
+             ? solve<double>(problem, options, report, storage, warm_start)
+             : solve<float>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_by_gradients(const LbcProblem<2>&, const SolverOptions&, SolveReport&,

@@ -45,29 +45,23 @@ WeightHistory<Scalar>::WeightHistory(const std::vector<Index>& vertices, std::si
 }
 
 template <class Scalar>
-double WeightHistory<Scalar>::operator()(int iteration, const Scalar* weights) {
+double WeightHistory<Scalar>::operator()(int iteration, const ReadRow& read) {
   if (iteration % kStep != 0) return -1;
   auto& kept = kept_[static_cast<std::size_t>(iteration / kStep) % kept_.size()];
   const auto count = static_cast<Index>(sample_.size());
-  double difference = -1;
-  if (kept.size() > 0) {
-    difference = parallel_sum(count, 0.0, [&](Index begin, Index end) {
-      double part = 0;
-      for (Index k = begin; k < end; ++k) {
-        part +=
-            squared_difference(weights + sample_[k] * stride_, kept.data() + k * stride_, stride_);
-      }
-      return part;
-    });
-    difference /= std::max<Index>(1, count);
-  } else {
-    kept = AlignedArray<Scalar>(sample_.size() * stride_);
-  }
-  for (Index k = 0; k < count; ++k) {
-    std::memcpy(kept.data() + k * stride_, weights + sample_[k] * stride_,
-                stride_ * sizeof(Scalar));
-  }
-  return difference;
+  const bool full = kept.size() > 0;
+  if (!full) kept = AlignedArray<Scalar>(sample_.size() * stride_);
+  const double sum = parallel_sum(count, 0.0, [&](Index begin, Index end) {
+    double part = 0;
+    AlignedArray<Scalar> row(stride_);
+    for (Index k = begin; k < end; ++k) {
+      read(sample_[k], row.data());
+      part += squared_difference(row.data(), kept.data() + k * stride_, stride_);
+      std::memcpy(kept.data() + k * stride_, row.data(), stride_ * sizeof(Scalar));
+    }
+    return part;
+  });
+  return full ? sum / std::max<Index>(1, count) : -1;
 }
 
 // Decay of the differences' length per iteration, by regression over iterations first .. last.

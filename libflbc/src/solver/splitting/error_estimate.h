@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "base/aligned_array.h"
@@ -20,14 +21,17 @@ class WeightHistory {
   static constexpr int kSpan = 32;  //!< iterations
   static constexpr int kStep = 8;   //!< iterations between two looks
 
-  //! \param vertices  the interior ones; of large meshes some thousands serve as a sample
-  //! \param stride  numbers from one vertex' weights to the next
+  //! Writes the weights of a vertex, `stride` numbers.
+  using ReadRow = std::function<void(Index vertex, Scalar* weights)>;
+
+  //! \param vertices  the interior ones, by any number; of large meshes some thousands serve as a
+  //! sample \param stride  numbers per row
   WeightHistory(const std::vector<Index>& vertices, std::size_t stride);
 
-  //! To be called after every iteration. \param weights  a row of `stride` numbers for every vertex
+  //! To be called after every iteration. \param read  knows the weights
   //! \return mean squared difference per vertex to the weights kSpan iterations ago, every kStep
   //! iterations; below 0 at other times
-  double operator()(int iteration, const Scalar* weights);
+  double operator()(int iteration, const ReadRow& read);
 
  private:
   std::vector<Index> sample_;

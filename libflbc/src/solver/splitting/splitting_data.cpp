@@ -3,10 +3,30 @@
 
 #include <algorithm>
 
+#include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
+#include "problem/laplacian.h"
 
 namespace flbc::splitting {
+
+template <int Dim>
+Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
+  Eigen::VectorXd measures(mesh.num_cells());
+  for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = cell_geometry(mesh, s).measure;
+  return measures;
+}
+
+template <int Dim>
+Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative) {
+  // How firmly non-negativity is tied to the gradients: flat between 10 and 300.
+  constexpr double kVertexWeight = 100;
+  const double size = bounding_box_diagonal(problem.cage.points);
+  Metric metric;
+  metric.cell = cell_measures(problem.mesh);
+  if (non_negative) metric.vertex = kVertexWeight / (size * size) * lumped_mass(problem.mesh);
+  return metric;
+}
 
 template <int Dim>
 Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
@@ -82,26 +102,27 @@ void set_up_cells(const LbcProblem<Dim>& problem, const Metric& metric, std::siz
   }
 }
 
+}  // namespace
+
 template <class Scalar, int Dim>
-void set_up_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
-                        SplittingData<Scalar, Dim>& data) {
-  const Index n = problem.num_control_points();
+RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>& problem,
+                                            const std::vector<Index>& vertices,
+                                            std::size_t stride) {
   const BarycentricConstraints<Dim> constraints(problem.cage.points);
-  data.basis = AlignedArray<Scalar>((Dim + 1) * stride);
+  RowConstraints<Scalar, Dim> rows;
+  rows.basis = AlignedArray<Scalar>((Dim + 1) * stride);
   for (int k = 0; k <= Dim; ++k) {
-    for (Index i = 0; i < n; ++i) {
-      data.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
+    for (Index i = 0; i < problem.num_control_points(); ++i) {
+      rows.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
     }
   }
-  data.row_target.resize(data.vertices.size() * (Dim + 1));
-  for (std::size_t row = 0; row < data.vertices.size(); ++row) {
-    Eigen::Map<Eigen::Matrix<Scalar, Dim + 1, 1>>(data.row_target.data() + row * (Dim + 1)) =
-        constraints.weight_target(problem.mesh.points.col(data.vertices[row]))
-            .template cast<Scalar>();
+  rows.target.resize(vertices.size() * (Dim + 1));
+  for (std::size_t row = 0; row < vertices.size(); ++row) {
+    Eigen::Map<Eigen::Matrix<Scalar, Dim + 1, 1>>(rows.target.data() + row * (Dim + 1)) =
+        constraints.weight_target(problem.mesh.points.col(vertices[row])).template cast<Scalar>();
   }
+  return rows;
 }
-
-}  // namespace
 
 template <class Scalar, int Dim>
 void SplittingData<Scalar, Dim>::set_radius_scale(const Metric& metric, double penalty) {
@@ -118,19 +139,25 @@ SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>& problem, c
   SplittingData<Scalar, Dim> data;
   set_up_rows(problem, metric, position, data);
   set_up_cells(problem, metric, stride, data);
-  set_up_constraints(problem, stride, data);
+  data.constraints = row_constraints<Scalar>(problem, data.vertices, stride);
   return data;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
-  template struct SplittingData<Scalar, Dim>;                                             \
-  template SplittingData<Scalar, Dim> make_splitting_data(                                \
-      const LbcProblem<Dim>&, const Metric&, const std::vector<Index>&, std::size_t);
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                            \
+  template RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>&,                   \
+                                                       const std::vector<Index>&, std::size_t);  \
+  template struct SplittingData<Scalar, Dim>;                                                    \
+  template SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>&, const Metric&, \
+                                                          const std::vector<Index>&, std::size_t);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)
 FLBC_INSTANTIATE(double, 3)
 #undef FLBC_INSTANTIATE
+template Eigen::VectorXd cell_measures(const DomainMesh<2>&);
+template Eigen::VectorXd cell_measures(const DomainMesh<3>&);
+template Metric measure_metric(const LbcProblem<2>&, bool);
+template Metric measure_metric(const LbcProblem<3>&, bool);
 template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<2>&, const Metric&);
 template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<3>&, const Metric&);
 

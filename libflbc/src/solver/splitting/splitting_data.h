@@ -19,9 +19,30 @@ struct Metric {
   Eigen::VectorXd vertex;  //!< k_v > 0 of |u_v - w_v|^2, V; empty: w may be negative
 };
 
+//! A_s of every cell, F.
+template <int Dim>
+Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh);
+
+//! The metric of the continuous problem, so that the number of iterations depends on the mesh
+//! little: cells weigh what they measure.
+template <int Dim>
+Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative);
+
 //! sum m grad^T grad + k over the interior vertices, ascending; the lower triangle.
 template <int Dim>
 Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric);
+
+//! The constraints { sum w = 1, sum w c = x } of every row.
+template <class Scalar, int Dim>
+struct RowConstraints {
+  AlignedArray<Scalar> basis;  //!< (Dim + 1): orthonormal basis Q of [1; c]
+  std::vector<Scalar> target;  //!< m x (Dim + 1): Q^T w of every row that is feasible
+};
+
+//! \param vertices  the vertex of each row \param stride  numbers per row
+template <class Scalar, int Dim>
+RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>& problem,
+                                            const std::vector<Index>& vertices, std::size_t stride);
 
 //! Arrays of splitting_kernel.h, with the shapes given there.
 template <class Scalar, int Dim>
@@ -29,13 +50,12 @@ struct SplittingData {
   std::vector<Index> vertices;   // interior vertices in the factor's order
   std::vector<Index> cell_rows;  // per corner of a cell its row, boundary vertices share the last
   AlignedArray<Scalar> phi;
-  AlignedArray<Scalar> basis;
+  RowConstraints<Scalar, Dim> constraints;
   std::vector<Scalar> hat_gradients;
   std::vector<Scalar> cell_metric;
   std::vector<Scalar> vertex_metric;  // empty: w may be negative
   std::vector<Scalar> measures;
   std::vector<Scalar> radius_scale;
-  std::vector<Scalar> row_target;
 
   //! Radii phi A / (rho m) for a penalty rho.
   void set_radius_scale(const Metric& metric, double penalty);

@@ -53,13 +53,6 @@ struct Kernel {
   using SliceLoop = void (*)(const Arrays<Scalar, Dim>&, Columns);
   using RowLoop = double (*)(const Arrays<Scalar, Dim>&, std::int32_t begin, std::int32_t end);
   using FluxLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, const Scalar* scale, Scalar* flux);
-  //! Adds up, per control point, the squared dual |x - y|^2 and the squared |grad (w - start)|^2.
-  using BalanceLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, const Scalar* start,
-                               double* dual, double* motion);
-  //! y = x - factor (x - y), q = w - factor (w - q).
-  using RescaleLoop = void (*)(const Arrays<Scalar, Dim>&, Columns, Scalar factor);
-  //! Residual of the Laplace equation alone: the start from harmonic coordinates.
-  SliceLoop harmonic_residual;
   //! W-step with its dual step; writes the residual anew.
   SliceLoop w_step;
   //! Z-step with its dual step; adds to the residual.
@@ -71,8 +64,6 @@ struct Kernel {
   RowLoop y_step;
   //! The dual of the total variation, scale_s clip(2 x - y), F x Dim rows.
   FluxLoop flux;
-  BalanceLoop balance;
-  RescaleLoop rescale_duals;
 };
 
 }  // namespace flbc::splitting

@@ -69,19 +69,6 @@ void z_step(const Arrays<Scalar, Dim>& arrays, Columns columns) {
 }
 
 template <class Scalar, int Dim>
-void harmonic_residual(const Arrays<Scalar, Dim>& arrays, Columns columns) {
-  clear_residual(arrays, columns);
-  for (std::size_t s = 0; s < arrays.num_cells; ++s) {
-    const auto cell = gather_cell(arrays, s);
-    std::size_t i = columns.begin;
-    for (; i + 16 <= columns.end; i += 16) {
-      add_harmonic_residual<Scalar, Dim, 16>(arrays, cell, i);
-    }
-    if (i < columns.end) add_harmonic_residual<Scalar, Dim, 8>(arrays, cell, i);
-  }
-}
-
-template <class Scalar, int Dim>
 double y_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
   double change = 0;
   for (std::int32_t row = begin; row < end; ++row) change += y_step_at(arrays, std::size_t(row));
@@ -108,73 +95,10 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
   }
 }
 
-// Norms by which a penalty is judged, see WeightSplitting::adapt_penalty.
 template <class Scalar, int Dim>
-void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* start, double* dual,
-             double* motion) {
-  using Numbers = PackN<Scalar, kRowLanes>;
-  for (std::size_t s = 0; s < arrays.num_cells; ++s) {
-    const auto cell = gather_cell(arrays, s);
-    auto start_cell = cell;
-    for (int k = 0; k <= Dim; ++k) {
-      start_cell.weights[k] = start + (cell.weights[k] - arrays.weights);
-    }
-    for (std::size_t i = columns.begin; i < columns.end; i += kRowLanes) {
-      Numbers x[Dim];
-      Numbers x_start[Dim];
-      weight_gradient<Scalar, Dim, kRowLanes>(cell, i, x);
-      weight_gradient<Scalar, Dim, kRowLanes>(start_cell, i, x_start);
-      Numbers dual2{};
-      Numbers motion2{};
-      for (int d = 0; d < Dim; ++d) {
-        const Numbers difference = x[d] - load_pack<kRowLanes>(cell.state + d * arrays.stride + i);
-        dual2 += difference * difference;
-        motion2 += (x[d] - x_start[d]) * (x[d] - x_start[d]);
-      }
-      for (std::size_t l = 0; l < kRowLanes; ++l) {
-        dual[i + l] += static_cast<double>(cell.metric * dual2[l]);
-        motion[i + l] += static_cast<double>(cell.metric * motion2[l]);
-      }
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-void rescale_duals(const Arrays<Scalar, Dim>& arrays, Columns columns, Scalar factor) {
-  using Numbers = PackN<Scalar, kRowLanes>;
-  for (std::size_t s = 0; s < arrays.num_cells; ++s) {
-    const auto cell = gather_cell(arrays, s);
-    for (std::size_t i = columns.begin; i < columns.end; i += kRowLanes) {
-      Numbers x[Dim];
-      weight_gradient<Scalar, Dim, kRowLanes>(cell, i, x);
-      for (int d = 0; d < Dim; ++d) {
-        Scalar* y = cell.state + d * arrays.stride + i;
-        store_pack<kRowLanes>(y, x[d] - factor * (x[d] - load_pack<kRowLanes>(y)));
-      }
-    }
-  }
-  if (arrays.vertex_state == nullptr) return;
-  for (std::size_t row = 0; row < arrays.num_interior; ++row) {
-    const std::size_t vertex = std::size_t(arrays.vertices[row]) * arrays.stride;
-    const Scalar* weights = arrays.weights + vertex;
-    Scalar* state = arrays.vertex_state + vertex;
-    for (std::size_t i = columns.begin; i < columns.end; i += kRowLanes) {
-      const Numbers w = load_pack<kRowLanes>(weights + i);
-      store_pack<kRowLanes>(state + i, w - factor * (w - load_pack<kRowLanes>(state + i)));
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-constexpr Kernel<Scalar, Dim> kKernel{harmonic_residual<Scalar, Dim>,
-                                      w_step<Scalar, Dim, false>,
-                                      z_step<Scalar, Dim, false>,
-                                      w_step<Scalar, Dim, true>,
-                                      z_step<Scalar, Dim, true>,
-                                      y_step<Scalar, Dim>,
-                                      flux<Scalar, Dim>,
-                                      balance<Scalar, Dim>,
-                                      rescale_duals<Scalar, Dim>};
+constexpr Kernel<Scalar, Dim> kKernel{w_step<Scalar, Dim, false>, z_step<Scalar, Dim, false>,
+                                      w_step<Scalar, Dim, true>,  z_step<Scalar, Dim, true>,
+                                      y_step<Scalar, Dim>,        flux<Scalar, Dim>};
 
 }  // namespace
 }  // namespace flbc::splitting::FLBC_ISA

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The steps of an iteration for one cell, vertex or row. Included by splitting_kernel.inl within its
-//! namespace of the instruction set.
+//! The steps of an iteration for one cell, vertex or row. Included by splitting_kernel.inl within
+//! its namespace of the instruction set.
 
 // One cell, as the loop over control points sees it.
 template <class Scalar, int Dim>
@@ -82,7 +82,7 @@ inline void scatter_divergence(const Cell<Scalar, Dim>& cell, std::size_t i,
 // Z-step and dual step: y += relaxation (x - y - p).
 template <class Scalar, int Dim, bool Measured, int Lanes>
 inline void z_step_at(const Arrays<Scalar, Dim>& arrays, const Cell<Scalar, Dim>& cell,
-                        std::size_t i) {
+                      std::size_t i) {
   using Numbers = PackN<Scalar, Lanes>;
   Numbers x[Dim];
   Numbers y[Dim];
@@ -103,15 +103,6 @@ inline void z_step_at(const Arrays<Scalar, Dim>& arrays, const Cell<Scalar, Dim>
     store_pack<Lanes>(sum, load_pack<Lanes>(sum) + cell.metric * violation);
   }
   scatter_divergence<Scalar, Dim, Lanes>(cell, i, y);
-}
-
-template <class Scalar, int Dim, int Lanes>
-inline void add_harmonic_residual(const Arrays<Scalar, Dim>&, const Cell<Scalar, Dim>& cell,
-                                  std::size_t i) {
-  PackN<Scalar, Lanes> x[Dim];
-  weight_gradient<Scalar, Dim, Lanes>(cell, i, x);
-  for (int d = 0; d < Dim; ++d) x[d] *= -cell.metric;
-  scatter_divergence<Scalar, Dim, Lanes>(cell, i, x);
 }
 
 // W-step and dual step: u = max(0, 2 w - q), q += relaxation (u - w).

@@ -60,8 +60,8 @@ Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays() {
   arrays.vertex_metric = data_.vertex_metric.data();
   arrays.phi = data_.phi.data();
   arrays.radius_scale = data_.radius_scale.data();
-  arrays.basis = data_.basis.data();
-  arrays.row_target = data_.row_target.data();
+  arrays.basis = data_.constraints.basis.data();
+  arrays.row_target = data_.constraints.target.data();
   arrays.relaxation = static_cast<Scalar>(relaxation_);
   return arrays;
 }
@@ -107,16 +107,23 @@ double WeightSplitting<Scalar, Dim>::run(const SliceLoop& residual) {
 }
 
 template <class Scalar, int Dim>
-WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const {
-  if (vertex_state_.size() == 0) return {};
-  WeightMatrix dual = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
-  for (const Index v : data_.vertices) {
-    for (Index i = 0; i < n_; ++i) {
-      const std::size_t place = v * stride_ + i;
-      dual(i, v) = static_cast<double>(vertex_state_[place] - weights_[place]);
-    }
+void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
+    for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
   }
-  return dual;
+  std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
+  std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::resume() {
+  Eigen::VectorXd row(n_);
+  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
+    row.setZero();
+    problem_.boundary.scatter(static_cast<Index>(b), row);
+    Scalar* weights = weights_.data() + problem_.boundary.vertices[b] * stride_;
+    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(row[i]);
+  }
 }
 
 template <class Scalar, int Dim>
@@ -177,32 +184,10 @@ double WeightSplitting<Scalar, Dim>::weight_change_norm2(const AlignedArray<Scal
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) {
-  if (start_.size() == 0) return;
-  AlignedArray<double> dual(stride_);
-  AlignedArray<double> motion(stride_);
-  for_slices([&](const Arrays<Scalar, Dim>& state, Columns columns) {
-    kernel_.balance(state, columns, start_.data(), dual.data(), motion.data());
-  });
-  double dual2 = 0;
-  double motion2 = 0;
-  for (Index i = 0; i < n_; ++i) {
-    dual2 += dual[i];
-    motion2 += motion[i];
-  }
-  if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
-  for_slices([&](const Arrays<Scalar, Dim>& state, Columns columns) {
-    kernel_.rescale_duals(state, columns, static_cast<Scalar>(factor));
-  });
-  penalty_ /= factor;
-  data_.set_radius_scale(metric_, penalty_);
-}
-
-template <class Scalar, int Dim>
 double WeightSplitting<Scalar, Dim>::num_residual_components() const {
   const double cells = static_cast<double>(problem_.mesh.num_cells()) * Dim;
-  const double vertices = vertex_state_.size() > 0 ? static_cast<double>(data_.vertices.size()) : 0.0;
+  const double vertices =
+      vertex_state_.size() > 0 ? static_cast<double>(data_.vertices.size()) : 0.0;
   return (cells + vertices) * n_;
 }
 

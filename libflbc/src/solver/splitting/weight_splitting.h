@@ -5,14 +5,12 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 
 #include "base/aligned_array.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"
-#include "solver/splitting/error_estimate.h"
 #include "solver/splitting/splitting_data.h"
 #include "solver/splitting/splitting_kernel.h"
 
@@ -55,18 +53,8 @@ class WeightSplitting {
   //! Goes on from the state that the storage holds.
   void resume();
 
-  //! Starts from weights n x V, duals zero where the weights are harmonic.
+  //! Starts from weights n x V, with y = 0 and q = w: duals zero where the weights are harmonic.
   void start_from_weights(const WeightMatrix& weights);
-
-  //! Starts from (nearly) harmonic coordinates, by at most `steps` Richardson steps with the
-  //! factor there is.
-  void start_from_harmonic(int steps);
-
-  //! Starts from weights and duals that were found elsewhere. \param weights  n x V, feasible
-  //! \param flux_density  p / A of a cell, n x Dim, at most phi long \param vertex_dual  q - w, n x
-  //! V; empty for none
-  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
-                        const WeightMatrix& vertex_dual);
 
   Step iterate();
 
@@ -76,21 +64,7 @@ class WeightSplitting {
   //! The same, for several times as much, with the norms of the residuals.
   Residuals iterate_with_residuals();
 
-  //! Balances the penalty against how far the weights have moved since the start, and keeps the
-  //! duals: rho becomes ratio rho |x - y| / |grad (w - w_start)|, `largest` at most. Not after
-  //! start_from_duals().
-  void adapt_penalty(double ratio, double largest = std::numeric_limits<double>::infinity());
-
   double penalty() const { return penalty_; }
-
-  //! w as the iteration has it, a row of n numbers and padding for every vertex.
-  const Scalar* data() const { return weights_.data(); }
-
-  //! To compare weights of different iterations.
-  WeightHistory<Scalar> history() const { return {data_.vertices, stride_}; }
-
-  //! q - w, n x V, zero on the boundary; empty if w may be negative.
-  WeightMatrix vertex_dual() const;
 
   double num_residual_components() const;
 
@@ -107,10 +81,6 @@ class WeightSplitting {
   //! A step on one slice of the control points.
   using SliceLoop = std::function<void(const Arrays<Scalar, Dim>&, Columns)>;
 
-  void set_weights(const WeightMatrix& weights);
-  void set_boundary_weights();
-  void remember_start();
-  void set_states(Scalar add, const WeightMatrix& weights, const VectorsAt<Dim>& cell_vectors);
   Arrays<Scalar, Dim> arrays();
   void for_slices(const SliceLoop& body);
   double run(const SliceLoop& residual);
@@ -121,7 +91,7 @@ class WeightSplitting {
   const Index n_;
   const std::size_t stride_;
   const Metric metric_;
-  double penalty_;
+  const double penalty_;
   const double relaxation_;
   SpdSolver<Scalar> solver_;
   SplittingData<Scalar, Dim> data_;
@@ -130,7 +100,6 @@ class WeightSplitting {
   AlignedArray<Scalar> cell_state_;
   AlignedArray<Scalar> vertex_state_;
   AlignedArray<Scalar> residual_;
-  AlignedArray<Scalar> start_;
   AlignedArray<Scalar> flux_;
   AlignedArray<double> violation_;
   AlignedArray<Scalar> violation_sum_;

@@ -37,6 +37,8 @@ inline const char* name_of(StateArray array) {
   switch (array) {
     case StateArray::kIterate:
       return "iterate";
+    case StateArray::kRelaxedIterate:
+      return "relaxed_iterate";
     case StateArray::kNonNegativityDual:
       return "non_negativity_dual";
     case StateArray::kSplittingState:
@@ -64,8 +66,8 @@ class PropertyStorage : public StateStorage {
       : mesh_(mesh), prefix_(std::move(prefix)), n_(static_cast<std::size_t>(control_points)) {}
 
   void* allocate(const StateShape& shape) override {
-    return shape.precision == Precision::kSingle ? allocate_as<float, double>(shape)
-                                                 : allocate_as<double, float>(shape);
+    return shape.precision == Precision::kDouble ? allocate_as<double, float>(shape)
+                                                 : allocate_as<float, double>(shape);
   }
   double penalty() const override { return penalty_; }
   void keep_penalty(double penalty) override { penalty_ = penalty; }
@@ -76,6 +78,7 @@ class PropertyStorage : public StateStorage {
     const auto precision = options.precision;
     if (options.method == Method::kValue || options.method == Method::kLbc2014) {
       return has(A::kIterate, precision) && has(A::kSplittingState, precision) &&
+             (options.method != Method::kValue || has(A::kRelaxedIterate, precision)) &&
              (options.non_negative != NonNegative::kConstraint ||
               has(A::kNonNegativityDual, precision));
     }
@@ -96,8 +99,8 @@ class PropertyStorage : public StateStorage {
     if (factor == 1) return;
     for (const auto array :
          {StateArray::kTvDual, StateArray::kIntegrabilityDual, StateArray::kPeriodDual}) {
-      precision == Precision::kSingle ? rescale_as<float>(array, factor)
-                                      : rescale_as<double>(array, factor);
+      precision == Precision::kDouble ? rescale_as<double>(array, factor)
+                                      : rescale_as<float>(array, factor);
     }
   }
 
@@ -129,6 +132,7 @@ class PropertyStorage : public StateStorage {
     using Rows = Wide<Scalar>;
     switch (array) {
       case StateArray::kIterate:
+      case StateArray::kRelaxedIterate:
       case StateArray::kNonNegativityDual:
         return use(OpenMesh::VPropHandleT<Rows>());
       case StateArray::kIntegrabilityDual:
@@ -202,7 +206,7 @@ class PropertyStorage : public StateStorage {
     });
   }
   bool has(StateArray array, Precision precision) {
-    return precision == Precision::kSingle ? has_as<float>(array) : has_as<double>(array);
+    return precision == Precision::kDouble ? has_as<double>(array) : has_as<float>(array);
   }
 
   Mesh& mesh_;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/splitting/compact_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/cell_geometry.h"
+
+namespace flbc::compact {
+namespace {
+
+// Interior vertices in the factor's order, then the boundary.
+template <class Scalar, class Stored, int Dim>
+void set_up_rows(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                 const std::vector<Index>& position, CompactData<Scalar, Stored, Dim>& data) {
+  data.vertices.resize(position.size());
+  data.row_of.resize(problem.mesh.num_vertices());
+  Index unknown = 0;
+  for (const Index v : problem.boundary.interior_vertices()) {
+    data.row_of[v] = position[unknown++];
+    data.vertices[data.row_of[v]] = v;
+  }
+  for (std::size_t b = 0; b < problem.boundary.vertices.size(); ++b) {
+    data.row_of[problem.boundary.vertices[b]] = static_cast<Index>(position.size() + b);
+  }
+  if (metric.vertex.size() == 0) return;
+  for (const Index v : data.vertices) {
+    data.vertex_metric.push_back(static_cast<Scalar>(metric.vertex[v]));
+  }
+}
+
+// Squared length of the dual phi A grad w / |grad w| of a cell whose weights are given.
+template <int Dim>
+double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
+  const auto geometry = cell_geometry(problem.mesh, s);
+  Eigen::MatrixXd corners = Eigen::MatrixXd::Zero(problem.num_control_points(), Dim + 1);
+  for (int k = 0; k <= Dim; ++k) {
+    problem.boundary.scatter(problem.boundary.boundary_index[problem.mesh.cells(k, s)],
+                             corners.col(k));
+  }
+  const Eigen::ArrayXd lengths = (corners * geometry.hat_gradients.transpose()).rowwise().norm();
+  const Eigen::ArrayXd radii = geometry.measure * problem.phi.col(s).array();
+  return (lengths > 0).select(radii.square(), 0).sum();
+}
+
+// Cells all of whose corners lie on the boundary have nothing to say about the weights.
+template <class Scalar, class Stored, int Dim>
+void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+                  CompactData<Scalar, Stored, Dim>& data) {
+  const auto num_interior = static_cast<Index>(data.vertices.size());
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    std::array<int, Dim + 1> corners;
+    std::iota(corners.begin(), corners.end(), 0);
+    const auto row = [&](int k) { return data.row_of[problem.mesh.cells(k, s)]; };
+    std::stable_partition(corners.begin(), corners.end(),
+                          [&](int k) { return row(k) < num_interior; });
+    if (row(corners[0]) >= num_interior) {
+      data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
+      continue;
+    }
+    const auto hats = cell_geometry(problem.mesh, s).hat_gradients;
+    const double root = std::sqrt(metric.cell[s]);
+    Cell<Scalar, Dim> cell;
+    for (int k = 0; k <= Dim; ++k) {
+      cell.rows[k] = row(corners[k]);
+      for (int d = 0; d < Dim; ++d) {
+        cell.hats[k][d] = static_cast<Scalar>(root * hats(d, corners[k]));
+      }
+    }
+    data.cells.push_back(cell);
+    data.cell_index.push_back(s);
+  }
+}
+
+template <class Scalar, class Stored, int Dim>
+void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+                  std::size_t stride, const Kernel<Scalar, Stored, Dim>& kernel,
+                  CompactData<Scalar, Stored, Dim>& data) {
+  // A cell's phi may be as good as zero, which must not take radii into the denormal range.
+  constexpr double kSmallestPhi = 1e-10;
+  const Index n = problem.num_control_points();
+  data.radius = AlignedArray<Stored>(data.cells.size() * stride);
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> row(stride);
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < data.cells.size(); ++k) {
+      const Index s = data.cell_index[k];
+      const double scale =
+          unit * cell_geometry(problem.mesh, s).measure / std::sqrt(metric.cell[s]);
+      for (Index i = 0; i < n; ++i) {
+        row[i] = static_cast<Scalar>(scale * std::max(problem.phi(i, s), kSmallestPhi));
+      }
+      kernel.encode(row.data(), data.radius.data() + k * stride, stride);
+    }
+  }
+}
+
+}  // namespace
+
+template <class Scalar, class Stored, int Dim>
+CompactData<Scalar, Stored, Dim> make_compact_data(const LbcProblem<Dim>& problem,
+                                                   const splitting::Metric& metric,
+                                                   const std::vector<Index>& position, double unit,
+                                                   std::size_t stride,
+                                                   const Kernel<Scalar, Stored, Dim>& kernel) {
+  CompactData<Scalar, Stored, Dim> data;
+  set_up_rows(problem, metric, position, data);
+  set_up_cells(problem, metric, unit, data);
+  set_up_radii(problem, metric, unit, stride, kernel, data);
+  data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, stride);
+  return data;
+}
+
+#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                              \
+  template CompactData<Scalar, Stored, Dim> make_compact_data(                             \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double, \
+      std::size_t, const Kernel<Scalar, Stored, Dim>&);
+FLBC_INSTANTIATE(float, Half, 2)
+FLBC_INSTANTIATE(float, Half, 3)
+FLBC_INSTANTIATE(float, float, 2)
+FLBC_INSTANTIATE(float, float, 3)
+FLBC_INSTANTIATE(double, double, 2)
+FLBC_INSTANTIATE(double, double, 3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::compact

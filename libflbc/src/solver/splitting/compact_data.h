@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What stays the same during the compact splitting, as the inner loops want it.
+#pragma once
+
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/lbc_problem.h"
+#include "solver/splitting/compact_kernel.h"
+#include "solver/splitting/splitting_data.h"
+
+namespace flbc::compact {
+
+//! Arrays of compact_kernel.h, with the shapes given there.
+template <class Scalar, class Stored, int Dim>
+struct CompactData {
+  std::vector<Index> vertices;  // interior vertices in the factor's order
+  std::vector<Index> row_of;    // V: the row of a vertex; the boundary follows the interior
+  std::vector<Cell<Scalar, Dim>> cells;
+  std::vector<Index> cell_index;
+  AlignedArray<Stored> radius;
+  double boundary_dual2 = 0;          // squared radii of the cells without interior corners
+  std::vector<Scalar> vertex_metric;  // empty: w may be negative
+  splitting::RowConstraints<Scalar, Dim> constraints;
+};
+
+//! \param position  the row of every unknown in the linear solver's arrays
+//! \param unit  u: a radius is u phi A / sqrt(m)
+//! \param stride  numbers per row
+//! \param kernel  stores the radii
+template <class Scalar, class Stored, int Dim>
+CompactData<Scalar, Stored, Dim> make_compact_data(const LbcProblem<Dim>& problem,
+                                                   const splitting::Metric& metric,
+                                                   const std::vector<Index>& position, double unit,
+                                                   std::size_t stride,
+                                                   const Kernel<Scalar, Stored, Dim>& kernel);
+
+}  // namespace flbc::compact

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the compact splitting hands back.
+#include <cmath>
+
+#include "mesh/cell_geometry.h"
+#include "solver/splitting/compact_splitting.h"
+
+namespace flbc::compact {
+
+template <class Scalar, class Stored, int Dim>
+WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const {
+  WeightMatrix weights(n_, problem_.mesh.num_vertices());
+  AlignedArray<Scalar> numbers(stride_);
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    read_row(static_cast<Index>(row), numbers.data());
+    for (Index i = 0; i < n_; ++i) weights(i, data_.vertices[row]) = numbers[i];
+  }
+  // Boundary values are known better than single precision holds them.
+  problem_.boundary.impose_on(weights);
+  return weights;
+}
+
+template <class Scalar, class Stored, int Dim>
+WeightMatrix CompactSplitting<Scalar, Stored, Dim>::vertex_dual() const {
+  if (vertex_dual_.size() == 0) return {};
+  WeightMatrix dual = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    const Index v = data_.vertices[row];
+    for (Index i = 0; i < n_; ++i) {
+      const double difference = static_cast<double>(extrapolated_[row * stride_ + i]) -
+                                static_cast<double>(relaxed_[v * stride_ + i]);
+      dual(i, v) = (vertex_dual_[v * stride_ + i] - 0.5 * difference) / sigma();
+    }
+  }
+  return dual;
+}
+
+template <class Scalar, class Stored, int Dim>
+CellFieldView<Scalar, Dim> CompactSplitting<Scalar, Stored, Dim>::flux() {
+  flux_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim * stride_);
+  std::vector<Scalar> scale(problem_.mesh.num_cells());
+  for (std::size_t s = 0; s < scale.size(); ++s) {
+    scale[s] = static_cast<Scalar>(std::sqrt(metric_.cell[static_cast<Index>(s)]) / unit_);
+  }
+  set_boundary_flux();
+  for_slices([&](const State& state, Columns columns) {
+    kernel_.flux(state, columns, scale.data(), flux_.data());
+  });
+  return {flux_.data(), stride_, n_};
+}
+
+// Between boundary vertices the weights are given, and with them the best dual.
+template <class Scalar, class Stored, int Dim>
+void CompactSplitting<Scalar, Stored, Dim>::set_boundary_flux() {
+  std::vector<bool> listed(problem_.mesh.num_cells(), false);
+  for (const Index s : data_.cell_index) listed[s] = true;
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    if (listed[s]) continue;
+    const auto geometry = cell_geometry(problem_.mesh, s);
+    for (Index i = 0; i < n_; ++i) {
+      Vector<Dim> gradient = Vector<Dim>::Zero();
+      for (int k = 0; k <= Dim; ++k) {
+        const std::size_t row = data_.row_of[problem_.mesh.cells(k, s)];
+        gradient +=
+            static_cast<double>(extrapolated_[row * stride_ + i]) * geometry.hat_gradients.col(k);
+      }
+      if (!(gradient.norm() > 0)) continue;
+      gradient *= problem_.phi(i, s) * geometry.measure / gradient.norm();
+      for (int d = 0; d < Dim; ++d) {
+        flux_[(static_cast<std::size_t>(s) * Dim + d) * stride_ + i] =
+            static_cast<Scalar>(gradient[d]);
+      }
+    }
+  }
+}
+
+#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                       \
+  template WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const;     \
+  template WeightMatrix CompactSplitting<Scalar, Stored, Dim>::vertex_dual() const; \
+  template CellFieldView<Scalar, Dim> CompactSplitting<Scalar, Stored, Dim>::flux();
+FLBC_INSTANTIATE(float, Half, 2)
+FLBC_INSTANTIATE(float, Half, 3)
+FLBC_INSTANTIATE(float, float, 2)
+FLBC_INSTANTIATE(float, float, 3)
+FLBC_INSTANTIATE(double, double, 2)
+FLBC_INSTANTIATE(double, double, 3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::compact

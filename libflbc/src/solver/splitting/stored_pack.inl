@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Packs of numbers that may be stored in half precision, and sums of packs. Included by
+//! compact_kernel.inl within its namespace of the instruction set.
+
+// As many numbers as fill the widest registers, if that is more than rows are padded to.
+#ifdef __AVX512F__
+constexpr int kWideLanes = 16;
+#else
+constexpr int kWideLanes = 8;
+#endif
+
+#if defined(__F16C__)
+template <int Lanes>
+inline PackN<float, Lanes> load_half(const Half* from) {
+#ifdef __AVX512F__
+  if constexpr (Lanes == 16) {
+    const __m256i bits = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    return (PackN<float, Lanes>)_mm512_maskz_cvtph_ps(0xffff, bits);
+  } else
+#endif
+  {
+    const __m128i bits = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    return (PackN<float, Lanes>)_mm256_cvtph_ps(bits);
+  }
+}
+template <int Lanes>
+inline void store_half(Half* to, PackN<float, Lanes> value) {
+#ifdef __AVX512F__
+  if constexpr (Lanes == 16) {
+    const __m256i bits = _mm512_maskz_cvtps_ph(0xffff, (__m512)value, _MM_FROUND_TO_NEAREST_INT);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), bits);
+  } else
+#endif
+  {
+    const __m128i bits = _mm256_cvtps_ph((__m256)value, _MM_FROUND_TO_NEAREST_INT);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), bits);
+  }
+}
+#else
+// By integers, as the processor's own conversion gives them: a half's exponent counts from 15, a
+// float's from 127. Below the normal range of halves adding a number of suitable size shifts and
+// rounds, without floats that are not normal.
+template <class Integer, int Lanes>
+struct IntegersOf {
+  typedef Integer type __attribute__((vector_size(Lanes * sizeof(Integer)), aligned(16), may_alias));
+};
+constexpr std::uint32_t kExponentShift = 112u << 23;
+template <int Lanes>
+inline PackN<float, Lanes> load_half(const Half* from) {
+  using Short = typename IntegersOf<std::uint16_t, Lanes>::type;
+  using Long = typename IntegersOf<std::uint32_t, Lanes>::type;
+  constexpr float kSmallest = 1.0f / (1 << 14);  // normal half
+  const Long half = __builtin_convertvector(*reinterpret_cast<const Short*>(from), Long);
+  const Long magnitude = ((half & 0x7fff) << 13) + kExponentShift;
+  const Long denormal = (Long)((PackN<float, Lanes>)(magnitude + (1u << 23)) - kSmallest);
+  const Long is_denormal = (Long)((half & 0x7fff) < 0x400);
+  const Long bits = (is_denormal & denormal) | (~is_denormal & magnitude);
+  return (PackN<float, Lanes>)(bits | ((half & 0x8000) << 16));
+}
+template <int Lanes>
+inline void store_half(Half* to, PackN<float, Lanes> value) {
+  using Short = typename IntegersOf<std::uint16_t, Lanes>::type;
+  using Long = typename IntegersOf<std::uint32_t, Lanes>::type;
+  const Long bits = (Long)value;
+  const Long magnitude = bits & 0x7fffffff;
+  const Long normal = (magnitude - kExponentShift + 0xfff + ((magnitude >> 13) & 1)) >> 13;
+  const Long denormal = (Long)((PackN<float, Lanes>)magnitude + 0.5f) - 0x3f000000;
+  const Long is_denormal = (Long)(magnitude < 0x38800000);
+  const Long half = (is_denormal & denormal) | (~is_denormal & normal);
+  *reinterpret_cast<Short*>(to) =
+      __builtin_convertvector(half | ((bits >> 16) & 0x8000), Short);
+}
+#endif
+
+template <int Lanes, class Stored>
+inline auto load_stored(const Stored* from) {
+  if constexpr (std::is_same_v<Stored, Half>) {
+    return load_half<Lanes>(from);
+  } else {
+    return load_pack<Lanes>(from);
+  }
+}
+template <int Lanes, class Stored, class Pack>
+inline void store_stored(Stored* to, Pack value) {
+  if constexpr (std::is_same_v<Stored, Half>) {
+    store_half<Lanes>(to, value);
+  } else {
+    store_pack<Lanes>(to, value);
+  }
+}
+
+// No longer than what half precision holds.
+template <class Stored, class Scalar, int Lanes>
+inline PackN<Scalar, Lanes> saturated(PackN<Scalar, Lanes> pack) {
+  if constexpr (std::is_same_v<Stored, Half>) {
+    constexpr Scalar kLargest = 60000;
+    const PackN<Scalar, Lanes> largest = PackN<Scalar, Lanes>{} + kLargest;
+    pack = pack < largest ? pack : largest;
+    pack = pack > -largest ? pack : -largest;
+  }
+  return pack;
+}
+
+// min(1, radius / sqrt(length2)). What is stored in half precision needs no more digits of the root
+// than the processor's estimate has.
+template <class Stored, class Scalar, int Lanes>
+inline PackN<Scalar, Lanes> shrinkage(PackN<Scalar, Lanes> radius, PackN<Scalar, Lanes> length2) {
+  using Numbers = PackN<Scalar, Lanes>;
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  if constexpr (std::is_same_v<Stored, Half>) {
+    Numbers estimate;
+    if constexpr (Lanes == 16) {
+      estimate = (Numbers)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)length2);
+    } else {
+      estimate = (Numbers)_mm256_rsqrt14_ps((__m256)length2);
+    }
+    const Numbers ratio = radius * estimate;
+    const Numbers one = Numbers{} + Scalar(1);
+    return ratio < one ? ratio : one;  // 1 for 0 / 0, too
+  }
+#endif
+  Numbers norm2 = radius * radius + std::numeric_limits<Scalar>::min();
+  norm2 = length2 > norm2 ? length2 : norm2;
+  return radius * inverse_square_root<Scalar, Lanes>(norm2);
+}
+
+template <class Scalar, int Lanes>
+inline Scalar sum_of(PackN<Scalar, Lanes> pack) {
+  if constexpr (Lanes == 16) {
+    return sum_of<Scalar, 8>(__builtin_shufflevector(pack, pack, 0, 1, 2, 3, 4, 5, 6, 7) +
+                             __builtin_shufflevector(pack, pack, 8, 9, 10, 11, 12, 13, 14, 15));
+  } else {
+    const auto four = __builtin_shufflevector(pack, pack, 0, 1, 2, 3) +
+                      __builtin_shufflevector(pack, pack, 4, 5, 6, 7);
+    const auto two =
+        __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+    return two[0] + two[1];
+  }
+}
+
+// Sums over a row, of wide packs and of what is left of the row.
+template <class Scalar>
+struct RowSum {
+  PackN<Scalar, kWideLanes> wide{};
+  PackN<Scalar, 8> rest{};
+
+  template <int Lanes>
+  [[gnu::always_inline]] void add(PackN<Scalar, Lanes> pack) {
+    if constexpr (Lanes == kWideLanes) {
+      wide += pack;
+    } else {
+      rest += pack;
+    }
+  }
+  Scalar total() const { return sum_of<Scalar, kWideLanes>(wide) + sum_of<Scalar, 8>(rest); }
+};
+
+template <int lanes>
+struct LaneCount {
+  static constexpr int kCount = lanes;
+};
+
+// Calls `body(LaneCount, first)` for packs that cover the columns begin .. end - 1.
+template <class Body>
+[[gnu::always_inline]] inline void for_packs(std::size_t begin, std::size_t end, const Body& body) {
+  std::size_t i = begin;
+  for (; i + kWideLanes <= end; i += kWideLanes) body(LaneCount<kWideLanes>{}, i);
+  if constexpr (kWideLanes > 8) {
+    if (i < end) body(LaneCount<8>{}, i);
+  }
+}
