@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   add_sparsify_command(app, exit_status);
   add_export_command(app, exit_status);
   add_draw_command(app, exit_status);
+  add_plot_command(app, exit_status);
   add_view_command(app, exit_status);
   add_info_command(app, exit_status);
   refuse_empty_values(app);

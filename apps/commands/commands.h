@@ -21,6 +21,7 @@ void add_deform_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);
 void add_export_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
+void add_plot_command(CLI::App& app, int& exit_status);
 void add_run_command(CLI::App& app, int& exit_status);
 void add_sparsify_command(CLI::App& app, int& exit_status);
 void add_view_command(CLI::App& app, int& exit_status);

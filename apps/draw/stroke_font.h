@@ -10,7 +10,7 @@
 
 namespace flbc::draw {
 
-//! Knows the digits, "d", "e", "w" and "." "-" "<" ">"; other characters leave a gap.
+//! Knows letters, digits and the usual punctuation of ASCII; other characters leave a gap.
 //! \param height  of a digit, in pixels
 //! \return the width of the text in pixels
 double text_width(std::string_view text, double height);

@@ -52,6 +52,8 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "nearest point of the cage; extend: those and an affine function of the offset, which "
              "reproduce the vertex but may be negative (fail)");
   command.add_option("--threads", options.threads, "number of threads (all)");
+  command.add_flag("--history", settings.history,
+                   "keep errors, residuals and objective by iteration in the report (flbc plot)");
   command.add_option("--cache", settings.cache,
                      "keep weights in this folder, and take them from there if the numbers of "
                      "cage and mesh and all options are the same");

@@ -20,6 +20,7 @@ struct SolveSettings {
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
   std::string cache;   //!< folder of weights computed before
+  bool history = false;  //!< the report tells how the iteration came nearer to its end
   double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };

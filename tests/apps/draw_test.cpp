@@ -238,7 +238,8 @@ TEST(Canvas, RefusesImpossibleSizes) {
 }
 
 TEST(StrokeFont, StaysWithinItsBox) {
-  for (const std::string text : {"0123456789", "w", "<0", ">1", "-0.5"}) {
+  for (const std::string text : {"0123456789", "w", "<0", ">1", "-0.5", "abcdefhiklmnorstuvwxz",
+                                 "ABCDEFGHIKLMNOPRSTUVWXYZ", "+=%!?:"}) {
     const double width = text_width(text, 18);
     Canvas canvas(static_cast<int>(width) + 20, 38, kPaper);
     draw_text(canvas, {10, 28}, text, 18, kBlack);

@@ -53,6 +53,9 @@ struct Progress {
   double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
   double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
   int finer_levels = 0;    //!< meshes still to come after this one, if coarser ones go before
+  //! Objective of the present weights, in the units of SolveReport::objective; computed when called,
+  //! which takes as long as an iteration or two. Empty for methods without weights at hand.
+  std::function<double()> objective{};
 };
 
 //! Options of solve(). The defaults suit every cage. Where a method does not read a field, its

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
@@ -42,6 +43,20 @@ double scaled_penalty(const SolverOptions& options, int dim, double unit) {
 
 }  // namespace
 
+template <int Dim>
+SolverOptions with_objective(const LbcProblem<Dim>& problem, SolverOptions options,
+                             std::function<WeightMatrix()> weights) {
+  if (!options.progress) return options;
+  options.progress = [&problem, weights = std::move(weights),
+                      tell = std::move(options.progress)](Progress progress) {
+    progress.objective = [&] {
+      return unscaled(problem, objective(problem.mesh, problem.phi, weights()));
+    };
+    return tell(progress);
+  };
+  return options;
+}
+
 void require_finite(bool finite, const SolveReport& report) {
   if (finite) return;
   throw SolverError("the computation broke down within " + std::to_string(report.iterations) +
@@ -64,7 +79,7 @@ bool finished(int iteration, const SolverOptions& options, GapCriterion& gap,
   if (last) return true;
   report.status = SolveStatus::kStopped;
   return options.progress &&
-         !options.progress({iteration, report.primal_residual, report.dual_residual});
+         !options.progress({iteration, report.primal_residual, report.dual_residual, 0, {}});
 }
 
 template <int Dim>
@@ -123,6 +138,8 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                           \
+  template SolverOptions with_objective(const LbcProblem<Dim>&, SolverOptions,          \
+                                        std::function<WeightMatrix()>);                 \
   template MethodResult run_method(const LbcProblem<Dim>&, SolverOptions, SolveReport&, \
                                    StateStorage*, WarmStart<Dim>);                      \
   template Solution finish(const LbcProblem<Dim>&, const SolverOptions&, MethodResult, SolveReport);

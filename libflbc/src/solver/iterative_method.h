@@ -80,6 +80,12 @@ Eigen::MatrixXd flux_densities(const LbcProblem<Dim>& problem,
   return densities;
 }
 
+//! Options by which whoever is told of the progress can ask for the objective.
+//! \param weights  gives the present ones, n x V
+template <int Dim>
+SolverOptions with_objective(const LbcProblem<Dim>& problem, SolverOptions options,
+                             std::function<WeightMatrix()> weights);
+
 //! Penalties and relaxations without measure take the numbers out of their range, which must never
 //! pass for a result. \throws SolverError unless `finite`
 void require_finite(bool finite, const SolveReport& report);

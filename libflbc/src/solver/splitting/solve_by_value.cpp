@@ -134,8 +134,9 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
     return certify(problem, splitting->flux(), weights);
   };
   GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
-  iterate(*splitting, problem, metric.cell.sum(), options, adaptive, warm_start.from != nullptr,
-          gap, report);
+  const auto told = with_objective(problem, options, [&] { return splitting->weights(); });
+  iterate(*splitting, problem, metric.cell.sum(), told, adaptive, warm_start.from != nullptr, gap,
+          report);
   splitting->finish();
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();
   report.penalty = splitting->penalty();

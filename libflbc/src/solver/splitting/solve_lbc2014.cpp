@@ -82,7 +82,8 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
     return certify(problem, splitting->flux(), weights);
   };
   GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
-  iterate(*splitting, options, gap, report);
+  const auto told = with_objective(problem, options, [&] { return splitting->weights(); });
+  iterate(*splitting, told, gap, report);
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();
   report.penalty = splitting->penalty();
   if (storage != nullptr) storage->keep_penalty(report.penalty);

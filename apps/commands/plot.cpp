@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc plot: how solves came nearer to their end, several in one picture.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "draw/picture_file.h"
+#include "draw/plot_picture.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "flbc/io/files.h"
+#include "report/history.h"
+
+namespace flbc::app {
+namespace {
+
+struct PlotArguments {
+  std::vector<std::string> reports;
+  std::vector<std::string> names;
+  std::string output;
+  draw::WeightPictureOptions options;
+};
+
+RunHistory read_history(const std::string& file) {
+  nlohmann::ordered_json report;
+  try {
+    report = nlohmann::ordered_json::parse(io::read_file(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": is no report: " + error.what());
+  }
+  return history_in(report, file);
+}
+
+double largest_residual(const RunHistory&, const HistoryEntry& entry) {
+  return std::max(entry.primal_residual, entry.dual_residual);
+}
+
+double estimated_error(const RunHistory&, const HistoryEntry& entry) {
+  return entry.estimated_error;
+}
+
+double objective_of(const RunHistory&, const HistoryEntry& entry) {
+  return entry.objective;
+}
+
+double gap_of(const RunHistory& run, const HistoryEntry& entry) {
+  return (entry.objective - run.lower_bound) / entry.objective;
+}
+
+struct Row {
+  const char* label;
+  bool logarithmic;
+  double (*value)(const RunHistory&, const HistoryEntry&);
+};
+
+constexpr Row kRows[] = {{"estimated error (mean squared)", true, estimated_error},
+                         {"residual / threshold", true, largest_residual},
+                         {"objective", false, objective_of},
+                         {"gap to the certified bound", true, gap_of}};
+
+draw::PlotPanel make_panel(const std::vector<RunHistory>& runs, const Row& row, bool in_seconds) {
+  draw::PlotPanel panel;
+  panel.x_label = in_seconds ? "seconds" : "iterations";
+  panel.y_label = row.label;
+  panel.logarithmic = row.logarithmic;
+  for (const auto& run : runs) {
+    auto& curve = panel.curves.emplace_back();
+    for (const auto& entry : run.entries) {
+      curve.emplace_back(in_seconds ? entry.seconds : entry.iteration, row.value(run, entry));
+    }
+  }
+  return panel;
+}
+
+bool has_points(const draw::PlotPanel& panel) {
+  for (const auto& curve : panel.curves) {
+    for (const auto& p : curve) {
+      if (p.allFinite() && (!panel.logarithmic || p.y() > 0)) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> names_of_runs(const PlotArguments& arguments) {
+  return arguments.names.empty() ? arguments.reports : arguments.names;
+}
+
+void plot(PlotArguments& arguments) {
+  const auto format = draw::picture_format(arguments.output);
+  require_writable(arguments.output, io::extension_of(arguments.output).c_str());
+  require_distinct(arguments.reports, {arguments.output});
+  if (!arguments.names.empty() && arguments.names.size() != arguments.reports.size()) {
+    throw OptionError("--names: there are " + std::to_string(arguments.names.size()) +
+                      ", but reports are " + std::to_string(arguments.reports.size()));
+  }
+  std::vector<RunHistory> runs;
+  for (const auto& file : arguments.reports) runs.push_back(read_history(file));
+  std::vector<draw::PlotPanel> panels;
+  for (const auto& row : kRows) {
+    for (const bool in_seconds : {false, true}) {
+      auto panel = make_panel(runs, row, in_seconds);
+      if (has_points(panel)) panels.push_back(std::move(panel));
+    }
+  }
+  arguments.options.layers = draw::has_layers(format);
+  const auto picture = draw::encode_picture(
+      draw::draw_plot(names_of_runs(arguments), panels, 2, arguments.options), format);
+  const HeldSignals held;
+  io::write_file(arguments.output, [&](std::ostream& file) { file << picture; });
+}
+
+}  // namespace
+
+void add_plot_command(CLI::App& app, int&) {
+  auto arguments = std::make_shared<PlotArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand(
+      "plot", "Plot estimated error, residual, objective and gap of one or several solves");
+  command->add_option("REPORTS", a.reports, "reports of flbc solve or flbc run with --history")
+      ->required();
+  command
+      ->add_option("-o,--output", a.output,
+                   std::string("the picture: ") + draw::kPictureExtensions)
+      ->required();
+  command->add_option("--names", a.names, "of the runs in the legend (the files' names)");
+  command->add_option("--width", a.options.width, "width in pixels (1200)");
+  command->callback([arguments] { plot(*arguments); });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/history.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "flbc/errors.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Names in the report, and what they stand for.
+struct Quantity {
+  const char* name;
+  double HistoryEntry::*value;
+};
+
+constexpr Quantity kQuantities[] = {{"seconds", &HistoryEntry::seconds},
+                                    {"estimated_error", &HistoryEntry::estimated_error},
+                                    {"primal_residual", &HistoryEntry::primal_residual},
+                                    {"dual_residual", &HistoryEntry::dual_residual},
+                                    {"objective", &HistoryEntry::objective}};
+
+double number_or_none(const Json& value) {
+  return value.is_null() ? kNone : value.get<double>();
+}
+
+RunHistory parse(const Json& solve) {
+  const auto& history = solve.at("history");
+  RunHistory run;
+  run.lower_bound = solve.contains("lower_bound") ? number_or_none(solve["lower_bound"]) : kNone;
+  const auto count = history.at("iterations").size();
+  run.entries.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    auto& entry = run.entries[k];
+    entry.iteration = history["iterations"].at(k);
+    entry.finer_levels = history.at("finer_levels").at(k);
+    for (const auto& [name, value] : kQuantities) {
+      entry.*value = number_or_none(history.at(name).at(k));
+    }
+  }
+  return run;
+}
+
+}  // namespace
+
+HistoryRecorder::HistoryRecorder(const SolverOptions& options)
+    : start_(std::chrono::steady_clock::now()) {
+  const auto resolved = resolve(options);
+  if (resolved.method == Method::kValue) tolerance_ = resolved.tolerance;
+}
+
+void HistoryRecorder::note(const Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!entries_.empty() && entries_.back().finer_levels != progress.finer_levels) {
+    earlier_ = entries_.back().iteration;
+  }
+  const bool has_objective = progress.objective && progress.finer_levels == 0;
+  entries_.push_back({earlier_ + progress.iteration, progress.finer_levels, seconds_until(now),
+                      tolerance_ > 0 ? progress.primal_residual * tolerance_ : kNone,
+                      progress.primal_residual, progress.dual_residual,
+                      has_objective ? progress.objective() : kNone});
+  start_ += std::chrono::steady_clock::now() - now;
+}
+
+double HistoryRecorder::seconds_until(std::chrono::steady_clock::time_point now) const {
+  return std::chrono::duration<double>(now - start_).count();
+}
+
+std::vector<HistoryEntry> HistoryRecorder::finished(const SolveReport& report) {
+  if (report.iterations == 0) return {};
+  if (!entries_.empty() && entries_.back().finer_levels > 0) earlier_ = entries_.back().iteration;
+  // Recovery and certificate come after the iteration.
+  const double seconds = seconds_until(std::chrono::steady_clock::now()) - report.seconds.recover -
+                         report.seconds.certify;
+  entries_.push_back({earlier_ + report.iterations, 0, seconds,
+                      tolerance_ > 0 ? report.primal_residual * tolerance_ : kNone,
+                      report.primal_residual, report.dual_residual, report.objective});
+  return std::move(entries_);
+}
+
+Json history_json(const std::vector<HistoryEntry>& history) {
+  Json json;
+  for (const auto& entry : history) {
+    json["iterations"].push_back(entry.iteration);
+    json["finer_levels"].push_back(entry.finer_levels);
+    for (const auto& [name, value] : kQuantities) {
+      const double number = entry.*value;
+      json[name].push_back(std::isfinite(number) ? Json(number) : Json());
+    }
+  }
+  return json;
+}
+
+RunHistory history_in(const Json& report, const std::string& file) {
+  const auto& solve = report.contains("solve") ? report["solve"] : report;
+  if (!solve.is_object() || !solve.contains("history")) {
+    throw InputError(file + ": has no history; let flbc solve or flbc run write the report with "
+                            "--history");
+  }
+  try {
+    return parse(solve);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": the history is damaged: " + error.what());
+  }
+}
+
+}  // namespace flbc::app
