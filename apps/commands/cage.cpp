@@ -13,6 +13,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "solve/make_cage.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -28,7 +29,10 @@ struct CageArguments {
 template <int Dim>
 void cage(const ModelFacets<Dim>& model, const CageArguments& arguments) {
   require_cage_writable<Dim>(arguments.output);
-  const auto made = make_cage(arguments.model, model, arguments.options);
+  const auto made = [&] {
+    const ProgressBar bar(arguments.quiet, "making a cage");
+    return make_cage(arguments.model, model, arguments.options);
+  }();
   {
     const HeldSignals held;
     write_cage(arguments.output, made.cage, model.height);

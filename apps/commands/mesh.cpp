@@ -8,6 +8,7 @@
 #include "files/load.h"
 #include "flbc/io/mesh_io.h"
 #include "solve/make_domain.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -25,8 +26,10 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   require_writable(arguments.output, {io::kMesh<Dim>});
   PointList<Dim> embedded;
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
-  const auto domain =
-      make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded);
+  const auto domain = [&] {
+    const ProgressBar bar(arguments.quiet, "meshing the cage");
+    return make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded);
+  }();
   {
     const HeldSignals held;
     io::write_domain(arguments.output, domain);

@@ -17,6 +17,7 @@
 #include "run/pictures.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -101,8 +102,9 @@ void print_summary(const Run<Dim>& run) {
         << " influences, deformation error " << 100 * error["rms"].template get<double>()
         << " % rms, reproduction error " << after["max_reproduction_error"].template get<double>()
         << ", " << run.report["seconds"]["total"].template get<double>() << " s";
-  std::cerr << run.arguments.output << ": " << facts.text() << "\nOpen "
-            << run.folder.path_of(kPage) << " in a browser to move the cage with the mouse.\n";
+  std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
+            << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
+            << "save a pose there, and flbc deform moves the model to it.\n";
 }
 
 // \return the exit status
@@ -161,7 +163,11 @@ int run_model(RunArguments& arguments) {
   CagingOptions options;
   options.control_points = arguments.cage_control_points;
   const auto run_in_cage = [&](const auto& model) {
-    return run_cage(make_cage(settings.model, model, options).cage, arguments);
+    const auto cage = [&] {
+      const ProgressBar bar(arguments.quiet, "making a cage");
+      return make_cage(settings.model, model, options).cage;
+    }();
+    return run_cage(cage, arguments);
   };
   return std::visit(run_in_cage, load_model_facets(settings.model));
 }

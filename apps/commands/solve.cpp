@@ -60,7 +60,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   if (!settings.model.empty()) model = load_model<Dim>(settings.model);
 
   CageSolver<Dim> solver(cage, model, settings);
-  solver.make_domain();
+  solver.make_domain(arguments.quiet);
   solver.solve(arguments.quiet);
   const auto rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);

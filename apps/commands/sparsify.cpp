@@ -23,6 +23,7 @@
 #include "flbc/version.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
+#include "solve/progress_bar.h"
 #include "solve/weights_of_model.h"
 
 namespace flbc::app {
@@ -131,6 +132,7 @@ int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) 
   const auto poses = load_poses<Dim>(arguments, cage.points.cols());
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
+    const ProgressBar bar(arguments.quiet, "reducing influences");
     return make_sparse<Dim>(cage.points, model, before, poses, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

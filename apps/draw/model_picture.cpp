@@ -86,10 +86,18 @@ Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
   const Vector<2> size = content.size();
   const bool beside = size.x() < 1.6 * size.y();
   const double gap = 0.06 * size.maxCoeff();
-  const Vector<2> step = beside ? Vector<2>(size.x() + gap, 0) : Vector<2>(0, -size.y() - gap);
-  const auto steps = static_cast<double>(places.size() - 1);
-  const Vector<2> last = steps * step;
-  const Box all{content.low + last.cwiseMin(0.0), content.high + last.cwiseMax(0.0)};
+  std::vector<Vector<2>> shifts;
+  Box all = common_box({places.front()}, view);
+  for (const auto& place : places) {
+    const Box box = common_box({place}, view);
+    if (shifts.empty()) {
+      shifts.emplace_back(0, 0);
+      continue;
+    }
+    shifts.push_back(beside ? Vector<2>(all.high.x() + gap - box.low.x(), 0)
+                            : Vector<2>(0, all.low.y() - gap - box.high.y()));
+    all = {all.low.cwiseMin(box.low + shifts.back()), all.high.cwiseMax(box.high + shifts.back())};
+  }
 
   auto shown_options = options;
   shown_options.color_bar = options.color_bar && shown.values.size() > 0;
@@ -101,7 +109,7 @@ Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
   for (std::size_t k = 0; k < places.size(); ++k) {
     paint_model(canvas,
                 {model, places[k], values, shown.control_point, view, PixelMap(all, layout.frame),
-                 static_cast<double>(k) * step, std::max(0.6, pixel_unit(options))});
+                 shifts[k], std::max(0.6, pixel_unit(options))});
   }
   if (shown_options.color_bar) paint_bar(canvas, layout.color_bar, shown, largest, options);
   return canvas.resolve();

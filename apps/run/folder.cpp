@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "files/held_signals.h"
 #include "files/load.h"
@@ -42,6 +43,23 @@ std::vector<std::string> names_in_report(const std::string& path) {
 bool is_plain_name(const std::string& name) {
   const fs::path path(name);
   return path.filename() == path && name != "." && name != "..";
+}
+
+constexpr int kColumn = 20;
+
+// Broken between words for a terminal, and indented to the column.
+std::string wrapped(const std::string& facts) {
+  constexpr std::size_t kRoom = 79 - 2 - kColumn;
+  std::string text;
+  std::size_t used = 0;
+  std::istringstream words(facts);
+  for (std::string word; words >> word;) {
+    const bool breaks = used > 0 && used + 1 + word.size() > kRoom;
+    if (used > 0) text += breaks ? "\n" + std::string(2 + kColumn, ' ') : " ";
+    used = (breaks || used == 0 ? 0 : used + 1) + word.size();
+    text += word;
+  }
+  return text;
 }
 
 }  // namespace
@@ -100,8 +118,9 @@ void RunFolder::add(const std::string& name, const std::string& facts,
 }
 
 void RunFolder::tell(const std::string& name, const std::string& facts) const {
-  constexpr int kColumn = 20;
-  if (!quiet_) std::cerr << "  " << std::left << std::setw(kColumn) << name << facts << '\n';
+  if (quiet_) return;
+  std::cerr << "  " << std::left << std::setw(kColumn) << name
+            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts) : facts) << '\n';
 }
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {

@@ -14,6 +14,7 @@
 #include "report/sparsify_report.h"
 #include "run/facts.h"
 #include "run/steps.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -38,6 +39,7 @@ bool uses_poisson(const Run<Dim>& run) {
 
 template <int Dim>
 WeightMatrix reduce(const Run<Dim>& run, const std::vector<PointList<Dim>>& poses) {
+  const ProgressBar bar(run.arguments.quiet, "reducing influences");
   const SparsifyOptions options{run.arguments.max_influences};
   const auto& shape = run.shape();
   if (!uses_poisson(run)) {

@@ -29,7 +29,7 @@ void deliver_cage(Run<Dim>& run) {
 template <int Dim>
 void mesh_interior(Run<Dim>& run) {
   auto& solver = run.solver;
-  solver.make_domain();
+  solver.make_domain(run.arguments.quiet);
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
   run.inputs.shape.points = solver.points();  // vertices beside the cage are where it puts them

@@ -92,13 +92,14 @@ bool CageSolver<Dim>::find_in_cache() {
 }
 
 template <int Dim>
-void CageSolver<Dim>::make_domain() {
+void CageSolver<Dim>::make_domain(bool quiet) {
   const auto start = std::chrono::steady_clock::now();
   const bool has_domain = !settings_.domain.empty();
   if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
   is_cached_ = find_in_cache();
   if (!is_cached_) {
     if (!has_domain) {
+      const ProgressBar bar(quiet, "meshing the cage");
       solved_.domain = app::make_domain(settings_.cage, cage_, settings_.vertices,
                                         settings_.embed ? settings_.model : "", model_);
     }
@@ -106,6 +107,7 @@ void CageSolver<Dim>::make_domain() {
     solved_.mesh_seconds = seconds.count();
   }
   if (settings_.model.empty() || settings_.embed) return;
+  const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
   placement_ = naming(settings_.model, [&] {
     return place_points(cage_, solved_.domain, model_, settings_.outside);
   });
@@ -116,14 +118,17 @@ void CageSolver<Dim>::solve(bool quiet) {
   if (is_cached_) return;
   auto options = settings_.options;
   {
-    ProgressBar bar(quiet);
+    ProgressBar bar(quiet, "setting up: boundary values, distances", options);
+    HistoryRecorder recorder(options);
     options.progress = [&](const Progress& progress) {
       bar.show(progress);
+      if (settings_.history) recorder.note(progress);
       return true;
     };
     solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
       return solve_domain(cage_, solved_.domain, options, settings_.penalty);
     });
+    if (settings_.history) history_ = recorder.finished(report());
   }
   if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
 }
@@ -150,6 +155,7 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
                        {"on_cage", beside_json(placement_.on_cage)},
                        {"outside", beside_json(placement_.outside)}};
   }
+  if (!history_.empty()) json["history"] = history_json(history_);
   return json;
 }
 

@@ -11,6 +11,7 @@
 #include "flbc/cage.h"
 #include "flbc/coordinates.h"
 #include "flbc/placement.h"
+#include "report/history.h"
 #include "solve/solve_settings.h"
 #include "solve/weights_cache.h"
 
@@ -27,10 +28,11 @@ class CageSolver {
   //! Finds mesh and weights in the cache; or reads the mesh, or makes it. Then finds the model's
   //! vertices in it, so that a model outside its cage is refused before the solve. Says on standard
   //! error if a file of the cache is of no use.
-  void make_domain();
+  //! \param quiet  without a progress line
+  void make_domain(bool quiet);
 
   //! Nothing, if the weights were in the cache; else they go there if they have converged.
-  //! \param quiet  without a progress bar
+  //! \param quiet  without a progress line
   void solve(bool quiet);
 
   const Cage<Dim>& cage() const { return cage_; }
@@ -62,6 +64,7 @@ class CageSolver {
   std::string key_;
   SolvedDomain<Dim> solved_;
   bool is_cached_ = false;
+  std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
 };
 

@@ -3,36 +3,55 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <string>
+#include <utility>
 
 namespace flbc::app {
+namespace {
 
-ProgressBar::ProgressBar(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) != 0) {
+// Past the library's buffers, which a mesher's child process would inherit half filled.
+void write_to_terminal(const std::string& text) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(bool quiet, std::string stage, const SolverOptions& options)
+    : stage_(std::move(stage)), estimate_(options) {
+  if (quiet || isatty(STDERR_FILENO) == 0) return;
+  drawer_ = std::thread([this] { draw_until_ended(); });
 }
 
 ProgressBar::~ProgressBar() {
-  if (drawn_) std::fprintf(stderr, "\r\033[K");
+  if (!drawer_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_one();
+  drawer_.join();
+  if (drawn_) write_to_terminal("\r\033[K");
 }
 
 void ProgressBar::show(const Progress& progress) {
-  if (!visible_) return;
-  // Residuals fall about geometrically, so their logarithm tells how much of the way is done.
-  const double excess = std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
-  // On meshes of a coarse-to-fine start it fills anew.
-  if (!drawn_ || progress.finer_levels != finer_levels_) first_excess_ = std::max(excess, 1e-9);
+  if (!drawer_.joinable()) return;
+  const std::lock_guard lock(mutex_);
+  estimate_.update(progress, std::chrono::duration<double>(Clock::now() - start_).count());
+}
+
+void ProgressBar::draw_until_ended() {
+  constexpr std::chrono::milliseconds kPatience(1000), kInterval(200);
+  std::unique_lock lock(mutex_);
+  auto pause = kPatience;
+  while (!changed_.wait_for(lock, pause, [this] { return ended_; })) {
+    draw();
+    pause = kInterval;
+  }
+}
+
+void ProgressBar::draw() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  write_to_terminal("\r" + estimate_.line(stage_, seconds) + "\033[K");
   drawn_ = true;
-  finer_levels_ = progress.finer_levels;
-  constexpr int kWidth = 40;
-  const double done = std::clamp(1 - excess / first_excess_, 0.0, 1.0);
-  const auto filled = static_cast<std::size_t>(done * kWidth);
-  std::fprintf(stderr, "\r\033[K[%s%s] %siteration %d, residuals %.3g and %.3g of their thresholds",
-               std::string(filled, '#').c_str(), std::string(kWidth - filled, '.').c_str(),
-               progress.finer_levels > 0 ? "coarse mesh, " : "", progress.iteration,
-               progress.primal_residual, progress.dual_residual);
-  std::fflush(stderr);
 }
 
 }  // namespace flbc::app

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A line on standard error that shows how far the iteration is.
+//! A line on standard error that shows what is being done and how far it is.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
 #include "flbc/options.h"
+#include "solve/progress_estimate.h"
 
 namespace flbc::app {
 
-//! Draws only if standard error is a terminal and `quiet` is false; ends its line when destroyed.
+//! Draws only if standard error is a terminal and `quiet` is false, and only what takes longer than
+//! a second; removes its line when destroyed. A thread of its own keeps the line alive where
+//! nothing tells of progress.
 class ProgressBar {
  public:
-  explicit ProgressBar(bool quiet);
+  //! \param stage  as "meshing"; once show() is called, the iteration takes its place
+  //! \param options  of the solve of which show() tells
+  ProgressBar(bool quiet, std::string stage, const SolverOptions& options = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -18,10 +30,19 @@ class ProgressBar {
   void show(const Progress& progress);
 
  private:
-  bool visible_;
+  using Clock = std::chrono::steady_clock;
+
+  void draw_until_ended();
+  void draw();
+
+  std::string stage_;
+  ProgressEstimate estimate_;
+  Clock::time_point start_ = Clock::now();
+  bool ended_ = false;
   bool drawn_ = false;
-  int finer_levels_ = 0;
-  double first_excess_ = 0;  // log of residual / threshold when first shown
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::thread drawer_;  // none if nothing is to be drawn
 };
 
 }  // namespace flbc::app

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/progress_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace flbc::app {
+namespace {
+
+constexpr std::size_t kColumns = 79;  // a terminal's 80 would break the line
+
+// "8 s", "2 min 5 s"
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(std::clamp(seconds, 0.0, 1e7)));
+  if (whole < 60) return std::to_string(whole) + " s";
+  return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+// The part of all work that the meshes before this one make up: each has about a third of the
+// unknowns of the next.
+double share_before(int finer_levels, int levels) {
+  double before = 0, all = 0;
+  for (int level = 0; level < levels; ++level) {
+    const double work = std::pow(3.0, -level);
+    all += work;
+    if (level > finer_levels) before += work;
+  }
+  return before / all;
+}
+
+}  // namespace
+
+ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
+  const auto resolved = resolve(options);
+  if (resolved.method == Method::kValue) tolerance_ = resolved.tolerance;
+}
+
+void ProgressEstimate::update(const Progress& progress, double seconds) {
+  const double excess = std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
+  const bool is_new = !started_ || progress.finer_levels != last_.finer_levels;
+  if (is_new) first_excess_ = std::max(excess, 1e-9);
+  if (!started_) {
+    levels_ = progress.finer_levels + 1;
+    first_seconds_ = seconds;
+  } else {
+    interval_ = std::max(interval_, seconds - last_seconds_);
+  }
+  started_ = true;
+  last_ = progress;
+  last_.objective = {};
+  last_seconds_ = seconds;
+  const double begin = share_before(progress.finer_levels, levels_);
+  const double end = share_before(progress.finer_levels - 1, levels_);
+  const double done = begin + (end - begin) * std::clamp(1 - excess / first_excess_, 0.0, 1.0);
+  done_ = std::max(done_, done);
+}
+
+std::string ProgressEstimate::line(const std::string& stage, double seconds) const {
+  if (!started_) return (stage + ", " + duration(seconds)).substr(0, kColumns);
+  // No callback tells of the end: projection and certificate follow.
+  if (seconds - last_seconds_ > 1 + 4 * interval_) {
+    return "finishing (non-negative weights, certificate, quality), " + duration(seconds);
+  }
+  constexpr int kWidth = 20;
+  const int filled = std::min(kWidth, static_cast<int>(done_ * kWidth));
+  const double iterating = last_seconds_ - first_seconds_;
+  std::string text = "solving [" + std::string(filled, '#') + std::string(kWidth - filled, '.') +
+                     "] " + std::to_string(static_cast<int>(100 * done_)) + " %";
+  constexpr double kEnough = 0.03;
+  if (done_ > kEnough && iterating > 0) {
+    text += ", " + duration(iterating / done_ * (1 - done_)) + " left";
+  }
+  text += ", iteration " + std::to_string(last_.iteration);
+  const double residual = std::max(last_.primal_residual, last_.dual_residual);
+  text += tolerance_ > 0 ? ", error " + number(last_.primal_residual * tolerance_)
+                         : ", residual " + number(residual);
+  return text.substr(0, kColumns);
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The progress line: within 80 columns, never going back, with the time that is left.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solve/progress_estimate.h"
+#include "support/command_line.h"
+
+namespace flbc::app {
+namespace {
+
+TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
+  for (const Method method : {Method::kValue, Method::kGradient}) {
+    SolverOptions options;
+    options.method = method;
+    ProgressEstimate estimate(options);
+    EXPECT_EQ(estimate.line("meshing the cage", 2.5), "meshing the cage, 3 s");
+    double done = 0, seconds = 0;
+    for (int level = 2; level >= 0; --level) {
+      // Falls, with jumps back as real residuals have.
+      for (int k = 1; k <= 50; ++k) {
+        const double residual = std::pow(10.0, 5 - k / 10.0) * (k % 7 == 0 ? 40 : 1);
+        estimate.update({10 * k, residual, 0, level, {}}, seconds += 30);
+        EXPECT_GE(estimate.done(), done);
+        EXPECT_LE(estimate.done(), 1);
+        done = estimate.done();
+        const auto line = estimate.line("", seconds);
+        EXPECT_LE(line.size(), 79U) << line;
+        if (done > 0.1) EXPECT_NE(line.find(" left"), std::string::npos) << line;
+      }
+      EXPECT_GT(done, level == 0 ? 0.99 : 0.02);
+    }
+    EXPECT_NE(estimate.line("", seconds).find("100 %"), std::string::npos);
+    // Nothing tells of what comes after the iteration.
+    EXPECT_EQ(estimate.line("", seconds + 1000).substr(0, 9), "finishing");
+  }
+}
+
+TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
+  ProgressEstimate estimate(SolverOptions{});
+  for (int k = 0; k <= 50; ++k) {
+    estimate.update({10 * k + 1, std::pow(10.0, 10 - k / 10.0), 0, 0, {}}, 5.0 + k);
+  }
+  // Half of the way of the logarithm took 50 s.
+  EXPECT_NE(estimate.line("", 55).find("50 %, 50 s left"), std::string::npos)
+      << estimate.line("", 55);
+}
+
+using ProgressLine = flbc::testing::CommandLineTest;
+
+TEST_F(ProgressLine, IsForTerminalsOnly) {
+  const auto solve = "solve " + sample("3d/limb_cage.obj") + " --method gradient " +
+                     "--coarse-to-fine off -o " + path("w.npy") + " --vertices ";
+  EXPECT_EQ(run(solve + "300").errors.find("solving ["), std::string::npos);
+  if (std::system("command -v script >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1)";
+  const auto log = path("log.txt");
+  const auto in_terminal = "script -qec '" + std::string(FLBC_PROGRAM) + " " + solve + "2500' " + log +
+                           " >/dev/null </dev/null";
+  ASSERT_EQ(std::system(in_terminal.c_str()), 0);
+  const auto text = flbc::testing::slurp(log);
+  int last = 0;
+  std::size_t lines = 0;
+  for (auto at = text.find("\rsolving ["); at != std::string::npos;
+       at = text.find("\rsolving [", at + 1)) {
+    const auto line = text.substr(at + 1, text.find("\033[K", at) - at - 1);
+    EXPECT_LT(line.size(), 80U) << line;
+    const int percent = std::stoi(line.substr(line.find(']') + 1));
+    EXPECT_GE(percent, last);
+    last = percent;
+    ++lines;
+  }
+  EXPECT_GT(lines, 0U);
+}
+
+}  // namespace
+}  // namespace flbc::app
