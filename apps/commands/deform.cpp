@@ -58,7 +58,7 @@ void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
     for (const auto& file : files_of_model(output)) {
-      // What is not there yet is no input. A sequence would take long otherwise.
+      // A file that is not there yet is no input. A sequence would take long otherwise.
       std::error_code error;
       if (!std::filesystem::exists(file, error)) continue;
       require_distinct(inputs, {file, arguments.displacement});

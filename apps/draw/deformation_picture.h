@@ -18,7 +18,9 @@ struct DrawnShape {
 
 //! Draws a shape and its cage before and after, side by side or, if they are wide, one above the
 //! other, in the same scale and the same frame, coloured by one coordinate function.
-//! \param facets  2 x m, of the cage \param triangles  3 x T, of the shape \param values  P
+//! \param facets  2 x m, of the cage
+//! \param triangles  3 x T, of the shape
+//! \param values  P
 //! \throws InputError if sizes and indices do not belong together or a number is not finite,
 //! OptionError as draw_weights()
 Image draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,

@@ -38,7 +38,7 @@ WeightMatrix load(const WeightConversion& conversion) {
   return weights;
 }
 
-// What dropping weights has changed.
+// Changes due to dropped weights.
 struct Dropped {
   Eigen::Index count = 0;
   double largest_sum = 0;  // of one point

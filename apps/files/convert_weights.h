@@ -11,7 +11,7 @@
 
 namespace flbc::app {
 
-//! What to convert, and what is known of it.
+//! A conversion of weights, with the cage and points that belong to them if given.
 struct WeightConversion {
   std::string input;
   std::string output;

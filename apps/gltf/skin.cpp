@@ -112,7 +112,7 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
   return scene;
 }
 
-// What storing costs the points that are vertices.
+// The errors of the stored skin at the points that are vertices.
 template <int Dim>
 void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
              const WeightMatrix& weights, const JointWeights& stored,

@@ -13,7 +13,7 @@
 namespace flbc::gltf {
 namespace {
 
-// What makes a vertex: two corners with the same three numbers share one.
+// A corner; two corners with the same three numbers share a vertex.
 struct Corner {
   Index point;
   Index texture_coordinate;

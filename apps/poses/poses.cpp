@@ -44,6 +44,12 @@ PointList<Dim> load_control_points(const std::string& path) {
   return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
+double frame_rate(std::size_t num_poses, double asked) {
+  constexpr double kVideo = 24;
+  if (asked > 0) return asked;
+  return num_poses == 1 ? 1 : kVideo;
+}
+
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second) {
   std::vector<Pose<Dim>> poses;

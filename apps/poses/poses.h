@@ -3,6 +3,7 @@
 //! The poses of a cage, from cage files or an animation.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ int dimension_of_cage(const std::string& path);
 //! The control points of a cage, which need not be a sound one: a pose may intersect itself.
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path);
+
+//! Frames per second of a sequence: as asked, or, if that is 0, a single pose within a second and
+//! several as a video.
+double frame_rate(std::size_t num_poses, double asked);
 
 //! One pose per file, `frames_per_second` of them in a second, the first one at 0.
 template <int Dim>

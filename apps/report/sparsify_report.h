@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What sparsity costs, as JSON and as text.
+//! The errors due to sparsity, as JSON and as text.
 #pragma once
 
 #include <cstdint>

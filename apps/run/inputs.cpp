@@ -15,13 +15,11 @@ void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInpu
   const auto files = find_cages(arguments.deformed);
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
   if (files.paths.empty()) return;
-  // From where the cage rests: to a single pose within a second, through several as a video.
-  constexpr double kVideo = 24;
-  double rate = arguments.frames_per_second;
-  if (rate == 0) rate = files.paths.size() == 1 ? 1 : kVideo;
+  const double rate = frame_rate(files.paths.size(), arguments.frames_per_second);
   inputs.poses = load_poses<Dim>(files, rate);
   inputs.animation = animation_of(inputs.poses, cage.size());
   auto& [times, poses] = inputs.animation;
+  // The cage starts where it rests.
   times.push_back(static_cast<double>(poses.size()) / rate);
   poses.insert(poses.begin(), cage.points);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What flbc run reads.
+//! The inputs of flbc run.
 #pragma once
 
 #include <string>

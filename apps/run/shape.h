@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What moves with the cage: a model, or the mesh of the interior.
+//! The shape that moves with the cage: a model, or the mesh of the interior.
 #pragma once
 
 #include <memory>

@@ -42,8 +42,8 @@ class CageSolver {
   bool is_cached() const { return is_cached_; }
   double mesh_seconds() const { return solved_.mesh_seconds; }
 
-  //! What gets weights: the model's vertices, or those of the mesh. Vertices beside the cage are
-  //! where their weights put them.
+  //! The points that get weights: the model's vertices, or those of the mesh. Vertices beside the
+  //! cage are where their weights put them.
   const PointList<Dim>& points() const;
   //! Their weights.
   WeightMatrix rows() const;

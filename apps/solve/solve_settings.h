@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a user may choose about weights, and the options of the command line for that.
+//! The settings of a solve, and the options of the command line for them.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -40,9 +40,7 @@ view::ShownModel<Dim> load_shown_model(const std::string& path) {
 }
 
 std::vector<double> times_of_poses(std::size_t count, double frames_per_second) {
-  constexpr double kVideo = 24;
-  double rate = frames_per_second;
-  if (rate == 0) rate = count == 1 ? 1 : kVideo;
+  const double rate = frame_rate(count, frames_per_second);
   std::vector<double> times;
   for (std::size_t k = 1; k <= count; ++k) times.push_back(static_cast<double>(k) / rate);
   return times;

@@ -9,29 +9,29 @@
 namespace flbc::openmesh {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
+constexpr std::array<char, 8> kPairsMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
 constexpr Count kPairBytes = sizeof(std::uint32_t) + sizeof(double);
 
-// What precedes the pairs, all control points before all weights. The shape is there twice, as the
+// Precedes the pairs, all control points before all weights. The shape is there twice, as the
 // size it leads to, so that damage to one of them shows.
-struct Header {
+struct PairsHeader {
   Count control_points, most, elements, data_bytes;
 };
-constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof(Header);
+constexpr std::size_t kPairsHeaderBytes = kPairsMagic.size() + sizeof(PairsHeader);
 
-Header read_header(std::istream& in, bool swap, const std::string& name, Count elements) {
-  std::array<char, kMagic.size()> magic{};
+PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& name, Count elements) {
+  std::array<char, kPairsMagic.size()> magic{};
   std::array<Count, 4> fields{};
   if (!read_numbers(in, magic.data(), magic.size(), false)) {
     refuse_stored(name, "the file ends before it");
   }
-  if (magic != kMagic) {
+  if (magic != kPairsMagic) {
     refuse_stored(name, "the file has a property of another type under this name");
   }
   if (!read_numbers(in, fields.data(), fields.size(), swap)) {
     refuse_stored(name, "the file ends in it");
   }
-  const Header header{fields[0], fields[1], fields[2], fields[3]};
+  const PairsHeader header{fields[0], fields[1], fields[2], fields[3]};
   if (header.elements != elements) {
     refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
                             " elements, the mesh has " + std::to_string(elements));
@@ -44,7 +44,7 @@ Header read_header(std::istream& in, bool swap, const std::string& name, Count e
 }
 
 InfluenceBlock read_pairs(std::istream& in, bool swap, const std::string& name,
-                          const Header& header) {
+                          const PairsHeader& header) {
   const auto left = bytes_left(in);
   if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
   InfluenceBlock block(header.control_points, header.most);
@@ -67,7 +67,7 @@ InfluenceBlock read_pairs(std::istream& in, bool swap, const std::string& name,
 }  // namespace
 
 std::size_t stored_size(const InfluenceBlock& block) {
-  return kHeaderBytes + block.size() * block.most() * kPairBytes;
+  return kPairsHeaderBytes + block.size() * block.most() * kPairBytes;
 }
 
 std::size_t store_influences(std::ostream& out, bool swap, const std::string& name,
@@ -75,8 +75,8 @@ std::size_t store_influences(std::ostream& out, bool swap, const std::string& na
   const std::size_t size = stored_size(block);
   require_storable(name, size);
   const std::array<Count, 4> fields = {block.num_control_points(), block.most(), block.size(),
-                                       size - kHeaderBytes};
-  write_numbers(out, kMagic.data(), kMagic.size(), false);
+                                       size - kPairsHeaderBytes};
+  write_numbers(out, kPairsMagic.data(), kPairsMagic.size(), false);
   write_numbers(out, fields.data(), fields.size(), swap);
   const std::size_t count = block.size() * block.most();
   if (count > 0) {
@@ -88,7 +88,7 @@ std::size_t store_influences(std::ostream& out, bool swap, const std::string& na
 
 std::size_t restore_influences(std::istream& in, bool swap, const std::string& name,
                                InfluenceBlock& block) {
-  const auto header = read_header(in, swap, name, block.size());
+  const auto header = read_pairs_header(in, swap, name, block.size());
   try {
     block = read_pairs(in, swap, name, header);
   } catch (const std::bad_alloc&) {

@@ -15,11 +15,11 @@ namespace {
 
 using OpenMesh::IO::Options;
 
-struct DoubleTraits : OpenMesh::DefaultTraits {
+struct OmTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
 };
-using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+using OmMesh = OpenMesh::PolyMesh_ArrayKernelT<OmTraits>;
 
 template <class Point>
 OpenMesh::Vec3d to_vec3d(const Point& point) {
@@ -30,7 +30,7 @@ unsigned char level_of(double intensity) {
   return static_cast<unsigned char>(std::lround(255 * std::clamp(intensity, 0.0, 1.0)));
 }
 
-void add_polygons(Mesh& mesh, const io::PolygonSoup& soup) {
+void add_polygons(OmMesh& mesh, const io::PolygonSoup& soup) {
   for (const auto& point : soup.points) mesh.add_vertex(to_vec3d(point));
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
     std::vector<OpenMesh::VertexHandle> corners;
@@ -48,7 +48,7 @@ void add_polygons(Mesh& mesh, const io::PolygonSoup& soup) {
 }
 
 // \return the options to write what was added
-Options add_attributes(Mesh& mesh, const io::Model& model) {
+Options add_attributes(OmMesh& mesh, const io::Model& model) {
   Options options(Options::Binary);
   const auto normals = io::normals_at_vertices(model).value_or(PointList<3>());
   const auto texture = io::texture_coordinates_at_vertices(model).value_or(PointList<2>());
@@ -81,7 +81,7 @@ Options add_attributes(Mesh& mesh, const io::Model& model) {
 
 void write_om(const std::string& path, const io::Model& model) {
   const SilencedOpenMesh silence;
-  Mesh mesh;
+  OmMesh mesh;
   add_polygons(mesh, model.soup);
   const auto options = add_attributes(mesh, model);
   io::write_file(path, [&](std::ostream& out) {

@@ -18,8 +18,8 @@ namespace {
 
 // A file is this, the numbers of vertices, cells and properties, points, cells, the properties,
 // each with its kind of element, name and type before its numbers, and a hash of all of it.
-constexpr char kMagic[] = "flbctet1";
-constexpr std::size_t kMagicSize = sizeof kMagic - 1;
+constexpr char kTetMeshMagic[] = "flbctet1";
+constexpr std::size_t kMagicSize = sizeof kTetMeshMagic - 1;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 enum class Kind : std::uint32_t { kVertex, kEdge, kFace, kCell, kMesh };
@@ -61,7 +61,7 @@ std::string to_bytes(const TetMesh& mesh) {
   for_each_container(mesh, [&](Kind, const auto& container, std::size_t) {
     for (const auto* property : container.properties()) count += is_kept(property) ? 1 : 0;
   });
-  std::string bytes(kMagic, kMagicSize);
+  std::string bytes(kTetMeshMagic, kMagicSize);
   put(bytes, kByteOrder);
   put(bytes, static_cast<std::uint64_t>(domain.points.cols()));
   put(bytes, static_cast<std::uint64_t>(domain.cells.cols()));
@@ -99,7 +99,7 @@ class Reader {
 
   void check() {
     constexpr std::size_t kHashSize = sizeof(std::uint64_t);
-    if (bytes_.compare(0, kMagicSize, kMagic) != 0) refuse("is no file of save_tet_mesh()");
+    if (bytes_.compare(0, kMagicSize, kTetMeshMagic) != 0) refuse("is no file of save_tet_mesh()");
     at_ = kMagicSize;
     if (number<std::uint32_t>() != kByteOrder) refuse("comes from a machine with other numbers");
     if (bytes_.size() < at_ + kHashSize) refuse("ends too early");

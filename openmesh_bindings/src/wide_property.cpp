@@ -8,33 +8,33 @@
 namespace flbc::openmesh {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'f', 'l', 'b', 'c', 'r', 'o', 'w', '1'};
+constexpr std::array<char, 8> kRowsMagic = {'f', 'l', 'b', 'c', 'r', 'o', 'w', '1'};
 
-// What precedes the numbers. The shape is there twice, as the size it leads to, so that damage to
+// Precedes the numbers. The shape is there twice, as the size it leads to, so that damage to
 // one of them shows.
-struct Header {
+struct RowsHeader {
   Count scalar_bytes, components, width, elements, data_bytes;
 };
-constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof(Header);
+constexpr std::size_t kRowsHeaderBytes = kRowsMagic.size() + sizeof(RowsHeader);
 
 template <class Scalar>
-Header header_of(const RowBlock<Scalar>& rows) {
-  Header header{sizeof(Scalar), rows.components(), rows.width(), rows.size(), 0};
+RowsHeader header_of(const RowBlock<Scalar>& rows) {
+  RowsHeader header{sizeof(Scalar), rows.components(), rows.width(), rows.size(), 0};
   header.data_bytes = rows.size() * rows.components() * rows.width() * sizeof(Scalar);
   return header;
 }
 
 template <class Scalar>
-Header read_header(std::istream& in, bool swap, const std::string& name, Count elements) {
-  std::array<char, kMagic.size()> magic{};
+RowsHeader read_rows_header(std::istream& in, bool swap, const std::string& name, Count elements) {
+  std::array<char, kRowsMagic.size()> magic{};
   std::array<Count, 5> fields{};
   if (!read_numbers(in, magic.data(), magic.size(), false))
     refuse_stored(name, "the file ends before it");
-  if (magic != kMagic)
+  if (magic != kRowsMagic)
     refuse_stored(name, "the file has a property of another type under this name");
   if (!read_numbers(in, fields.data(), fields.size(), swap))
     refuse_stored(name, "the file ends in it");
-  const Header header{fields[0], fields[1], fields[2], fields[3], fields[4]};
+  const RowsHeader header{fields[0], fields[1], fields[2], fields[3], fields[4]};
   if (header.scalar_bytes != sizeof(Scalar)) {
     refuse_stored(name, "the file does not have it in the mesh's precision, " +
                             std::string(sizeof(Scalar) == sizeof(float) ? "float" : "double"));
@@ -54,7 +54,7 @@ Header read_header(std::istream& in, bool swap, const std::string& name, Count e
 
 template <class Scalar>
 RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
-                           const Header& header) {
+                           const RowsHeader& header) {
   const auto left = bytes_left(in);
   if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
   if (header.data_bytes == 0) {
@@ -80,7 +80,7 @@ RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
 
 template <class Scalar>
 std::size_t stored_size(const RowBlock<Scalar>& rows) {
-  return kHeaderBytes + header_of(rows).data_bytes;
+  return kRowsHeaderBytes + header_of(rows).data_bytes;
 }
 
 template <class Scalar>
@@ -91,7 +91,7 @@ std::size_t store_rows(std::ostream& out, bool swap, const std::string& name,
   const auto header = header_of(rows);
   const std::array<Count, 5> fields = {header.scalar_bytes, header.components, header.width,
                                        header.elements, header.data_bytes};
-  write_numbers(out, kMagic.data(), kMagic.size(), false);
+  write_numbers(out, kRowsMagic.data(), kRowsMagic.size(), false);
   write_numbers(out, fields.data(), fields.size(), swap);
   if (header.data_bytes > 0) {
     for (std::size_t e = 0; e < rows.size(); ++e) {
@@ -106,7 +106,7 @@ std::size_t store_rows(std::ostream& out, bool swap, const std::string& name,
 template <class Scalar>
 std::size_t restore_rows(std::istream& in, bool swap, const std::string& name,
                          RowBlock<Scalar>& rows) {
-  const auto header = read_header<Scalar>(in, swap, name, rows.size());
+  const auto header = read_rows_header<Scalar>(in, swap, name, rows.size());
   try {
     rows = read_rows<Scalar>(in, swap, name, header);
   } catch (const std::bad_alloc&) {

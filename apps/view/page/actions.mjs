@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What dragging selected control points with a tool does to them.
+// The actions of dragging selected control points with a tool.
 import { centroid, dot, length, pointAt, subtract, times } from "./vectors.mjs";
 import { kAxes, rotate, scale, translate } from "./transforms.mjs";
 

@@ -85,7 +85,7 @@ export class Camera {
     this.target = subtract(this.target, this.step(this.target, dx, dy));
   }
 
-  // What lies under (x, y) stays there.
+  // The point under (x, y) stays there.
   zoom(factor, x, y) {
     const before = this.step(this.target, x - this.width / 2, y - this.height / 2);
     const smallest = 1e-4 * this.sphere.radius, largest = 1e2 * this.sphere.radius;
@@ -110,7 +110,7 @@ export class Camera {
       const offset = times(kMargin, subtract(pointAt(points, i), center));
       const extent = Math.max(Math.abs(dot(up, offset)),
                               Math.abs(dot(right, offset)) * this.height / this.width);
-      // What is nearer than the target appears larger.
+      // Nearer points than the target appear larger.
       wanted = Math.max(wanted, extent + perspective * dot(toward, offset));
     }
     this.halfHeight = wanted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the page was written with, as typed arrays. Points have three coordinates in both
+// The data of the page, as typed arrays. Points have three coordinates in both
 // dimensions. Those of the model are seen from `center`, because single precision has digits enough
 // there; control points are where they are.
 import { setPoint } from "./vectors.mjs";

@@ -15,7 +15,7 @@ function apologize(error) {
     + "A recent Firefox, Chrome, Edge or Safari with hardware acceleration switched on shows it.";
 }
 
-// What scripts and tests take hold of. Points have as many coordinates as the cage.
+// The interface for scripts and tests. Points have as many coordinates as the cage.
 function hookOf(viewer) {
   const { editor, content, camera } = viewer;
   const inSpace = (place) => [...place, 0].slice(0, 3);

@@ -46,7 +46,7 @@ function setTheme(viewer, theme) {
   viewer.set("theme", theme);
 }
 
-// What buttons and keys do, by name.
+// The commands behind buttons and keys, by name.
 export function makeCommands(viewer) {
   const { editor, content } = viewer;
   const everything = () => [...Array(editor.size).keys()];

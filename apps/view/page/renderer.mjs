@@ -30,7 +30,7 @@ function compile(gl, source) {
   return { program, places };
 }
 
-// What models without a picture wear: fields in two shades.
+// The texture of models without a picture: fields in two shades.
 function checkerboard() {
   const pixels = new Uint8Array(4 * kCheckerSize * kCheckerSize);
   for (let y = 0; y < kCheckerSize; ++y) {

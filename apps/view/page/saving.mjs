@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What leaves the page: poses, models and pictures as downloads, and a command.
+// Downloads of poses, models and pictures, and a command to copy.
 import { modelText, poseText } from "./obj.mjs";
 
 function download(name, blob) {

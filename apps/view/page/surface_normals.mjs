@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertices of triangles: copies of the model's points, with normals that follow them.
 
-// What every vertex has of its point, with `size` numbers each.
+// Per vertex the numbers of its point, `size` of them.
 export function atVertices(ofPoints, sources, size, result) {
   if (!sources) return ofPoints;
   for (let v = 0; v < sources.length; ++v) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What is known beforehand: the coordinates of the points on the cage.
+//! The coordinates of points on the cage, which are known beforehand.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,7 @@ enum class Method {
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
 };
 
-//! What becomes of w >= 0. On a mesh the optimum without it may be negative, in 3D noticeably.
+//! Treatment of w >= 0. On a mesh the optimum without it may be negative, in 3D noticeably.
 enum class NonNegative {
   kAuto,        //!< kConstraint where the method has it, kProject for kGradient, else kOff
   kConstraint,  //!< a constraint of the iteration; delivered weights are then projected as well

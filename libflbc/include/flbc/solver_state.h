@@ -49,7 +49,7 @@ class StateStorage {
   //! Whether there is room for half precision, which the iteration does without otherwise.
   virtual bool holds_half() const { return false; }
 
-  //! What keep_penalty() was told by the run that left what is there, from which to go on; 0 =
+  //! The penalty passed to keep_penalty() by the run whose state is there, from which to go on; 0 =
   //! start afresh.
   virtual double penalty() const = 0;
 

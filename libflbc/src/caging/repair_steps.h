@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "caging/exact_predicates.h"
+#include "caging/cgal/exact_predicates.h"
 #include "flbc/cage.h"
 
 namespace flbc {

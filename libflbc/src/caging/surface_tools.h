@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "caging/exact_predicates.h"
+#include "caging/cgal/exact_predicates.h"
 #include "flbc/cage.h"
 
 namespace flbc {

@@ -9,7 +9,8 @@
 namespace flbc {
 
 //! Local extrema, total variation and locality, beside those of harmonic coordinates.
-//! \param problem  made of the mesh \param domain  the mesh, in its own units
+//! \param problem  made of the mesh
+//! \param domain  the mesh, in its own units
 //! \param weights  n x V \param mean_influences  of the weights, as measure_quality() gives it
 //! \throws SolverError
 template <int Dim>

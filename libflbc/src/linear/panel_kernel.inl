@@ -3,8 +3,8 @@
 //! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
 //! compiled with the flags of that set (see libflbc/CMakeLists.txt).
 //!
-//! What one column of the right-hand side goes through does not depend on the columns beside it,
-//! nor on where the slice it belongs to begins.
+//! The operations on one column of the right-hand side do not depend on the columns beside it, nor
+//! on where the slice it belongs to begins.
 #include "linear/panel_kernel.h"
 
 #include <utility>

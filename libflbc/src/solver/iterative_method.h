@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the iterative methods have in common, for solve().
+//! The interface that solve() has to the iterative methods.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace flbc {
 
-//! What a method hands back. Boundary values are exact; interior rows sum to one and reproduce
+//! The result of a method. Boundary values are exact; interior rows sum to one and reproduce
 //! their points up to the method's precision, and may be negative.
 struct MethodResult {
   WeightMatrix weights;  //!< n x V

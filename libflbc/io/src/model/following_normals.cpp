@@ -35,8 +35,8 @@ PointList<3> area_vectors(const PolygonSoup& soup, const PointList<3>& points) {
   return areas;
 }
 
-// What moved where: edges, and a vector across them, without which nothing would tell the sides of
-// a flat polygon apart. Lengths squared, so that large polygons count for more.
+// Covariance of edges before and after, and of a vector across them, without which nothing would
+// tell the sides of a flat polygon apart. Lengths squared, so that large polygons count for more.
 Matrix3 correlation(const Polygon& corners, const PointList<3>& before, const PointList<3>& after,
                     const Vector<3>& area_before, const Vector<3>& area_after) {
   Matrix3 sum = Matrix3::Zero();
@@ -54,7 +54,7 @@ bool is_still(const Polygon& corners, const PointList<3>& before, const PointLis
                      [&](Index v) { return after.col(v) == before.col(v); });
 }
 
-// What turns a normal, summed over its polygons.
+// The motion of a normal, summed over its polygons.
 struct Motion {
   bool is_still = true;  // then not even rounding shall turn it
   Vector<3> before = Vector<3>::Zero();

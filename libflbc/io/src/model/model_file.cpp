@@ -189,7 +189,7 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points) const {
 
   TextWriter writer(out);
   std::size_t done = 0;
-  // What does not change keeps its digits, and normals that are integers stay.
+  // Numbers that do not change keep their digits, and normals that are integers stay.
   const auto replace = [&](const NumberPlace& place, double before, double after) {
     if (after == before || place.form == NumberForm::kInteger) return;
     writer << std::string_view(file.text).substr(done, place.begin - done);

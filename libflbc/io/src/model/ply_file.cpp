@@ -12,7 +12,7 @@
 namespace flbc::io {
 namespace {
 
-// What a Model knows of a vertex or a face, in a row.
+// Attributes of a vertex or a face, in a row.
 enum Slot { kPoint = 0, kNormal = 3, kColor = 6, kAlpha = 9, kTexture = 10, kNumSlots = 12 };
 constexpr int kNoSlot = -1;
 

@@ -43,7 +43,7 @@ class TextReader {
   //! The next word on this line; empty if none is left. Valid while the reader lives.
   std::string_view word();
 
-  //! What word() would return, without moving on.
+  //! The word that word() would return, without moving on.
   std::string_view peek();
 
   //! The next word on this line as a finite number; one too small for a double counts as 0.

@@ -16,7 +16,7 @@ namespace flbc {
 
 namespace {
 
-// What precedes the arrays in the child's output.
+// Precedes the arrays in the child's output.
 struct Header {
   std::int64_t num_points;
   std::int64_t num_cells;

@@ -38,7 +38,7 @@ double guess_volume_bound(double volume, Index vertices) {
   return volumes_per_vertex * volume / vertices;
 }
 
-// What happens to edges of the cage between coplanar facets.
+// Treatment of the cage's edges between coplanar facets.
 enum class CoplanarFacets {
   kJoin,  // the edges are lost, but TetGen hardly ever fails
   kKeep   // the edges are kept, on which TetGen may fail or run for ever

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the fast marching method has to do with a cell.
+//! The updates of the fast marching method within a cell.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the fast marches from all sources share: the mesh in the form in which they read it.
+//! The mesh in the form in which the fast marches from all sources read it.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ constexpr float kNone = -1;
 //! may they miss, relative to what decides about them.
 constexpr float kSlack = 1e-4f;
 
-//! What is shared by all sources.
+//! The shape of a triangle, shared by all sources.
 struct Triangle {
   float lengths2[3];  //!< squared lengths of the sides opposite to the corners
   float area;         //!< of the parallelogram

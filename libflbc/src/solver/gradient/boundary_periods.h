@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the paper's gradient problem lacks on domains with holes.
+//! Constraints that the paper's gradient problem lacks on domains with holes.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What stays the same during the gradient ADMM: its constraints, as the inner loops want them.
+//! The constraints of the gradient ADMM, constant during the iteration, laid out for the inner loops.
 #pragma once
 
 #include <cstddef>

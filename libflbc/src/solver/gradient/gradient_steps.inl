@@ -144,7 +144,7 @@ template <class Scalar, int Dim, int lanes>
   }
 }
 
-// What the G-step changes.
+// Squared changes made by the G-step.
 template <class Scalar, bool note>
 struct GradientChange {
   SquareSum<Scalar, note> gradient;

@@ -51,7 +51,7 @@ class SweepBuilder {
   }
 
  private:
-  // What is known of a cell during the sweep.
+  // A cell's state during the sweep.
   struct State {
     Place place = 0;
     std::int8_t open_facets = 0;  // that need its extrapolated gradient yet

@@ -11,7 +11,7 @@
 
 namespace flbc::gradient {
 
-//! What one thread passes over.
+//! The cells and facets of one thread.
 struct SweepPart {
   std::vector<Visit> visits;
   std::vector<Closing> closings;  //!< in the order of the visits

@@ -36,7 +36,7 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// What the levels have in common and how far they have come.
+// The levels, and the solution of the finest one solved so far.
 template <int Dim>
 class Cascade {
  public:

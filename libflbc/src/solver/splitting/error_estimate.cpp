@@ -18,8 +18,8 @@ double square(double x) {
   return x * x;
 }
 
-// What is still to come, in lengths of the last difference, if differences go on to shrink at this
-// rate per iteration.
+// Sum of the differences to come, in lengths of the last one, if they go on to shrink at this rate
+// per iteration.
 double spans_left(double rate) {
   return rate > 0 ? 1 / std::expm1(rate * kSpan) : kInfinity;
 }
@@ -89,7 +89,7 @@ double ErrorEstimate::rate(double first, double last) const {
   return -0.5 * covariance / variance;
 }
 
-// What is left of the error, squared, relative to the last squared difference.
+// The remaining error, squared, relative to the last squared difference.
 double ErrorEstimate::rest() const {
   constexpr double kLeast = 0.5;
   constexpr double kMost = 30;
@@ -139,7 +139,7 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
 }
 
 double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {
-  // What single changes amount to at least. Alone it serves until there are differences to compare;
+  // A lower bound from single changes. Alone it serves until there are differences to compare;
   // later it catches runs that speed up again.
   constexpr double kChanges = 400;
   constexpr double kTiny = 1e-300;

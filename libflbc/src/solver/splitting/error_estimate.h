@@ -41,14 +41,13 @@ class WeightHistory {
 
 //! Estimates the mean squared error of weights, by two looks at it.
 //!
-//! What weights show: the last difference over kSpan iterations, times what is to follow if
-//! differences go on to shrink as they did. If they shrink by rho (a length) from span to span,
-//! rho / (1 - rho) times the last one is left. The rate is a regression's over the last iterations,
+//! Geometric extrapolation over spans of kSpan iterations: if differences shrink by rho (a length)
+//! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a regression's over the last iterations,
 //! because differences oscillate; where it falls, as the slow parts of the error remain, it is
 //! taken to fall further. Where it is low for the number of iterations, shrinking as a power of
 //! that number is assumed as well.
 //!
-//! What they do not show: duals that still grow while weights stand still, as on round cages whose
+//! Weights do not show duals that still grow while they stand still, as on round cages whose
 //! weights are nearly undetermined. It is in the residual of the splitting, which costs more than
 //! an iteration to measure. So it is asked for only where the run would end without it.
 //!

@@ -16,7 +16,7 @@
 
 namespace flbc::splitting {
 
-//! What an iteration did.
+//! Changes made by one iteration.
 struct Step {
   double change;          //!< squared change of all weights
   double violation = -1;  //!< of the constraints z = grad w and u = w, squared, in the metric; if

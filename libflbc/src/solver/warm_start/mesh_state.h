@@ -7,7 +7,7 @@
 
 namespace flbc {
 
-//! What an iteration leaves on a mesh, expressed by quantities that have a limit as meshes become
+//! The state of an iteration on a mesh, expressed by quantities that have a limit as meshes become
 //! finer: densities and potentials in place of numbers per cell and facet. Lengths are those of the
 //! problem, whose domain is scaled. n control points, V vertices, F cells, E facets.
 template <int Dim>

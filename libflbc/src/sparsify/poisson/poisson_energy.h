@@ -27,7 +27,8 @@ PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
                                   const PointList<Dim>& points, const EdgeList& edges,
                                   const std::vector<PointList<Dim>>& poses);
 
-//! \param edges  validated \param before, after  n x P
+//! \param edges  validated
+//! \param before, after  n x P
 template <int Dim>
 double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const EdgeList& edges,
                 const WeightMatrix& before, const WeightMatrix& after);

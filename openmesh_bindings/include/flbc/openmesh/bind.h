@@ -56,7 +56,7 @@ using Mesher = std::function<DomainMesh<Dim>(const Cage<Dim>&, const MeshingOpti
 
 namespace internal {
 
-//! What there is to bind. The mesher, which may be empty if there is a domain, makes the domain and
+//! The cage, domain and mesher to bind with. The mesher, which may be empty if there is a domain, makes the domain and
 //! coarser meshes.
 template <int Dim>
 struct BindInput {

@@ -109,7 +109,8 @@ void add_vertices(Mesh& mesh, const PointList<Dim>& points) {
   set_points(mesh, points);
 }
 
-//! \param faces  3 x F \param kind  of the faces, for messages
+//! \param faces  3 x F
+//! \param kind  of the faces, for messages
 template <class Mesh>
 void add_triangles(Mesh& mesh, const Eigen::Matrix<Index, 3, Eigen::Dynamic>& faces,
                    const char* kind) {

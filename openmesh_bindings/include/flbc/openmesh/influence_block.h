@@ -30,7 +30,7 @@ class InfluencesView {
       : control_points_(control_points), weights_(weights), size_(size) {}
   InfluencesView(const InfluencesView& view) = default;
 
-  //! What may be written may be read.
+  //! A view for writing converts to one for reading.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Weight>>>
   InfluencesView(const InfluencesView<Other>& view)
       : InfluencesView(view.control_points(), view.weights(), view.size()) {}

@@ -47,7 +47,7 @@ std::size_t restore_influences(std::istream& in, bool swap, const std::string& n
 
 namespace OpenMesh {
 
-//! What mesh.property(handle, element) returns.
+//! The type that mesh.property(handle, element) returns.
 template <>
 struct BasePropHandleT<flbc::openmesh::Influences> : public BaseHandle {
   using Value = flbc::openmesh::Influences;
@@ -118,7 +118,7 @@ class PropertyT<flbc::openmesh::Influences> : public BaseProperty {
   std::size_t store(std::ostream& out, bool swap_bytes) const override {
     return flbc::openmesh::store_influences(out, swap_bytes, name(), block_);
   }
-  //! What came from a file goes into the next one.
+  //! A property read from a file is written into the next one.
   std::size_t restore(std::istream& in, bool swap_bytes) override {
     const std::size_t bytes = flbc::openmesh::restore_influences(in, swap_bytes, name(), block_);
     set_persistent(true);

@@ -19,7 +19,7 @@
 
 namespace flbc::openmesh {
 
-//! What solve() leaves on the mesh.
+//! The properties that solve() leaves on the mesh.
 struct PropertyOptions {
   //! The weights: a row of n doubles per vertex (flbc/openmesh/wide_property.h), a copy of the
   //! result, whose negative weights have been projected away.
@@ -45,13 +45,17 @@ struct PropertyOptions {
   bool persistent = false;
 };
 
-//! What solve() tells of a mesh.
+//! The report of a solve on a mesh.
 struct MeshSolveReport : SolveReport {
   bool resumed = false;   //!< whether it went on from the state on the mesh
   std::string restart{};  //!< why it did not: "there is no state", "the method was ...", and so on
 };
 
 namespace internal {
+
+//! How far, relative to the cage's size, a boundary vertex may be beside it: OpenMesh's text formats
+//! and its default points keep single precision.
+constexpr double kSinglePrecision = 1e-6;
 
 //! phi as it stands on the mesh. \return n x F; empty if there is no such property
 //! \throws InputError if it is none of n control points, or a number is negative or not finite
@@ -135,9 +139,7 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
   auto report = internal::begin(mesh.property(handle), record, properties, options, storage);
   record.requested_penalty = options.penalty;
 
-  // OpenMesh's text formats and its default points keep single precision.
-  constexpr double kSinglePrecision = 1e-6;
-  snap_to_cage(cage, domain.topology, kSinglePrecision, domain.mesh);
+  snap_to_cage(cage, domain.topology, internal::kSinglePrecision, domain.mesh);
   auto problem = make_problem(cage, std::move(domain.mesh), std::move(domain.topology),
                               phi.size() > 0 ? DistanceScheme::kConstant : options.phi);
   if (phi.size() > 0) problem.phi = std::move(phi);
@@ -174,10 +176,11 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
 //!
 //! Going on from a state under another penalty, the gradient methods rescale the duals; the others
 //! refuse. Another method, precision or phi begins anew, as the report says. After an exception
-//! from the iteration there is no state any more. \param mesher  makes coarser meshes to start from
-//! (flbc/coarse_to_fine.h); empty for none \throws InputError naming the element if mesh and cage
-//! do not belong together, if the mesh has deleted elements, or if there is a state that belongs to
-//! another cage, mesh or penalty; OptionError, SolverError
+//! from the iteration there is no state any more.
+//! \param mesher  makes coarser meshes to start from (flbc/coarse_to_fine.h); empty for none
+//! \throws InputError naming the element if mesh and cage do not belong together, if the mesh has
+//! deleted elements, or if there is a state that belongs to another cage, mesh or penalty;
+//! OptionError, SolverError
 template <class Mesh, int Dim>
 MeshSolveReport solve(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
                       const PropertyOptions& properties = {},

@@ -25,7 +25,7 @@ class RowsView {
       : data_(data), components_(components), width_(width), stride_(stride) {}
   RowsView(const RowsView& rows) = default;
 
-  //! What may be written may be read.
+  //! A view for writing converts to one for reading.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Scalar>>>
   RowsView(const RowsView<Other>& rows)
       : RowsView(rows.data(), rows.components(), rows.width(), rows.stride()) {}

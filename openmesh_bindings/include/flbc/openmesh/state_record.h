@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a mesh remembers of a solve: enough to know whether its properties still belong to it.
+//! The record of a solve on a mesh, by which to know whether its properties still belong to it.
 #pragma once
 
 #include <string>

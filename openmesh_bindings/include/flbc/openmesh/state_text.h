@@ -17,7 +17,7 @@ struct StateText {};
 
 namespace OpenMesh {
 
-//! What mesh.property(handle) returns.
+//! The type that mesh.property(handle) returns.
 template <>
 struct BasePropHandleT<flbc::openmesh::StateText> : public BaseHandle {
   using Value = flbc::openmesh::StateText;

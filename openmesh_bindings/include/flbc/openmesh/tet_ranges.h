@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the loops over a TetMesh run over. A range is valid until the mesh gets or loses elements.
+//! The ranges of loops over a TetMesh. A range is valid until the mesh gets or loses elements.
 #pragma once
 
 #include <cstddef>

@@ -69,7 +69,7 @@ void make_way_for(Mesh& mesh, const std::string& name) {
   remove_property<Wide<double>>(mesh, name_of_offset(name));
 }
 
-//! What points outside the cage have in addition to their weights' place: a row of Dim numbers per
+//! Offsets of points outside the cage from their weights' place: a row of Dim numbers per
 //! vertex; of width 0 if there is none.
 template <class Mesh>
 RowBlock<double> offsets_of(const Mesh& mesh, const std::string& weights) {
@@ -197,7 +197,7 @@ void set_rest_cage(Mesh& mesh, const PointList<Dim>& control_points,
   if (persistent) property.set_persistent(true);
 }
 
-//! What set_rest_cage() left; empty if there is nothing. \return Dim x n
+//! The cage stored by set_rest_cage(); empty if there is none. \return Dim x n
 template <class Mesh>
 Eigen::MatrixXd get_rest_cage(const Mesh& mesh, const std::string& weights = kWeights) {
   OpenMesh::MPropHandleT<Wide<double>> handle;

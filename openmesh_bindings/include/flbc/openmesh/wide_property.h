@@ -56,7 +56,7 @@ std::size_t restore_rows(std::istream& in, bool swap, const std::string& name,
 
 namespace OpenMesh {
 
-//! What mesh.property(handle, element) returns.
+//! The type that mesh.property(handle, element) returns.
 template <class Scalar>
 struct BasePropHandleT<flbc::openmesh::Wide<Scalar>> : public BaseHandle {
   using Value = flbc::openmesh::Wide<Scalar>;
@@ -136,7 +136,7 @@ class PropertyT<flbc::openmesh::Wide<Scalar>> : public BaseProperty {
   std::size_t store(std::ostream& out, bool swap_bytes) const override {
     return flbc::openmesh::store_rows(out, swap_bytes, name(), rows_);
   }
-  //! What came from a file goes into the next one.
+  //! A property read from a file is written into the next one.
   std::size_t restore(std::istream& in, bool swap_bytes) override {
     const std::size_t bytes = flbc::openmesh::restore_rows(in, swap_bytes, name(), rows_);
     set_persistent(true);

@@ -31,7 +31,7 @@ class ModelFile {
   ModelFile(ModelFile&&) noexcept;
   ModelFile& operator=(ModelFile&&) noexcept;
 
-  //! What the file holds.
+  //! The model in the file.
   const Model& model() const;
 
   //! The file as it was read, byte by byte.
@@ -61,7 +61,7 @@ class ModelFile {
   std::unique_ptr<const Content> content_;
 };
 
-//! What a file of the format that `path` names would not keep of a model, a phrase each.
+//! The attributes of a model that a file of the format that `path` names would lose, a phrase each.
 std::vector<std::string> losses(const Model& model, const std::string& path);
 
 //! Writes by extension: .obj, .off, .ply or .stl, the last two as text or binary as the model is.
