@@ -3,6 +3,11 @@
 include_guard(DIRECTORY)
 option(FLBC_UNITY_BUILD "Compile the files of a room together" ON)
 
+# Files that run once a command, not once an iteration: they take a third less to compile.
+function(flbc_optimise_lightly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # \param most  files in one unit
 function(flbc_compile_rooms_together target most)
   get_target_property(sources ${target} SOURCES)
