@@ -95,9 +95,9 @@ void measure_known_weights(WeightCheck<Dim>& check, const PointList<Dim>& points
     const double linearity = deviation.cwiseAbs().maxCoeff(&i);
     keep_larger(check.linearity, {linearity, at.point, i, place});
     if (at.coinciding_with < 0) continue;
-    deviation = weights.col(at.point);
-    deviation[at.coinciding_with] -= 1;
-    const double lagrange = deviation.cwiseAbs().maxCoeff(&i);
+    Eigen::VectorXd beside_one = weights.col(at.point);
+    beside_one[at.coinciding_with] -= 1;
+    const double lagrange = beside_one.cwiseAbs().maxCoeff(&i);
     keep_larger(check.lagrange, {lagrange, at.point, i, place});
   }
   check.control_points_found =
