@@ -45,6 +45,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"coarse_to_fine", name_of(options.coarse_to_fine)},
           {"certify", options.certify},
           {"phi", name_of(options.phi)},
+          {"distances", name_of(options.distances)},
           {"recovery", name_of(options.recovery)},
           {"precision", name_of(options.precision)},
           {"tolerance", options.tolerance},
@@ -95,6 +96,9 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
                      {"solve", report.seconds.solve},
                      {"recover", report.seconds.recover},
                      {"certify", report.seconds.certify}};
+  json["distances"] = {{"source", name_of(report.distances.source)},
+                       {"vertices", report.distances.vertices},
+                       {"phi_error", report.distances.phi_error}};
   json["coarse_levels"] = levels_json(report.coarse_levels);
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;

@@ -13,12 +13,14 @@ void add_options(std::ostream& key, const SolverOptions& options) {
   // All members are named, so that a new one does not compile until it is decided whether weights
   // depend on it. They do not on these: results are the same bits for any number of threads, and a
   // run that was stopped has not converged.
-  [[maybe_unused]] const auto& [method, phi, precision, recovery, non_negative, linear_solver,
-                                coarse_to_fine, coarse_levels, tolerance, gap, max_iterations,
-                                penalty, relaxation, check_interval, certify, threads, progress] = options;
+  [[maybe_unused]] const auto& [method, phi, distances, precision, recovery, non_negative,
+                                linear_solver, coarse_to_fine, coarse_levels, tolerance, gap,
+                                max_iterations, penalty, relaxation, check_interval, certify,
+                                threads, progress] = options;
   const auto& [coarsest, factor, looseness] = coarse_levels;
   key << "method " << name_of(method) << '\n'
       << "phi " << name_of(phi) << '\n'
+      << "distances " << name_of(distances) << '\n'
       << "precision " << name_of(precision) << '\n'
       << "recovery " << name_of(recovery) << '\n'
       << "non_negative " << name_of(non_negative) << '\n'

@@ -60,6 +60,7 @@ CoarseMesher<Dim> coarse_mesher() {
   return [](const Cage<Dim>& cage, Index vertices) {
     MeshingOptions<Dim> options;
     options.vertices = vertices;
+    options.roughly = true;
     options.time_limit = kTimeLimit;
     return mesh_cage(cage, options);
   };

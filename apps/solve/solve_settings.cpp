@@ -34,8 +34,11 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "start from coarser meshes of the cage (auto: where it pays)");
   command.add_flag("--certify", options.certify, "prove how near the optimum the weights are");
   add_choice(command, "--phi", options.phi, "growth of the distance weights (square)");
+  add_choice(command, "--distances", options.distances,
+             "where distances are computed: on the mesh, or on a coarser one of the cage (auto)");
   add_choice(command, "--recovery", options.recovery, "how weights follow from gradients (auto)");
-  add_choice(command, "--precision", options.precision, "numbers of the iteration (auto: half where the tolerance allows)");
+  add_choice(command, "--precision", options.precision,
+             "numbers of the iteration (auto: half where the tolerance allows)");
   command.add_option(
       "--tolerance", options.tolerance,
       "accuracy wanted (by method: value and paper 1e-7, gradient 2.5e-5, lbc2014 5e-8)");

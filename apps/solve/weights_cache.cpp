@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kMagic = "flbc weights, format 3\n";
+constexpr std::string_view kMagic = "flbc weights, format 4\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -44,10 +44,12 @@ template <class Archive, class Report>
 void visit_report(Archive& archive, Report& report) {
   auto& [method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
          dual_residual, penalty, published_penalty, objective, certificate, state_scalars_per_cell,
-         seconds, quality, coarse_levels] = report;
+         distances, seconds, quality, coarse_levels] = report;
   archive(method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
           dual_residual, penalty, published_penalty, objective, state_scalars_per_cell);
   visit_levels(archive, coarse_levels);
+  auto& [source, coarse_vertices, phi_error] = distances;
+  archive(source, coarse_vertices, phi_error);
   auto& [certified, lower_bound, relative_gap] = certificate;
   archive(certified, lower_bound, relative_gap);
   auto& [setup, solve, recover, certify] = seconds;

@@ -37,6 +37,7 @@ CoarseMesher<Dim> coarse_mesher(const Mesher<Dim>& mesher) {
   return [&mesher](const Cage<Dim>& cage, Index vertices) {
     MeshingOptions<Dim> meshing;
     meshing.vertices = vertices;
+    meshing.roughly = true;
     meshing.time_limit = kTimeLimit;
     return mesher(cage, meshing);
   };

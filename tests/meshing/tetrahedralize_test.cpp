@@ -194,6 +194,20 @@ TEST(TetrahedralizeTest, OptionsOutOfRange) {
   EXPECT_THROW(tetrahedralize(cage, no_time), OptionError);
 }
 
+// One run is no search: a count of that order, or the coarsest mesh there is.
+TEST(TetrahedralizeTest, RoughlyAsManyVertices) {
+  const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 2, 1));
+  const Index coarsest = tetrahedralize(cage).num_vertices();
+  for (const Index count : {1, 500, 3000}) {
+    MeshingOptions<3> options = vertices(count);
+    options.roughly = true;
+    const auto mesh = tetrahedralize(cage, options);
+    EXPECT_GE(3 * mesh.num_vertices(), count);
+    EXPECT_LE(mesh.num_vertices(), std::max(coarsest, 3 * count));
+    expect_fills(cage, mesh, 2);
+  }
+}
+
 TEST(TetrahedralizeTest, RunsAgreeBitByBit) {
   const Cage<3> cage = box_cage<3>(1);
   const DomainMesh<3> first = tetrahedralize(cage, vertices(2000));

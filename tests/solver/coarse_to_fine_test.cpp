@@ -479,7 +479,8 @@ TEST(LevelSizes, NoneWhereTheyDoNotPay) {
   EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kGradient, {}).empty());
   EXPECT_TRUE(level_sizes<2>(5000, 30, Method::kValue, {}).empty());
   EXPECT_TRUE(level_sizes<2>(30000, 6, Method::kValue, {}).empty());
-  EXPECT_TRUE(level_sizes<3>(40000, 50, Method::kValue, {}).empty());
+  EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kValue, {}).empty());
+  EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kValue, {}).empty());
   EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kValue, {}).empty());
   EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kGradient, {}).empty());
   EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kGradient, {}).empty());

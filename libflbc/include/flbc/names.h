@@ -23,10 +23,13 @@ const char* name_of(NonNegative non_negative);
 //! "square", "linear", "sqrt" or "constant".
 //! \param scheme  to be named
 const char* name_of(DistanceScheme scheme);
+//! "auto", "exact" or "interpolated".
+//! \param distances  to be named
+const char* name_of(Distances distances);
 //! "auto", "breadth-first" or "least-squares".
 //! \param recovery  to be named
 const char* name_of(Recovery recovery);
-//! "single" or "double".
+//! "auto", "half", "single" or "double".
 //! \param precision  to be named
 const char* name_of(Precision precision);
 //! "auto", "on" or "off".

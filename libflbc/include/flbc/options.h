@@ -40,6 +40,13 @@ enum class Precision {
   kDouble   //!< double
 };
 
+//! Where the distances come from that the weight functions phi are made of.
+enum class Distances {
+  kAuto,         //!< kInterpolated for Method::kValue, where it costs less and keeps the tolerance
+  kExact,        //!< the mesh itself
+  kInterpolated  //!< a coarser mesh of the cage, by their detours round the boundary; needs a mesher
+};
+
 //! How weights are recovered from gradients.
 enum class Recovery {
   kAuto,          //!< kBreadthFirst for Method::kPaper, else kLeastSquares
@@ -67,6 +74,11 @@ struct SolverOptions {
   //! Growth of the weight functions phi. Read by all methods but kHarmonic and kMeanValue, whose
   //! reports alone depend on it.
   DistanceScheme phi = DistanceScheme::kSquare;
+
+  //! Where the distances behind phi come from. Read where solve() sets the problem up, by all methods
+  //! but kHarmonic and kMeanValue, for which they are exact. kAuto interpolates if the estimated
+  //! effect on the weights stays within half the tolerance; the report says how far phi is off.
+  Distances distances = Distances::kAuto;
 
   //! Of the iteration. Read by kValue, kLbc2014, kGradient and kPaper.
   Precision precision = Precision::kAuto;

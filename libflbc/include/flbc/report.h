@@ -34,6 +34,15 @@ struct StageSeconds {
   double certify = 0;  //!< the lower bound
 };
 
+//! Where the distances behind phi come from.
+struct DistanceReport {
+  Distances source = Distances::kExact;  //!< kExact or kInterpolated
+  Index vertices = 0;                    //!< of the coarser mesh they are interpolated from, else 0
+  //! Root mean square error of interpolated phi, relative to its root mean square, as estimated from
+  //! a few control points whose distances are computed on both meshes.
+  double phi_error = 0;
+};
+
 //! A coarser mesh that was solved for a start (coarse_to_fine.h).
 struct LevelReport {
   Index vertices = 0;        //!< of the coarse mesh
@@ -61,6 +70,7 @@ struct SolveReport {
   double objective = 0;
   Certificate certificate{};  //!< if asked for or the criterion, in the same units
   double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point
+  DistanceReport distances{};                //!< behind phi, if solve() set the problem up
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start

@@ -43,7 +43,8 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, StateStorage* storage = nullptr);
 
-//! One call from cage and mesh to coordinates.
+//! One call from cage and mesh to coordinates. With a mesher, distances may come from a coarser mesh
+//! (SolverOptions::distances); where none can be made they are exact.
 //! \param cage  n control points
 //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
 //! \param mesher  as above

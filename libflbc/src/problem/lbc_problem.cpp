@@ -3,40 +3,37 @@
 
 #include <utility>
 
-#include "problem/domain_scale.h"
+#include "problem/problem_geometry.h"
 
 namespace flbc {
+namespace {
+
+template <int Dim>
+LbcProblem<Dim> with_phi(LbcProblem<Dim> problem, DistanceScheme scheme) {
+  problem.phi = distance_weights(scheme, distances_for(scheme, problem), problem.mesh,
+                                 problem.num_control_points());
+  return problem;
+}
+
+}  // namespace
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
-  auto topology = build_topology(mesh);
-  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme);
+  return with_phi(make_geometry(std::move(cage), std::move(mesh)), scheme);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme) {
-  // Before scaling, so that messages give the user's coordinates.
-  auto boundary = boundary_values(cage, mesh, topology);
-  return make_problem(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary),
-                      scheme);
+  return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology)), scheme);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              BoundaryValues<Dim> boundary, DistanceScheme scheme) {
-  const DomainScale<Dim> scale(mesh);
-  mesh.points = scale(mesh.points);
-  cage.points = scale(cage.points);
-  LbcProblem<Dim> problem{
-      std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {}, scale.factor};
-  Eigen::MatrixXd distances;
-  if (scheme != DistanceScheme::kConstant) {
-    distances =
-        geodesic_distances(problem.mesh, problem.topology, problem.boundary.control_vertices);
-  }
-  problem.phi = distance_weights(scheme, distances, problem.mesh, problem.num_control_points());
-  return problem;
+  return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology),
+                                std::move(boundary)),
+                  scheme);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                          \

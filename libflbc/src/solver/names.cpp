@@ -27,6 +27,9 @@ constexpr Named<DistanceScheme> kDistanceSchemeNames[]{{DistanceScheme::kSquare,
                                                        {DistanceScheme::kLinear, "linear"},
                                                        {DistanceScheme::kSquareRoot, "sqrt"},
                                                        {DistanceScheme::kConstant, "constant"}};
+constexpr Named<Distances> kDistancesNames[]{{Distances::kAuto, "auto"},
+                                             {Distances::kExact, "exact"},
+                                             {Distances::kInterpolated, "interpolated"}};
 constexpr Named<Recovery> kRecoveryNames[]{{Recovery::kAuto, "auto"},
                                            {Recovery::kBreadthFirst, "breadth-first"},
                                            {Recovery::kLeastSquares, "least-squares"}};
@@ -57,6 +60,9 @@ constexpr auto& table_for(NonNegative) {
 }
 constexpr auto& table_for(DistanceScheme) {
   return kDistanceSchemeNames;
+}
+constexpr auto& table_for(Distances) {
+  return kDistancesNames;
 }
 constexpr auto& table_for(Recovery) {
   return kRecoveryNames;
@@ -97,6 +103,9 @@ const char* name_of(NonNegative value) {
   return find_name(value);
 }
 const char* name_of(DistanceScheme value) {
+  return find_name(value);
+}
+const char* name_of(Distances value) {
   return find_name(value);
 }
 const char* name_of(Recovery value) {
@@ -142,6 +151,7 @@ std::optional<Enum> value_named(const std::string& name) {
 FLBC_INSTANTIATE(Method)
 FLBC_INSTANTIATE(NonNegative)
 FLBC_INSTANTIATE(DistanceScheme)
+FLBC_INSTANTIATE(Distances)
 FLBC_INSTANTIATE(Recovery)
 FLBC_INSTANTIATE(Precision)
 FLBC_INSTANTIATE(CoarseToFine)

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/cascade.h"
+#include "solver/multilevel/set_up.h"
 #include "solver/state_storage.h"
 
 namespace flbc {
@@ -20,10 +20,32 @@ void require_valid(const SolverOptions& options, bool has_mesher) {
   }
 }
 
+// Where solve() sets the problem up.
+void require_valid_set_up(const SolverOptions& options, bool has_mesher) {
+  require_valid(options, has_mesher);
+  if (options.distances == Distances::kInterpolated && !has_mesher) {
+    throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
+  }
+}
+
 // Whether the state that one run leaves is a start for the other.
 bool share_state(const SolverOptions& a, const SolverOptions& b) {
   return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
          a.linear_solver == b.linear_solver && a.penalty == b.penalty;
+}
+
+bool resumes(const StateStorage* storage) {
+  return storage != nullptr && storage->penalty() > 0;
+}
+
+//! \param options  resolved \param coarse  to start from
+template <int Dim>
+Solution solve_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
+                    const SolverOptions& options, StateStorage* storage) {
+  if (!coarse.empty()) return solve_in_cascade(problem, std::move(coarse), options, storage);
+  SolveReport report;
+  auto result = run_method(problem, options, report, storage, WarmStart<Dim>{});
+  return finish(problem, options, std::move(result), std::move(report));
 }
 
 //! \param options  valid
@@ -32,14 +54,17 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
                      const CoarseMesher<Dim>& mesher, StateStorage* storage) {
   const auto options = resolve(user_options);
   const ThreadScope threads(options.threads);
-  const bool resumes = storage != nullptr && storage->penalty() > 0;
-  if (mesher && options.coarse_to_fine != CoarseToFine::kOff && inherits(options.method) &&
-      !resumes) {
-    return solve_in_cascade(problem, mesher, options, storage);
+  std::vector<CoarseProblem<Dim>> coarse;
+  if (!resumes(storage)) {
+    const auto sizes = start_sizes(problem, mesher, options);
+    coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
   }
-  SolveReport report;
-  auto result = run_method(problem, options, report, storage, WarmStart<Dim>{});
-  return finish(problem, options, std::move(result), std::move(report));
+  return solve_from(problem, std::move(coarse), options, storage);
+}
+
+void add_set_up(double seconds, const DistanceReport& distances, SolveReport& report) {
+  report.seconds.setup = seconds;
+  report.distances = distances;
 }
 
 }  // namespace
@@ -54,13 +79,12 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
-  require_valid(options, bool(mesher));
+  require_valid_set_up(options, bool(mesher));
   const ThreadScope threads(options.threads);
-  Stopwatch watch;
-  const auto problem = make_problem(cage, mesh, options.phi);
-  const double setup = watch.lap();
-  auto solution = solve_valid(problem, options, mesher, nullptr);
-  solution.report.seconds.setup = setup;
+  const auto resolved = resolve(options);
+  auto ready = set_up(cage, mesh, resolved, mesher);
+  auto solution = solve_from(ready.problem, std::move(ready.coarse), resolved, nullptr);
+  add_set_up(ready.seconds, ready.distances, solution.report);
   return solution;
 }
 
@@ -71,19 +95,17 @@ class LbcSolver<Dim>::State {
         const CoarseMesher<Dim>& mesher)
       : options_(options), mesher_(mesher) {
     const ThreadScope threads(options.threads);
-    Stopwatch watch;
-    problem_ = make_problem(cage, mesh, options.phi);
-    setup_seconds_ = watch.lap();
+    ready_ = set_up(cage, mesh, resolve(options), mesher);
   }
 
   void solve() {
     try {
-      solution_ = solve_valid(problem_, options_, mesher_, &kept_);
+      solution_ = solve_next();
     } catch (...) {
       restart();
       throw;
     }
-    solution_.report.seconds.setup = std::exchange(setup_seconds_, 0);
+    add_set_up(std::exchange(ready_.seconds, 0), ready_.distances, solution_.report);
   }
 
   void set_options(const SolverOptions& options) {
@@ -92,20 +114,31 @@ class LbcSolver<Dim>::State {
       throw OptionError("phi cannot be changed once the problem is set up; make another LbcSolver");
     }
     if (!share_state(resolve(options), resolve(options_))) restart();
+    ready_.coarse.clear();  // made for the options before
     options_ = options;
   }
 
-  void restart() { kept_.forget(); }
+  void restart() {
+    kept_.forget();
+    ready_.coarse.clear();
+  }
 
   const SolverOptions& options() const { return options_; }
-  const LbcProblem<Dim>& problem() const { return problem_; }
+  const LbcProblem<Dim>& problem() const { return ready_.problem; }
   const Solution& solution() const { return solution_; }
 
  private:
+  // What set_up() made for the first solve serves that one alone.
+  Solution solve_next() {
+    auto coarse = std::exchange(ready_.coarse, {});
+    if (coarse.empty()) return solve_valid(ready_.problem, options_, mesher_, &kept_);
+    const ThreadScope threads(options_.threads);
+    return solve_from(ready_.problem, std::move(coarse), resolve(options_), &kept_);
+  }
+
   SolverOptions options_;
   CoarseMesher<Dim> mesher_;
-  LbcProblem<Dim> problem_;
-  double setup_seconds_ = 0;  // until a report has told them
+  SetUp<Dim> ready_;  // seconds until a report has told them, coarse problems until they are used
   KeptState kept_;
   Solution solution_{};
 };
@@ -113,7 +146,7 @@ class LbcSolver<Dim>::State {
 template <int Dim>
 LbcSolver<Dim>::LbcSolver(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                           const SolverOptions& options, const CoarseMesher<Dim>& mesher) {
-  require_valid(options, bool(mesher));
+  require_valid_set_up(options, bool(mesher));
   state_ = std::make_unique<State>(cage, mesh, options, mesher);
 }
 

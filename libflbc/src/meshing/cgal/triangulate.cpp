@@ -151,12 +151,15 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   const PointList<2> input = collect_input_points(cage, options);
 
   DomainMesh<2> mesh = mesh_interior(cage, input, 0, options.vertices);
-  check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
+  if (!options.roughly) {
+    check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
+  }
   if (options.vertices > mesh.num_vertices()) {
     // Half as many vertices as triangles, which are equilateral but for their longest edges.
     const double first_bound = 1.6 * std::sqrt(total_measure(mesh) / options.vertices);
     VertexCountGoal goal;
     goal.vertices = options.vertices;
+    if (options.roughly) goal.max_runs = 1;
     mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, [&](double longest_edge) {
       return mesh_interior(cage, input, longest_edge, options.vertices);
     });

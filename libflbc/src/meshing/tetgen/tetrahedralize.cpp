@@ -11,6 +11,7 @@
 
 #include "base/messages.h"
 #include "cage/point_in_cage.h"
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "meshing/meshing_common.h"
 #include "meshing/tetgen/flat_parts.h"
@@ -143,6 +144,7 @@ struct Task {
   const Cage<3>& cage;
   TetgenInput input;
   Index vertices;  // wanted; 0 = any
+  bool roughly;    // in one run
 };
 
 // \param time_limit  for each run of TetGen
@@ -153,6 +155,10 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
   };
+  if (task.roughly && task.vertices > 0) {
+    return make_mesh(kRadiusEdgeRatio,
+                     guess_volume_bound(measure_cage(task.cage).measure, task.vertices));
+  }
   DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
   check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
   if (task.vertices <= mesh.num_vertices()) return mesh;
@@ -178,12 +184,14 @@ void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mes
 DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
   validate(cage);
   const PointList<3> points = collect_input_points(cage, options);
-  const Task task{
-      cage, {points, cage.facets, find_cavities(cage, options.time_limit)}, options.vertices};
+  const Task task{cage,
+                  {points, cage.facets, find_cavities(cage, options.time_limit)},
+                  options.vertices,
+                  options.roughly};
 
   const auto start = std::chrono::steady_clock::now();
   DomainMesh<3> mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
-  if (has_coplanar_facets(cage)) {
+  if (!options.roughly && has_coplanar_facets(cage)) {
     // Far more than it takes unless it runs for ever.
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);

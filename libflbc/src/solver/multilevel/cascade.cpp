@@ -2,130 +2,97 @@
 #include "solver/multilevel/cascade.h"
 
 #include <memory>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/stopwatch.h"
 #include "solver/iterative_method.h"
-#include "solver/multilevel/level_sizes.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
 namespace {
 
-// A mesh that was solved, and in which state.
-template <int Dim>
-struct Level {
-  LbcProblem<Dim> problem;
-  MeshState<Dim> state;
-};
-
-// A mesh worth a level of its own between the one below (0 vertices = none) and the finest.
-template <int Dim>
-std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const Cage<Dim>& cage,
-                                         Index wanted, Index below, Index finest) {
-  constexpr double kClearly = 1.7;
-  try {
-    auto mesh = mesher(cage, wanted);
-    if (kClearly * mesh.num_vertices() > finest || mesh.num_vertices() < kClearly * below)
-      return {};
-    normalize_and_validate(mesh);
-    return mesh;
-  } catch (const std::exception&) {
-    return {};
-  }
-}
-
 // The levels, and the solution of the finest one solved so far.
 template <int Dim>
 class Cascade {
  public:
-  Cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+  Cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
           const SolverOptions& options)
-      : problem_(problem), mesher_(mesher), options_(options) {}
+      : problem_(problem), levels_(std::move(levels)), options_(options) {}
 
   //! Solves the coarse levels, coarsest first.
   void climb() {
-    const auto sizes = level_sizes<Dim>(problem_.mesh.num_vertices(), problem_.num_control_points(),
-                                        options_.method, options_.coarse_levels);
-    for (std::size_t k = 0; k < sizes.size() && !stopped_; ++k) {
-      solve_level(sizes[k], static_cast<int>(sizes.size() - k));
-    }
+    while (num_solved_ < levels_.size() && !stopped_) solve_level(levels_[num_solved_]);
   }
 
   Solution solve_finest(StateStorage* storage) {
     Stopwatch watch;
     auto options = options_;
     if (stopped_) options.max_iterations = 1;  // for weights that belong to this mesh
-    const auto transfer = transfer_to(problem_);
+    std::unique_ptr<Transfer<Dim>> transfer;
+    if (num_solved_ > 0) {
+      auto& below = levels_[num_solved_ - 1];
+      transfer = std::make_unique<Transfer<Dim>>(below.problem, state_, problem_,
+                                                 std::move(below.finest_vertices));
+    }
     SolveReport report;
     const double placing = watch.lap();
     auto result = run_method(problem_, options, report, storage, {transfer.get(), nullptr});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
-    for (const auto& level : reports_) {
-      report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
+    for (const auto& level : levels_) {
+      report.seconds.solve +=
+          level.report.mesh_seconds + level.report.setup_seconds + level.report.solve_seconds;
     }
-    report.coarse_levels = reports_;
+    for (std::size_t k = 0; k < num_solved_; ++k) report.coarse_levels.push_back(levels_[k].report);
     return finish(problem_, options, std::move(result), std::move(report));
   }
 
  private:
-  void solve_level(Index vertices, int finer_levels) {
+  void solve_level(CoarseProblem<Dim>& level) {
     Stopwatch watch;
-    auto mesh =
-        make_mesh(mesher_, problem_.cage, vertices,
-                  below_ ? below_->problem.mesh.num_vertices() : 0, problem_.mesh.num_vertices());
-    if (!mesh) return;
-    LevelReport level_report;
-    level_report.mesh_seconds = watch.lap();
-    auto level = std::make_unique<Level<Dim>>();
-    level->problem = make_problem(problem_.cage, std::move(*mesh), options_.phi);
-    level_report.setup_seconds = watch.lap();
-
     auto options = options_;
     options.tolerance *= options_.coarse_levels.looseness;
+    const auto finer_levels = static_cast<int>(levels_.size() - num_solved_);
     options.progress = [&](Progress progress) {
       progress.finer_levels = finer_levels;
       stopped_ = options_.progress && !options_.progress(progress);
       return !stopped_;
     };
+    std::unique_ptr<Transfer<Dim>> transfer;
+    if (num_solved_ > 0) {
+      transfer = std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, state_,
+                                                 level.problem);
+    }
     SolveReport report;
-    run_method(level->problem, options, report, nullptr,
-               {transfer_to(level->problem).get(), &level->state});
-    level_report.vertices = report.vertices;
-    level_report.cells = report.cells;
-    level_report.iterations = report.iterations;
-    level_report.solve_seconds = watch.lap();
-    reports_.push_back(level_report);
-    below_ = std::move(level);
-  }
-
-  std::unique_ptr<Transfer<Dim>> transfer_to(const LbcProblem<Dim>& problem) const {
-    if (!below_) return nullptr;
-    return std::make_unique<Transfer<Dim>>(below_->problem, below_->state, problem);
+    MeshState<Dim> state;
+    run_method(level.problem, options, report, nullptr, {transfer.get(), &state});
+    state_ = std::move(state);
+    level.report.iterations = report.iterations;
+    level.report.solve_seconds = watch.lap();
+    ++num_solved_;
   }
 
   const LbcProblem<Dim>& problem_;
-  const CoarseMesher<Dim>& mesher_;
+  std::vector<CoarseProblem<Dim>> levels_;
   const SolverOptions& options_;
-  std::unique_ptr<Level<Dim>> below_;  // the finest solved so far
-  std::vector<LevelReport> reports_;
+  MeshState<Dim> state_;  // of the finest level solved so far
+  std::size_t num_solved_ = 0;
   bool stopped_ = false;
 };
 
 }  // namespace
 
 template <int Dim>
-Solution solve_in_cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+Solution solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
                           const SolverOptions& options, StateStorage* storage) {
-  Cascade<Dim> cascade(problem, mesher, options);
+  Cascade<Dim> cascade(problem, std::move(levels), options);
   cascade.climb();
   return cascade.solve_finest(storage);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                          \
-  template Solution solve_in_cascade(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
+#define FLBC_INSTANTIATE(Dim)                                                                   \
+  template Solution solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>,  \
                                      const SolverOptions&, StateStorage*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -3,17 +3,19 @@
 //! Solving on coarser meshes of the same cage first, to start from there.
 #pragma once
 
-#include "flbc/coarse_to_fine.h"
+#include <vector>
+
 #include "flbc/solver.h"
+#include "solver/multilevel/coarse_problem.h"
 
 namespace flbc {
 
-//! Solves a problem from the solution on coarser meshes, where level_sizes() finds any.
-//! \param mesher  not empty
+//! Solves a problem from the solution on coarser meshes, each from that of the one before.
+//! \param levels  coarsest first; none for a start without them
 //! \param options  resolved, of a method that inherits() holds for
 //! \param storage  of the state on the problem's own mesh, may be null
 template <int Dim>
-Solution solve_in_cascade(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+Solution solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
                           const SolverOptions& options, StateStorage* storage);
 
 }  // namespace flbc

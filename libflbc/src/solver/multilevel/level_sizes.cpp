@@ -2,15 +2,13 @@
 #include "solver/multilevel/level_sizes.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace flbc {
 namespace {
 
 // Where a coarse start pays, and how coarse it may get, as measured (docs/results.md). It saves
 // iterations: those of kGradient are many, and the more the finer the mesh; those of kValue are
-// few, so that a coarse mesh must cost little. In 3D coarse meshes tell less, and what they get
-// wrong takes long to disappear: up to 40,000 vertices kValue gains nothing there.
+// few, so that a coarse mesh must cost little: a tenth of the vertices, and once.
 struct Worthwhile {
   double numbers;  // least number of vertices times control points
   Index coarsest;  // vertices
@@ -18,9 +16,8 @@ struct Worthwhile {
 };
 
 Worthwhile worthwhile(int dim, Method method) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
   if (method == Method::kGradient) return {0, dim == 2 ? 200 : 2000, 5};
-  return {dim == 2 ? 2.5e5 : kNever, dim == 2 ? 900 : 2000, dim == 2 ? 10.0 : 5.0};
+  return {dim == 2 ? 2.5e5 : 7e5, dim == 2 ? 900 : 1000, dim == 2 ? 10.0 : 12.0};
 }
 
 }  // namespace
@@ -39,6 +36,9 @@ std::vector<Index> level_sizes(Index finest, Index control_points, Method method
   for (double size = finest / factor; size >= coarsest; size /= factor) {
     sizes.push_back(static_cast<Index>(size));
   }
+  // Who asks for coarser meshes gets one.
+  const bool is_asked_for = levels.coarsest > 0 && levels.factor == 0;
+  if (sizes.empty() && is_asked_for && finest >= 2 * coarsest) sizes.push_back(coarsest);
   std::reverse(sizes.begin(), sizes.end());
   return sizes;
 }

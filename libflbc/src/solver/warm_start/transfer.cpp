@@ -2,30 +2,51 @@
 #include "solver/warm_start/transfer.h"
 
 #include <limits>
+#include <utility>
 
 #include "flbc/bounding_box.h"
-#include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
+#include "mesh/cell_walk.h"
 
 namespace flbc {
+
+template <int Dim>
+double enlargement(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine) {
+  return bounding_box_diagonal(fine.cage.points) / bounding_box_diagonal(coarse.cage.points);
+}
+
+// Both meshes fill the same cage, whose control points tell how one lies in the other's space.
+template <int Dim>
+PointList<Dim> points_in_coarse(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine,
+                                const PointList<Dim>& fine_points) {
+  const Vector<Dim> origin = fine.cage.points.col(0);
+  return ((fine_points.colwise() - origin) / enlargement(coarse, fine)).colwise() +
+         coarse.cage.points.col(0);
+}
+
+template <int Dim>
+std::vector<Location<Dim>> places_in_coarse(const LbcProblem<Dim>& coarse,
+                                            const LbcProblem<Dim>& fine,
+                                            const PointList<Dim>& fine_points) {
+  return walk_to_points(coarse.mesh, coarse.topology, points_in_coarse(coarse, fine, fine_points));
+}
+
 template <int Dim>
 Transfer<Dim>::Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
                         const LbcProblem<Dim>& fine)
-    : coarse_(coarse),
-      state_(state),
-      fine_(fine),
-      enlargement_(bounding_box_diagonal(fine.cage.points) / bounding_box_diagonal(coarse.cage.points)) {
+    : coarse_(coarse), state_(state), fine_(fine), enlargement_(enlargement(coarse, fine)) {
 }
 
 template <int Dim>
 Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
-                        const LbcProblem<Dim>& fine)
+                        const LbcProblem<Dim>& fine, std::vector<Location<Dim>> vertices)
     : Transfer(Unlocated{}, coarse, state, fine) {
-  vertices_ = locate(fine.mesh.points);
-  cells_ = locate(centroids(fine.mesh.points, fine.mesh.cells));
+  vertices_ = vertices.empty() ? places_in_coarse(coarse, fine, fine.mesh.points)
+                               : std::move(vertices);
+  cells_ = places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.mesh.cells));
   if (state.potential.size() > 0) {
-    facets_ = locate(centroids(fine.mesh.points, fine.topology.facets));
+    facets_ = places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.topology.facets));
   }
 }
 
@@ -51,21 +72,6 @@ Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
     }
   }
   return transfer;
-}
-
-// Both meshes fill the same cage, whose control points tell how one lies in the other's space.
-// Points that rounding puts outside belong to the cell next to them.
-template <int Dim>
-std::vector<Location<Dim>> Transfer<Dim>::locate(const PointList<Dim>& fine_points) const {
-  const Vector<Dim> origin = fine_.cage.points.col(0);
-  const PointList<Dim> points =
-      ((fine_points.colwise() - origin) / enlargement_).colwise() + coarse_.cage.points.col(0);
-  auto places = locate_points(coarse_.mesh, points);
-  for (auto& place : places) {
-    place.coordinates = place.coordinates.cwiseMax(0);
-    place.coordinates /= place.coordinates.sum();
-  }
-  return places;
 }
 
 template <int Dim>
@@ -97,7 +103,15 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::facet_multiplier(Index
       fine_, facet, enlargement_ * evaluate_potential(coarse_, state_.potential, facets_[facet]));
 }
 
-template class Transfer<2>;
-template class Transfer<3>;
+#define FLBC_INSTANTIATE(Dim)                                                             \
+  template double enlargement(const LbcProblem<Dim>&, const LbcProblem<Dim>&);            \
+  template PointList<Dim> points_in_coarse(const LbcProblem<Dim>&, const LbcProblem<Dim>&, \
+                                           const PointList<Dim>&);                        \
+  template std::vector<Location<Dim>> places_in_coarse(                                   \
+      const LbcProblem<Dim>&, const LbcProblem<Dim>&, const PointList<Dim>&);             \
+  template class Transfer<Dim>;
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

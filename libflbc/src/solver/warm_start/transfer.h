@@ -13,13 +13,30 @@
 
 namespace flbc {
 
+//! Fine length / coarse length.
+template <int Dim>
+double enlargement(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine);
+
+//! Where points of the fine mesh's space lie in the coarse mesh's.
+template <int Dim>
+PointList<Dim> points_in_coarse(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine,
+                                const PointList<Dim>& fine_points);
+
+//! The coarse cells they lie in. Points that rounding puts outside belong to the cell next to them.
+template <int Dim>
+std::vector<Location<Dim>> places_in_coarse(const LbcProblem<Dim>& coarse,
+                                            const LbcProblem<Dim>& fine,
+                                            const PointList<Dim>& fine_points);
+
 //! Evaluates a coarse mesh's state where the fine mesh needs it, in the lengths of the fine
 //! problem. The meshes need not be nested, nor their problems scaled alike. Keeps references to all
 //! three arguments.
 template <int Dim>
 class Transfer {
  public:
-  Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state, const LbcProblem<Dim>& fine);
+  //! \param vertices  places of the fine vertices in the coarse mesh, if known already
+  Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state, const LbcProblem<Dim>& fine,
+           std::vector<Location<Dim>> vertices = {});
 
   //! Between two shapes of one mesh, where a cell stays the same cell and nothing is looked for.
   //! Flux densities stay as they are: turning and stretching them with their cells saves no
@@ -49,12 +66,11 @@ class Transfer {
   struct Unlocated {};
   Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
            const LbcProblem<Dim>& fine);
-  std::vector<Location<Dim>> locate(const PointList<Dim>& fine_points) const;
 
   const LbcProblem<Dim>& coarse_;
   const MeshState<Dim>& state_;
   const LbcProblem<Dim>& fine_;
-  double enlargement_;  // fine length / coarse length
+  double enlargement_;
   std::vector<Location<Dim>> vertices_;
   std::vector<Location<Dim>> cells_;
   std::vector<Location<Dim>> facets_;  // empty without potential

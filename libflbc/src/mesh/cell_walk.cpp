@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/cell_walk.h"
+
+#include <algorithm>
+
+#include "flbc/bounding_box.h"
+#include "mesh/cell_geometry.h"
+
+namespace flbc {
+namespace {
+
+constexpr Index kBlock = 1024;  // points that are walked to in turn
+
+template <int Dim>
+class Walk {
+ public:
+  Walk(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
+      : mesh_(mesh), topology_(topology), geometries_(mesh.num_cells()) {
+#pragma omp parallel for schedule(static)
+    for (Index s = 0; s < mesh.num_cells(); ++s) geometries_[s] = cell_geometry(mesh, s);
+  }
+
+  //! \return cell -1 if the way ends at the boundary or is long
+  Location<Dim> go(const Vector<Dim>& point, Index cell) const {
+    constexpr int kLongest = 100;
+    constexpr double kRounding = 1e-12;
+    Location<Dim> place;
+    for (int step = 0; step < kLongest; ++step) {
+      place.cell = cell;
+      place.coordinates = geometries_[cell].hat_gradients.transpose() *
+                          (point - mesh_.points.col(mesh_.cells(0, cell)));
+      place.coordinates[0] += 1;
+      if (place.coordinates.minCoeff() >= -kRounding) return place;
+      cell = beyond(place);
+      if (cell < 0) break;
+    }
+    place.cell = -1;
+    return place;
+  }
+
+ private:
+  // The neighbour behind the facet that the point is farthest beyond.
+  Index beyond(const Location<Dim>& place) const {
+    Index next = -1;
+    double farthest = 0;
+    for (int k = 0; k <= Dim; ++k) {
+      const Index facet = topology_.cell_facets(k, place.cell);
+      if (place.coordinates[k] >= 0 || topology_.is_boundary(facet)) continue;
+      const double distance =
+          -place.coordinates[k] / geometries_[place.cell].hat_gradients.col(k).norm();
+      if (distance <= farthest) continue;
+      farthest = distance;
+      next = topology_.sides(0, facet) + topology_.sides(1, facet) - place.cell;
+    }
+    return next;
+  }
+
+  const DomainMesh<Dim>& mesh_;
+  const MeshTopology<Dim>& topology_;
+  std::vector<CellGeometry<Dim>> geometries_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<Location<Dim>> walk_to_points(const DomainMesh<Dim>& mesh,
+                                          const MeshTopology<Dim>& topology,
+                                          const PointList<Dim>& points) {
+  const double tolerance = 1e-6 * bounding_box_diagonal(mesh.points);
+  const CellLocator<Dim> locator(mesh);
+  const Walk<Dim> walk(mesh, topology);
+  const auto count = static_cast<Index>(points.cols());
+  std::vector<Location<Dim>> places(count);
+  bool complete = true;
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : complete)
+  for (Index begin = 0; begin < count; begin += kBlock) {
+    Index cell = -1;
+    for (Index p = begin; p < std::min(count, begin + kBlock); ++p) {
+      if (cell >= 0) places[p] = walk.go(points.col(p), cell);
+      if (places[p].cell < 0) places[p] = locator.locate(points.col(p), tolerance);
+      cell = places[p].cell;
+      complete = complete && cell >= 0;
+    }
+  }
+  if (!complete) places = locate_points(mesh, points);  // tells which are outside
+  for (auto& place : places) {
+    place.coordinates = place.coordinates.cwiseMax(0);
+    place.coordinates /= place.coordinates.sum();
+  }
+  return places;
+}
+
+template std::vector<Location<2>> walk_to_points(const DomainMesh<2>&, const MeshTopology<2>&,
+                                                 const PointList<2>&);
+template std::vector<Location<3>> walk_to_points(const DomainMesh<3>&, const MeshTopology<3>&,
+                                                 const PointList<3>&);
+
+}  // namespace flbc

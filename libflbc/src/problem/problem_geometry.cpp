@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problem/problem_geometry.h"
+
+#include <utility>
+
+#include "problem/domain_scale.h"
+
+namespace flbc {
+
+template <int Dim>
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                              BoundaryValues<Dim> boundary) {
+  const DomainScale<Dim> scale(mesh);
+  mesh.points = scale(mesh.points);
+  cage.points = scale(cage.points);
+  return {std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {},
+          scale.factor};
+}
+
+template <int Dim>
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology) {
+  // Before scaling, so that messages give the user's coordinates.
+  auto boundary = boundary_values(cage, mesh, topology);
+  return make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary));
+}
+
+template <int Dim>
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh) {
+  auto topology = build_topology(mesh);
+  return make_geometry(std::move(cage), std::move(mesh), std::move(topology));
+}
+
+template <int Dim>
+Eigen::MatrixXd distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem) {
+  if (scheme == DistanceScheme::kConstant) return {};
+  return geodesic_distances(problem.mesh, problem.topology, problem.boundary.control_vertices);
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                             \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,   \
+                                         BoundaryValues<Dim>);                            \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>);  \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                     \
+  template Eigen::MatrixXd distances_for(DistanceScheme, const LbcProblem<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

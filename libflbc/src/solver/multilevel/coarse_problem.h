@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Problems on coarser meshes of the same cage.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cell_locator.h"
+#include "flbc/coarse_to_fine.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/report.h"
+
+namespace flbc {
+
+//! A problem on a coarser mesh, to start from or to interpolate distances from.
+template <int Dim>
+struct CoarseProblem {
+  LbcProblem<Dim> problem;
+  Eigen::MatrixXd distances;                //!< n x V, from the control points; empty for kConstant
+  std::vector<Location<Dim>> finest_vertices{};  //!< places of the finest mesh's vertices, if known
+  LevelReport report{};                          //!< sizes and seconds of mesh and set-up
+};
+
+//! Meshes the cage and sets the problems up. Left out are meshes on which the mesher fails (the cage
+//! may be too fine for so few vertices) or that are not clearly coarser than the next.
+//! \param problem  the finest one, whose phi is not asked for
+//! \param mesher  not empty
+//! \param sizes  numbers of vertices, ascending
+//! \return coarsest first
+//! \throws InputError if a coarse mesh does not belong to the cage
+template <int Dim>
+std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
+                                                     const CoarseMesher<Dim>& mesher,
+                                                     const std::vector<Index>& sizes,
+                                                     DistanceScheme scheme);
+
+}  // namespace flbc

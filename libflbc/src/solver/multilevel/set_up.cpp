@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/multilevel/set_up.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "mesh/cell_walk.h"
+#include "problem/geodesic/interpolated_distances.h"
+#include "problem/problem_geometry.h"
+#include "solver/iterative_method.h"
+#include "solver/multilevel/level_sizes.h"
+#include "solver/warm_start/transfer.h"
+
+namespace flbc {
+namespace {
+
+// The largest change that interpolated distances made to the weights of any model, mean squared, was
+// 9e-8, and it is not foreseen everywhere: smaller tolerances want exact ones.
+constexpr double kLeastTolerance = 1e-7;
+
+// Whether distances are to be interpolated if they turn out to be good enough.
+template <int Dim>
+bool tries_to_interpolate(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                          const CoarseMesher<Dim>& mesher, bool has_coarse_mesh) {
+  // Below, a mesh for the distances alone takes as long as the distances.
+  constexpr Index kFewestVertices = 3000;
+  if (!mesher || options.phi == DistanceScheme::kConstant) return false;
+  if (options.distances != Distances::kAuto) return options.distances == Distances::kInterpolated;
+  if (options.method != Method::kValue || options.tolerance < kLeastTolerance) return false;
+  return has_coarse_mesh || (Dim == 3 && problem.mesh.num_vertices() >= kFewestVertices);
+}
+
+// The coarse mesh for distances alone: as coarse as the cage allows, or a twelfth of the vertices.
+Index size_for_distances(Index finest, double tolerance) {
+  constexpr double kCoarsestIsEnough = 1e-6;
+  constexpr Index kRatio = 12;
+  return tolerance >= kCoarsestIsEnough ? 1 : finest / kRatio;
+}
+
+template <int Dim>
+Eigen::MatrixXd interpolate_from(CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem) {
+  const auto points = points_in_coarse(coarse.problem, problem, problem.mesh.points);
+  coarse.finest_vertices =
+      walk_to_points(coarse.problem.mesh, coarse.problem.topology, points);
+  return enlargement(coarse.problem, problem) *
+         interpolated_distances<Dim>(
+             {coarse.problem.mesh, coarse.problem.cage.points, coarse.distances}, points,
+             coarse.finest_vertices);
+}
+
+// Some control points: from the one that is the farthest from a part of the domain, in even steps to
+// the one that is the nearest to all of it.
+std::vector<Index> choose_control_points(const Eigen::MatrixXd& distances) {
+  constexpr Index kOneIn = 32;
+  const auto n = static_cast<Index>(distances.rows());
+  const Index count = std::min(n, 2 + n / kOneIn);
+  const Eigen::VectorXd farthest = distances.rowwise().maxCoeff();
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return farthest[a] > farthest[b]; });
+  std::vector<Index> chosen;
+  for (Index k = 0; k < count; ++k) chosen.push_back(order[k * (n - 1) / std::max(1, count - 1)]);
+  return chosen;
+}
+
+// Puts exact distances in for some control points and tells how far phi was off there.
+template <int Dim>
+double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
+                       Eigen::MatrixXd& distances) {
+  const auto chosen = choose_control_points(distances);
+  const auto count = static_cast<Index>(chosen.size());
+  std::vector<Index> sources;
+  Eigen::MatrixXd both(2 * count, distances.cols());
+  for (Index k = 0; k < count; ++k) {
+    sources.push_back(problem.boundary.control_vertices[chosen[k]]);
+    both.row(k) = distances.row(chosen[k]);
+  }
+  both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
+  for (Index k = 0; k < count; ++k) distances.row(chosen[k]) = both.row(count + k);
+  const Eigen::MatrixXd phi = distance_weights(scheme, both, problem.mesh, 2 * count);
+  return (phi.topRows(count) - phi.bottomRows(count)).norm() / phi.bottomRows(count).norm();
+}
+
+// The mean squared change of weights by a relative error of phi: four times what it was on any model
+// where the error was 0.4 % and more (docs/results.md).
+double weight_error(double phi_error) {
+  constexpr double kInfluence = 3e-4;
+  return kInfluence * phi_error * phi_error;
+}
+
+template <int Dim>
+Eigen::MatrixXd choose_distances(SetUp<Dim>& result, const SolverOptions& options) {
+  constexpr double kPart = 0.5;  // of the tolerance
+  auto& coarse = result.coarse.back();
+  auto distances = interpolate_from(coarse, result.problem);
+  const double error = check_on_sample(result.problem, options.phi, distances);
+  if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
+    return distances_for(options.phi, result.problem);
+  }
+  result.distances = {Distances::kInterpolated, coarse.report.vertices, error};
+  return distances;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+                               const SolverOptions& options) {
+  if (!mesher || options.coarse_to_fine == CoarseToFine::kOff || !inherits(options.method)) {
+    return {};
+  }
+  return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(),
+                          options.method, options.coarse_levels);
+}
+
+template <int Dim>
+SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+                  const CoarseMesher<Dim>& mesher) {
+  Stopwatch watch;
+  SetUp<Dim> result{make_geometry(std::move(cage), std::move(mesh))};
+  auto& problem = result.problem;
+  auto sizes = start_sizes(problem, mesher, options);
+  const bool starts_coarse = !sizes.empty();
+  const bool interpolates = tries_to_interpolate(problem, options, mesher, starts_coarse);
+  if (interpolates && !starts_coarse) {
+    sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
+  }
+  result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
+  const auto distances = interpolates && !result.coarse.empty()
+                             ? choose_distances(result, options)
+                             : distances_for(options.phi, problem);
+  problem.phi =
+      distance_weights(options.phi, distances, problem.mesh, problem.num_control_points());
+  if (!starts_coarse) result.coarse.clear();
+  result.seconds = watch.lap();
+  for (const auto& level : result.coarse) {
+    result.seconds -= level.report.mesh_seconds + level.report.setup_seconds;
+  }
+  return result;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template std::vector<Index> start_sizes(const LbcProblem<Dim>&, const CoarseMesher<Dim>&,       \
+                                          const SolverOptions&);                                  \
+  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,                    \
+                             const CoarseMesher<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From cage and mesh to a problem, with what coarser meshes can do for it.
+#pragma once
+
+#include <vector>
+
+#include "solver/multilevel/coarse_problem.h"
+
+namespace flbc {
+
+//! A problem, and those on coarser meshes that its solution starts from.
+template <int Dim>
+struct SetUp {
+  LbcProblem<Dim> problem;
+  std::vector<CoarseProblem<Dim>> coarse{};  //!< coarsest first
+  DistanceReport distances{};
+  double seconds = 0;  //!< without those that the coarse problems report
+};
+
+//! Numbers of vertices of the coarser meshes to start from; none where they do not pay or are not
+//! wanted. \param options  resolved
+template <int Dim>
+std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+                               const SolverOptions& options);
+
+//! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
+//! options say so.
+//! \param options  resolved
+//! \param mesher  may be empty unless options demand it
+//! \throws InputError, SolverError
+template <int Dim>
+SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+                  const CoarseMesher<Dim>& mesher);
+
+}  // namespace flbc

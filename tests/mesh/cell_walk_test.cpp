@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/cell_walk.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "flbc/errors.h"
+#include "mesh/cell_geometry.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class CellWalkTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(CellWalkTest, Dimensions);
+
+template <int Dim>
+PointList<Dim> shuffled(const PointList<Dim>& points) {
+  std::vector<Index> order(points.cols());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(3));
+  PointList<Dim> result(Dim, points.cols());
+  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
+    result.col(p) = points.col(order[p]);
+  }
+  return result;
+}
+
+// Vertices of a finer mesh, on the boundary too, and centroids of its cells.
+template <int Dim>
+PointList<Dim> points_in(Shape shape) {
+  const auto mesh = make_sample<Dim>(shape, 6, 0.2).mesh;
+  PointList<Dim> points(Dim, mesh.num_vertices() + mesh.num_cells());
+  points << mesh.points, centroids(mesh.points, mesh.cells);
+  return points;
+}
+
+// The ring has a hole, and the corner is not convex: straight ways leave them.
+TYPED_TEST(CellWalkTest, FindsTheCellsWhateverTheOrderOfThePoints) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kRing}) {
+    const auto mesh = make_sample<kDim>(shape, 4, 0.2).mesh;
+    const auto topology = build_topology(mesh);
+    const auto in_order = points_in<kDim>(shape);
+    for (const auto& points : {in_order, shuffled<kDim>(in_order)}) {
+      const auto places = walk_to_points(mesh, topology, points);
+      ASSERT_EQ(places.size(), static_cast<std::size_t>(points.cols()));
+      for (std::size_t p = 0; p < places.size(); ++p) {
+        EXPECT_GE(places[p].coordinates.minCoeff(), 0);
+        EXPECT_NEAR(places[p].coordinates.sum(), 1, 1e-14);
+        Vector<kDim> point = Vector<kDim>::Zero();
+        for (int k = 0; k <= kDim; ++k) {
+          point += places[p].coordinates[k] * mesh.points.col(mesh.cells(k, places[p].cell));
+        }
+        EXPECT_LT((point - points.col(static_cast<Index>(p))).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TYPED_TEST(CellWalkTest, IsTheSameForAnyNumberOfThreads) {
+  constexpr int kDim = TypeParam::value;
+  const auto mesh = make_sample<kDim>(Shape::kRing, 3, 0.2).mesh;
+  const auto topology = build_topology(mesh);
+  const auto points = points_in<kDim>(Shape::kRing).replicate(1, 5).eval();
+  const auto walk = [&](int count) {
+    const ThreadScope threads(count);
+    return walk_to_points<kDim>(mesh, topology, points);
+  };
+  const auto one = walk(1);
+  for (const int count : {2, 4, 7}) {
+    const auto more = walk(count);
+    for (std::size_t p = 0; p < one.size(); ++p) {
+      EXPECT_EQ(more[p].cell, one[p].cell);
+      EXPECT_TRUE(more[p].coordinates == one[p].coordinates);
+    }
+  }
+}
+
+TYPED_TEST(CellWalkTest, RefusesPointsOutside) {
+  constexpr int kDim = TypeParam::value;
+  const auto mesh = make_sample<kDim>(Shape::kCorner, 3, 0.2).mesh;
+  auto points = points_in<kDim>(Shape::kCorner);
+  points.col(11) *= 50;
+  EXPECT_THROW(walk_to_points<kDim>(mesh, build_topology(mesh), points), InputError);
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problem/geodesic/interpolated_distances.h"
+
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/lbc_problem.h"
+#include "mesh/cell_walk.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class InterpolatedDistancesTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(InterpolatedDistancesTest, Dimensions);
+
+// Distances at the vertices of a sample of 8 cells a side: from one of so many, and their own.
+template <int Dim>
+struct Comparison {
+  Sample<Dim> fine;
+  Eigen::MatrixXd interpolated;
+  Eigen::MatrixXd exact;
+
+  Comparison(Shape shape, int resolution) : fine(make_sample<Dim>(shape, 8, 0.2)) {
+    const auto coarse = make_sample<Dim>(shape, resolution, 0.2);
+    const auto topology = build_topology(coarse.mesh);
+    const auto known = distances_on(coarse, topology);
+    const auto places = walk_to_points(coarse.mesh, topology, fine.mesh.points);
+    interpolated = interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, known},
+                                               fine.mesh.points, places);
+    exact = distances_on(fine, build_topology(fine.mesh));
+  }
+
+  static Eigen::MatrixXd distances_on(const Sample<Dim>& sample,
+                                      const MeshTopology<Dim>& topology) {
+    const auto sources = boundary_values(sample.cage, sample.mesh, topology).control_vertices;
+    return geodesic_distances(sample.mesh, topology, sources);
+  }
+
+  double size() const { return bounding_box_diagonal(fine.cage.points); }
+};
+
+TYPED_TEST(InterpolatedDistancesTest, LoseNothingWhereWaysAreStraight) {
+  constexpr int kDim = TypeParam::value;
+  const Comparison<kDim> box(Shape::kBox, 2);
+  EXPECT_LT((box.interpolated - box.exact).cwiseAbs().maxCoeff(), 2e-5 * box.size());
+}
+
+TYPED_TEST(InterpolatedDistancesTest, ApproachExactOnesAsTheMeshIsRefined) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto error = [&](int resolution) {
+      const Comparison<kDim> c(shape, resolution);
+      EXPECT_GE((c.interpolated - c.exact).minCoeff(), -0.05 * c.size());
+      return (c.interpolated - c.exact).norm() / c.exact.norm();
+    };
+    const double coarse = error(2);
+    EXPECT_LT(coarse, 0.05);
+    EXPECT_LT(error(8), 1e-6);
+    EXPECT_LT(error(5), coarse);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

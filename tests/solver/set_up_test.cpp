@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances from a coarser mesh: when they are taken, and what they change.
+#include <cmath>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "flbc/solver.h"
+#include "support/judge.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class SetUpTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SetUpTest, Dimensions);
+
+template <int Dim>
+Sample<Dim> sample_of() {
+  return make_sample<Dim>(Shape::kCorner, Dim == 2 ? 24 : 8, 0.2);
+}
+
+// The sample's shape with fewer cells, where and as large as the cage given.
+template <int Dim>
+CoarseMesher<Dim> mesher_of(Index resolution) {
+  return [resolution](const Cage<Dim>& cage, Index) {
+    auto sample = make_sample<Dim>(Shape::kCorner, resolution, 0.2);
+    const double scale =
+        bounding_box_diagonal(cage.points) / bounding_box_diagonal(sample.cage.points);
+    const Vector<Dim> shift = cage.points.col(0) - scale * sample.cage.points.col(0);
+    sample.mesh.points = (scale * sample.mesh.points).colwise() + shift;
+    return sample.mesh;
+  };
+}
+
+template <int Dim>
+Solution solve_with(Distances distances, double tolerance, Index resolution,
+                    Method method = Method::kValue) {
+  const auto sample = sample_of<Dim>();
+  SolverOptions options;
+  options.method = method;
+  options.distances = distances;
+  options.tolerance = tolerance;
+  options.gap = 0;
+  if (method != Method::kValue) options.max_iterations = 20;
+  options.coarse_to_fine = CoarseToFine::kOff;
+  return solve(sample.cage, sample.mesh, options, mesher_of<Dim>(resolution));
+}
+
+TYPED_TEST(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreReported) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const auto exact = solve_with<kDim>(Distances::kExact, 1e-9, 6);
+  EXPECT_EQ(exact.report.distances.source, Distances::kExact);
+  EXPECT_EQ(exact.report.distances.vertices, 0);
+  const auto other = solve_with<kDim>(Distances::kInterpolated, 1e-9, 6);
+  EXPECT_EQ(other.report.distances.source, Distances::kInterpolated);
+  EXPECT_EQ(other.report.distances.vertices,
+            make_sample<kDim>(Shape::kCorner, 6, 0.2).mesh.num_vertices());
+  EXPECT_GT(other.report.distances.phi_error, 0);
+  EXPECT_LT(other.report.distances.phi_error, 0.02);
+  const double change = mean_squared_difference(sample.mesh, other.weights, exact.weights);
+  EXPECT_GT(change, 0);
+  EXPECT_LT(change, 3e-6);
+  const auto judgement = judge(sample.cage, sample.mesh, other.weights);
+  EXPECT_LT(judgement.partition_error, 1e-12);
+  EXPECT_LT(judgement.reproduction_error, 1e-12);
+  EXPECT_GE(judgement.min_weight, 0);
+}
+
+TYPED_TEST(SetUpTest, LeftToItselfItKeepsTheTolerance) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const auto exact = solve_with<kDim>(Distances::kExact, 1e-9, 2);
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    const auto weights = solve_with<kDim>(Distances::kAuto, tolerance, 2).weights;
+    EXPECT_LT(mean_squared_difference(sample.mesh, weights, exact.weights), 2 * tolerance);
+  }
+}
+
+TYPED_TEST(SetUpTest, OtherMethodsAreExactUnlessTold) {
+  constexpr int kDim = TypeParam::value;
+  const auto source = [](Distances distances) {
+    return solve_with<kDim>(distances, 0, 4, Method::kLbc2014).report.distances.source;
+  };
+  EXPECT_EQ(source(Distances::kAuto), Distances::kExact);
+  EXPECT_EQ(source(Distances::kInterpolated), Distances::kInterpolated);
+}
+
+TYPED_TEST(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  SolverOptions options;
+  options.tolerance = 1e-4;
+  options.distances = Distances::kInterpolated;
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
+  EXPECT_THROW(LbcSolver<kDim>(sample.cage, sample.mesh, options), OptionError);
+  const CoarseMesher<kDim> fails = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+    throw InputError("too few");
+  };
+  const auto solution = solve(sample.cage, sample.mesh, options, fails);
+  EXPECT_EQ(solution.report.distances.source, Distances::kExact);
+  options.distances = Distances::kExact;
+  EXPECT_TRUE(solve(sample.cage, sample.mesh, options).weights == solution.weights);
+}
+
+}  // namespace
+}  // namespace flbc::testing
