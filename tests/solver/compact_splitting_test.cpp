@@ -2,6 +2,7 @@
 // The compact form of the splitting on the weights against the textbook solver of problem (2),
 // iterate by iterate, and what it must keep beyond that.
 #include "solver/splitting/compact_splitting.h"
+#include "solver/splitting/half_then_single.h"
 
 #include <cmath>
 #include <type_traits>
@@ -200,6 +201,26 @@ TYPED_TEST(CompactSplittingTest, ResumesToTheBit) {
     expect_to_resume<float, float>(c);
     expect_to_resume<double, double>(c);
   }
+}
+
+TYPED_TEST(CompactSplittingTest, GoesOnInSinglePrecisionWhereHalfIsNotEnough) {
+  constexpr int kDim = TypeParam::value;
+  const auto c = make_case<kDim>(Shape::kCorner);
+  CompactSplitting<double, double, kDim> exact(c.problem, c.metric, c.penalty, 1.9);
+  CompactSplitting<float, Half, kDim> half(c.problem, c.metric, c.penalty, 1.9);
+  compact::HalfThenSingle<kDim> both(c.problem, c.metric, c.penalty, 1.9, LinearSolver::kDirect,
+                                     nullptr);
+  constexpr int kInHalf = compact::HalfThenSingle<kDim>::kIterationsInHalf;
+  exact.start_from_harmonic(8);
+  half.start_from_harmonic(8);
+  both.start_from_harmonic(8);
+  iterate(half, kInHalf);
+  iterate(both, kInHalf);
+  EXPECT_EQ(both.weights(), half.weights());
+  iterate(both, 2000);
+  iterate(exact, kInHalf + 2000);
+  EXPECT_LT(squared_error(c.problem, both.weights(), exact.weights()), 1e-10);
+  EXPECT_NE(both.weights(), half.weights());
 }
 
 TYPED_TEST(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {

@@ -35,7 +35,7 @@ enum class NonNegative {
 enum class Precision {
   kAuto,    //!< kHalf where the tolerance allows, for Method::kValue; else kSingle
   kHalf,    //!< Method::kValue only: duals of cells in half precision, all else and all arithmetic in
-            //!< single; kSingle on meshes of less than 10,000 cells
+            //!< single; kSingle on meshes of less than 10,000 cells, and from iteration 500 on
   kSingle,  //!< float
   kDouble   //!< double
 };

@@ -195,6 +195,11 @@ void encode(const Scalar* from, Stored* to, std::size_t count) {
   }
 }
 
+template <class Scalar, class Stored>
+void decode(const Stored* from, Scalar* to, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += 8) store_pack<8>(to + i, load_stored<8>(from + i));
+}
+
 template <class Scalar, class Stored, int Dim>
 constexpr Kernel<Scalar, Stored, Dim> kKernel{z_step<Scalar, Stored, Dim, false>,
                                               z_step<Scalar, Stored, Dim, true>,
@@ -206,7 +211,8 @@ constexpr Kernel<Scalar, Stored, Dim> kKernel{z_step<Scalar, Stored, Dim, false>
                                               start_cell_dual<Scalar, Stored, Dim>,
                                               flux<Scalar, Stored, Dim>,
                                               balance<Scalar, Stored, Dim>,
-                                              encode<Scalar, Stored>};
+                                              encode<Scalar, Stored>,
+                                              decode<Scalar, Stored>};
 
 }  // namespace
 }  // namespace flbc::compact::FLBC_ISA

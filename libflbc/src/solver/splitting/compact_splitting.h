@@ -75,6 +75,10 @@ class CompactSplitting {
   void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
                         const WeightMatrix& vertex_dual);
 
+  //! Goes on where another one of the same problem and metric is, under its penalty.
+  template <class OtherStored>
+  void go_on_from(const CompactSplitting<Scalar, OtherStored, Dim>& other);
+
   Step iterate();
 
   //! The same, for half as much again, and what the constraints lacked: z = grad w before the
@@ -111,6 +115,8 @@ class CompactSplitting {
   double state_scalars_per_cell() const;
 
  private:
+  template <class, class, int>
+  friend class CompactSplitting;
   using State = Arrays<Scalar, Stored, Dim>;
   using SliceLoop = void (*)(const State&, Columns);
   using RowLoop = RowSums (*)(const State&, std::int32_t, std::int32_t);

@@ -134,6 +134,25 @@ void CompactSplitting<Scalar, Stored, Dim>::resume() {
 }
 
 template <class Scalar, class Stored, int Dim>
+template <class OtherStored>
+void CompactSplitting<Scalar, Stored, Dim>::go_on_from(
+    const CompactSplitting<Scalar, OtherStored, Dim>& other) {
+  penalty_ = other.penalty_;
+  const auto copy = [](const AlignedArray<Scalar>& from, AlignedArray<Scalar>& to) {
+    std::copy_n(from.data(), from.size(), to.data());
+  };
+  copy(other.extrapolated_, extrapolated_);
+  copy(other.relaxed_, relaxed_);
+  copy(other.vertex_dual_, vertex_dual_);
+  copy(other.residual_, residual_);
+  AlignedArray<Scalar> rows(Dim * stride_);
+  for (std::size_t k = 0; k < cell_dual_.size(); k += rows.size()) {
+    other.kernel_.decode(other.cell_dual_.data() + k, rows.data(), rows.size());
+    kernel_.encode(rows.data(), cell_dual_.data() + k, rows.size());
+  }
+}
+
+template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::finish() {
   if (stored_extrapolated_.size() == 0) return;
   for (std::size_t v = 0; v < data_.row_of.size(); ++v) {
@@ -156,6 +175,15 @@ FLBC_INSTANTIATE(float, float, 2)
 FLBC_INSTANTIATE(float, float, 3)
 FLBC_INSTANTIATE(double, double, 2)
 FLBC_INSTANTIATE(double, double, 3)
+#undef FLBC_INSTANTIATE
+
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template void CompactSplitting<float, float, Dim>::go_on_from(                              \
+      const CompactSplitting<float, Half, Dim>&);                                             \
+  template void CompactSplitting<float, Half, Dim>::go_on_from(                               \
+      const CompactSplitting<float, float, Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
 
 }  // namespace flbc::compact

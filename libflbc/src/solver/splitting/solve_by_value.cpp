@@ -9,12 +9,10 @@
 #include "solver/iterative_method.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/error_estimate.h"
+#include "solver/splitting/half_then_single.h"
 
 namespace flbc {
 namespace {
-
-template <class Scalar, class Stored, int Dim>
-using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
 // The penalty grows to no more than this: what is balanced are lengths of all that moves, and where
 // the start is nearly right everywhere, as on round cages, that takes the penalty out of the range
@@ -25,8 +23,8 @@ double largest_penalty(const LbcProblem<Dim>& problem) {
 }
 
 //! \param measure  of the domain
-template <class Scalar, class Stored, int Dim>
-void iterate(Splitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& problem,
+template <class Splitting, int Dim>
+void iterate(Splitting& splitting, const LbcProblem<Dim>& problem,
              double measure, const SolverOptions& options, bool adaptive, bool warm,
              GapCriterion& gap, SolveReport& report) {
   constexpr double kBalance = 0.3;
@@ -39,7 +37,7 @@ void iterate(Splitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& p
   const double residual_scale = size * size / (n * measure);
   splitting::ErrorEstimate estimate(warm, options.tolerance);
   auto history = splitting.history();
-  const auto read = [&](Index row, Scalar* weights) { splitting.read_row(row, weights); };
+  const auto read = [&](Index row, auto* weights) { splitting.read_row(row, weights); };
   history(0, read);
   const auto step_at = [&](int iteration) {
     const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
@@ -93,8 +91,8 @@ double choose_penalty(const LbcProblem<Dim>& problem, const SolverOptions& optio
   return bounding_box_diagonal(problem.cage.points) / 40;
 }
 
-template <class Scalar, class Stored, int Dim>
-void choose_start(Splitting<Scalar, Stored, Dim>& splitting, const StateStorage* storage,
+template <class Splitting, int Dim>
+void choose_start(Splitting& splitting, const StateStorage* storage,
                   const WarmStart<Dim>& warm_start) {
   constexpr int kRichardsonSteps = 8;
   if (resumes(storage)) {
@@ -108,9 +106,8 @@ void choose_start(Splitting<Scalar, Stored, Dim>& splitting, const StateStorage*
   }
 }
 
-template <class Scalar, class Stored, int Dim>
-MeshState<Dim> keep_state(Splitting<Scalar, Stored, Dim>& splitting,
-                          const LbcProblem<Dim>& problem) {
+template <class Splitting, int Dim>
+MeshState<Dim> keep_state(Splitting& splitting, const LbcProblem<Dim>& problem) {
   MeshState<Dim> state;
   state.penalty = splitting.penalty();
   state.weights = splitting.weights();
@@ -119,13 +116,13 @@ MeshState<Dim> keep_state(Splitting<Scalar, Stored, Dim>& splitting,
   return state;
 }
 
-template <class Scalar, class Stored, int Dim>
+template <class Splitting, int Dim>
 MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
                    SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   const auto metric =
       splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
-  auto splitting = std::make_shared<Splitting<Scalar, Stored, Dim>>(
+  auto splitting = std::make_shared<Splitting>(
       problem, metric, choose_penalty(problem, options, storage, warm_start), options.relaxation,
       linear_solver_for(problem, options), storage);
   choose_start(*splitting, storage, warm_start);
@@ -151,13 +148,16 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 template <int Dim>
 MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions& options,
                             SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+  using Double = compact::CompactSplitting<double, double, Dim>;
+  using Single = compact::CompactSplitting<float, float, Dim>;
+  using Half = compact::HalfThenSingle<Dim>;
   if (options.precision == Precision::kDouble) {
-    return solve<double, double>(problem, options, report, storage, warm_start);
+    return solve<Double>(problem, options, report, storage, warm_start);
   }
   if (takes_half(problem, options, storage)) {
-    return solve<float, compact::Half>(problem, options, report, storage, warm_start);
+    return solve<Half>(problem, options, report, storage, warm_start);
   }
-  return solve<float, float>(problem, options, report, storage, warm_start);
+  return solve<Single>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_by_value(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
