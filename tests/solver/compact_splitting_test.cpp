@@ -2,7 +2,6 @@
 // The compact form of the splitting on the weights against the textbook solver of problem (2),
 // iterate by iterate, and what it must keep beyond that.
 #include "solver/splitting/compact_splitting.h"
-#include "solver/splitting/half_then_single.h"
 
 #include <cmath>
 #include <type_traits>
@@ -12,6 +11,7 @@
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/quality.h"
+#include "solver/splitting/half_then_single.h"
 #include "solver/state_storage.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
