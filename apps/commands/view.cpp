@@ -17,6 +17,7 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
 #include "poses/poses.h"
+#include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
 #include "view/influences.h"
 #include "view/model_page.h"
@@ -34,6 +35,9 @@ struct ViewArguments {
   Index max_influences = view::kMostInfluences;
   std::string picture;
   std::string output;
+  std::vector<std::string> served;  // a cage and perhaps a model
+  Index vertices = 0;
+  int port = 0;
   bool quiet = false;
 };
 
@@ -49,6 +53,12 @@ std::string media_type_of(const std::string& path) {
 }
 
 void check_arguments(const ViewArguments& arguments) {
+  for (const auto& [name, value] : {std::pair("MODEL", &arguments.model),
+                                    {"--weights", &arguments.weights},
+                                    {"--cage", &arguments.cage},
+                                    {"--output", &arguments.output}}) {
+    if (value->empty()) throw OptionError(std::string(name) + " is required, or --serve");
+  }
   const double rate = arguments.frames_per_second;
   if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
     throw OptionError("--fps must be from 0.001 to 1000000");
@@ -145,6 +155,26 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   }
 }
 
+void serve(const ViewArguments& arguments) {
+  const auto& served = arguments.served;
+  serve_page({served.front(), served.size() > 1 ? served[1] : "", arguments.vertices,
+              arguments.port, arguments.quiet});
+}
+
+void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
+  auto* serve = command.add_option(
+      "--serve", a.served,
+      "compute weights and show them in a page on this machine, in which the cage can also be "
+      "reshaped at rest; without MODEL the mesh of the interior");
+  serve->expected(1, 2)->type_name("CAGE [MODEL]")->excludes(output);
+  command.add_option("--vertices", a.vertices, "of --serve: number of mesh vertices wanted (2000)")
+      ->check(refuse_vertex_count)
+      ->needs(serve);
+  command.add_option("--port", a.port, "of --serve: where to listen (any that is free)")
+      ->check(CLI::Range(0, 65535))
+      ->needs(serve);
+}
+
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_status) {
@@ -159,13 +189,11 @@ void add_view_command(CLI::App& app, int& exit_status) {
       ->add_option(
           "MODEL", a.model,
           "model (.obj .off .ply .stl .om), or mesh of the interior, of which the boundary "
-          "is shown")
-      ->required();
+          "is shown");
   command
       ->add_option("--weights", a.weights,
-                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
-      ->required();
-  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
+                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy");
+  command->add_option("--cage", a.cage, "the cage they were computed for");
   auto* poses = command->add_option(
       "--pose", a.poses, "the cage in another place; several, or a pattern as pose_%d.obj");
   command
@@ -180,9 +208,12 @@ void add_view_command(CLI::App& app, int& exit_status) {
                       "most influences per point, up to 16 (16)");
   command->add_option("--texture", a.picture,
                       "picture for a model with texture coordinates, .png or .jpg");
-  command->add_option("-o,--output", a.output, "the page, .html")->required();
+  auto* output = command->add_option("-o,--output", a.output, "the page, .html");
+  add_serving(*command, a, output);
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->callback([arguments, &exit_status] {
+    exit_status = kDone;
+    if (!arguments->served.empty()) return serve(*arguments);
     check_arguments(*arguments);
     const auto files = find_cages(arguments->poses);
     check_files(*arguments, files);
@@ -191,7 +222,6 @@ void add_view_command(CLI::App& app, int& exit_status) {
     } else {
       write_page<3>(*arguments, files);
     }
-    exit_status = kDone;
   });
 }
 

@@ -93,6 +93,8 @@ Image draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh, const Wei
   }
   // Seen from where most slices are seen well, whatever the control point.
   const ObliqueView usual = view_by_angles(kUsualAzimuth, kUsualElevation);
+  auto small = options;
+  small.isolines = options.isolines / 2;  // more would hide the colours
   const auto sheet = plan_sheet(bounding_box(usual.project(cage.points)), cage.size(), options);
   Canvas canvas = new_canvas(sheet.width, sheet.height, options);
   for (Index i = 0; i < cage.size(); ++i) {
@@ -102,7 +104,7 @@ Image draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh, const Wei
     const ObliqueView view = choose_view(cage, slices.front().plane, i);
     const PixelMap map(bounding_box(view.project(cage.points)), sheet.frames[i]);
     paint_slices(canvas,
-                 {cage, slices, view, map, std::max(0.4, 0.5 * pixel_unit(options)), options}, i);
+                 {cage, slices, view, map, std::max(0.4, 0.5 * pixel_unit(options)), small}, i);
     paint_symbol(canvas, sheet.label(i), i, sheet.label_height);
   }
   return canvas.resolve();

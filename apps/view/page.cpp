@@ -151,12 +151,17 @@ std::string pack_palette() {
 // Where the weights put the points of the resting cage, seen from the middle: single precision then
 // has digits enough wherever the model is.
 template <int Dim>
+std::string pack_offsets(const SparseWeights& weights, const PointList<Dim>& rest,
+                         const Vector<Dim>& center) {
+  const PointList<Dim> offsets = deform<Dim>(weights, rest).colwise() - center;
+  return pack<float>(offsets.reshaped());
+}
+
+template <int Dim>
 Json pack_points(const SparseWeights& weights, const PointList<Dim>& rest) {
-  const PointList<Dim> base = deform<Dim>(weights, rest);
-  const Vector<Dim> center = (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff()) / 2;
-  const PointList<Dim> offsets = base.colwise() - center;
+  const Vector<Dim> center = page_center<Dim>(rest);
   return {{"center", std::vector<double>(center.begin(), center.end())},
-          {"offsets", pack<float>(offsets.reshaped())}};
+          {"offsets", pack_offsets<Dim>(weights, rest, center)}};
 }
 
 template <int Dim>
@@ -173,6 +178,7 @@ Json to_json(const PageContent<Dim>& content) {
             {"weights", pack_weights(weights)},
             {"palette", pack_palette()},
             {"picture", content.picture}};
+  if (content.is_served) json["served"] = {{"movesAlong", content.moves_along}};
   json["surface"] = pack_surface(content.surface, content.points.cols());
   json["poses"] = Json::array();
   for (const auto& pose : content.poses) {
@@ -221,6 +227,16 @@ std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<In
 }
 
 template <int Dim>
+std::string make_update(const PointList<Dim>& rest, const WeightMatrix& weights,
+                        const Vector<Dim>& center) {
+  const SparseWeights sparse(weights);
+  return Json{{"rest", pack<double>(rest.reshaped())},
+              {"offsets", pack_offsets<Dim>(sparse, rest, center)},
+              {"weights", pack_weights(sparse)}}
+      .dump();
+}
+
+template <int Dim>
 std::string make_page(const PageContent<Dim>& content) {
   check(content);
   const auto data = to_script(to_json(content));
@@ -233,6 +249,8 @@ std::string make_page(const PageContent<Dim>& content) {
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
                                                            const FacetList<Dim>&);                 \
+  template std::string make_update(const PointList<Dim>&, const WeightMatrix&,                     \
+                                   const Vector<Dim>&);                                            \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

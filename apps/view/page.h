@@ -50,12 +50,27 @@ struct PageContent {
   WeightMatrix weights{};   //!< n x P, at most kMostInfluences in every column
   std::vector<ShownPose<Dim>> poses{};
   std::string picture{};  //!< data URI of a texture, or empty
+  bool is_served = false;     //!< a program answers with weights for other cages
+  bool moves_along = false;   //!< if so, the points move with the resting cage
 };
 
 //! The edges of a cage's polygons; of its facets if there are none.
 template <int Dim>
 std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
                                                 const FacetList<Dim>& facets);
+
+//! From where the page sees the model's points.
+template <int Dim>
+Vector<Dim> page_center(const PointList<Dim>& rest) {
+  return (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff()) / 2;
+}
+
+//! What a served page takes in place of its weights when the resting cage has changed, as JSON.
+//! \param rest  Dim x n \param weights  n x P, at most kMostInfluences in every column
+//! \param center  page_center() of the cage that the page was made with
+template <int Dim>
+std::string make_update(const PointList<Dim>& rest, const WeightMatrix& weights,
+                        const Vector<Dim>& center);
 
 //! The page, which needs no other file and no network.
 //! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535

@@ -120,6 +120,15 @@ def meaningful(curve):
     return curve
 
 
+def least_times(curve):
+    """The least time of all runs with at least as many iterations: every point is a run of its own,
+    and one that went further in less time shows how soon the others could have been there."""
+    times = [after_setup(row) for row in curve]
+    for k in range(len(times) - 2, -1, -1):
+        times[k] = min(times[k], times[k + 1])
+    return times
+
+
 def convergence(plt, rows, comments, path):
     models = results.in_order(row["model"] for row in rows)
     # The legend below all curves: there is no corner that none of them passes.
@@ -132,7 +141,7 @@ def convergence(plt, rows, comments, path):
         for name, label, colour, marker in results.METHODS:
             curve = meaningful([row for row in mine if row["method"] == name])
             if curve:
-                axis.loglog([after_setup(r) for r in curve],
+                axis.loglog(least_times(curve),
                             [results.value(r, "error") for r in curve],
                             label=label, color=colour, marker=marker)
         axis.set_ylim(bottom=max(axis.get_ylim()[0], SMALLEST_ERROR))

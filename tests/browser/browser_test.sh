@@ -61,3 +61,4 @@ awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
 "$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj -q -o square.html
 
 node "$here/page_test.mjs" "$browser" "$flbc" "$meshes" "$work"
+node "$here/serve_test.mjs" "$browser" "$flbc" "$meshes"

@@ -15,6 +15,7 @@ const { edgesOf, sumNormals } = await load("surface_normals");
 const { rotate, scale, translate } = await load("transforms");
 const { pick, pointsInRectangle } = await load("picking");
 const { ToolDrag } = await load("actions");
+const { Reshaper } = await load("serving");
 
 // The corners of a cube with edges of length 2.
 const kCube = Float64Array.from({ length: 24 }, (_, k) => (k % 3 === 0 ? Math.floor(k / 3) & 1
@@ -215,4 +216,44 @@ test("indices are read in the width they are written", () => {
     const packed = { bytes: numbers.BYTES_PER_ELEMENT, data: pack(numbers) };
     assert.deepEqual(decodeIndices(packed), numbers);
   }
+});
+
+test("of a resting cage the last shape is solved, one at a time, and refused shapes go back", async () => {
+  const encode = (numbers) => Buffer.from(numbers.buffer).toString("base64");
+  const weights = { counts: encode(Uint8Array.of(1)), values: encode(Float32Array.of(1)),
+                    controlPoints: { bytes: 1, data: encode(Uint8Array.of(0)) } };
+  const editor = new Editor(Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), 2);
+  const viewer = { editor, content: { dim: 2, rest: editor.rest, served: { movesAlong: false } },
+                   deformer: { rest: editor.rest }, changed: () => {} };
+  const asked = [];
+  let atOnce = 0;
+  const reshaper = new Reshaper(viewer, async (request) => {
+    assert.equal(++atOnce, 1);
+    await new Promise((done) => setTimeout(done, 5));
+    --atOnce;
+    asked.push(request.refine ? "refine" : request.points[0]);
+    if (request.points?.[0] > 5) return { refused: "too far" };
+    const rest = Float64Array.from(request.points ?? reshaper.sent.filter((_, k) => k % 3 < 2));
+    return { converged: asked.at(-1) === "refine", residual: 1,
+             update: { rest: encode(rest), offsets: encode(Float32Array.from(rest)), weights } };
+  });
+  editor.onChange = () => reshaper.edited();
+  const settled = async () => {
+    do await new Promise((done) => setTimeout(done, 20)); while (reshaper.isBusy);
+  };
+
+  editor.place(0, [0.5, 0, 0]);
+  assert.deepEqual(asked, [], "posing asks for nothing");
+  editor.undo();
+  reshaper.toggle();
+  for (const x of [1, 2, 3]) editor.change([0], (start, listed, result) => { result[0] = x; });
+  editor.end();
+  await settled();
+  assert.deepEqual(asked, [1, 3, "refine"], "shapes in between are left out");
+  assert.equal(viewer.deformer.rest[0], 3);
+  editor.place(0, [7, 0, 0]);
+  await settled();
+  assert.equal(editor.points[0], 3);
+  reshaper.toggle();
+  near(editor.points, [3, 0, 0, 1, 0, 0, 0, 1, 0]);
 });

@@ -66,6 +66,12 @@ function decodePoses(packed, dim, rest) {
   return poses;
 }
 
+// What takes the place of rest, base and weights when the resting cage has changed.
+export function decodeUpdate(json, dim) {
+  return { rest: inSpace(decodeDoubles(json.rest), dim),
+           base: inSpace(decodeFloats(json.offsets), dim), weights: decodeWeights(json.weights) };
+}
+
 export function decodeContent(json) {
   const { dim } = json;
   const center = [0, 0, 0];
@@ -80,5 +86,6 @@ export function decodeContent(json) {
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
     surface: decodeSurface(json.surface, base.length / 3),
     poses: decodePoses(json.poses, dim, rest),
+    served: json.served ?? null,
   };
 }

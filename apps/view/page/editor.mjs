@@ -29,6 +29,14 @@ export class Editor {
   get canUndo() { return this.done.length > 0; }
   get canRedo() { return this.undone.length > 0; }
 
+  // Takes the points there, with nothing to be undone.
+  restart(points) {
+    this.start = null;
+    this.done = [];
+    this.undone = [];
+    this.setPoints(points);
+  }
+
   select(indices) {
     this.selection = new Set([...indices].filter((i) => i >= 0 && i < this.size));
     this.onChange();

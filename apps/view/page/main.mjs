@@ -3,8 +3,9 @@
 import { decodeContent } from "./data.mjs";
 import { Interaction } from "./interaction.mjs";
 import { bindKeys } from "./keyboard.mjs";
-import { bindPanel } from "./panel.mjs";
+import { bindPanel, bindReshaping, tell } from "./panel.mjs";
 import { pointsOf, poseOf } from "./saving.mjs";
+import { connect } from "./serving.mjs";
 import { pointAt } from "./vectors.mjs";
 import { Viewer } from "./viewer.mjs";
 
@@ -34,6 +35,9 @@ function hookOf(viewer) {
       return { x: box.left + x, y: box.top + y };
     },
     milliseconds: () => viewer.milliseconds,
+    reshapes: () => ({ isBusy: viewer.reshaper.isBusy, isOn: viewer.reshaper.isOn,
+                       milliseconds: viewer.reshaper.milliseconds,
+                       solveMilliseconds: viewer.reshaper.solveMilliseconds }),
   };
 }
 
@@ -47,6 +51,7 @@ function start() {
     return apologize(error);
   }
   const commands = bindPanel(viewer);
+  if (viewer.content.served) bindReshaping(connect(viewer, tell));
   const interaction = new Interaction(viewer);
   bindKeys(viewer, commands, interaction);
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());

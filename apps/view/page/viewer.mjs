@@ -77,7 +77,7 @@ export class Viewer {
     if (!this.isStale) return;
     this.isStale = false;
     const { editor, deformer, renderer } = this;
-    deformer.move(editor.points);
+    deformer.move(this.reshaper?.holdsModel ? deformer.rest : editor.points);
     renderer.setModel(deformer.points);
     const { values, legend } = colorValues(this.coloring, deformer, editor.selection);
     if (values) renderer.setValues(values);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reshaping the resting cage, where a program computes the weights anew (flbc view --serve). The
+// cage follows the pointer at once; what is solved is always the latest shape, one at a time.
+import { decodeUpdate } from "./data.mjs";
+
+function areSame(a, b) {
+  return a.every((value, k) => value === b[k]);
+}
+
+export class Reshaper {
+  // \param ask  sends a request and gives the reply, both as objects
+  constructor(viewer, ask) {
+    this.viewer = viewer;
+    this.ask = ask;
+    this.isOn = false;
+    this.isBusy = false;
+    this.solved = viewer.content.rest;     // the shape that the weights belong to
+    this.converged = viewer.content.rest;  // the last one whose solve was ended
+    this.sent = viewer.content.rest;
+    this.residual = 1;
+    this.isRefused = false;
+    this.milliseconds = [];                // of every shape, as the page sees it
+    this.solveMilliseconds = [];           // as the program does
+    this.onState = () => {};
+    this.onRefusal = () => {};
+  }
+
+  // Between posing the cage and reshaping it at rest. The pose is kept as steps from rest.
+  toggle() {
+    const { editor, deformer } = this.viewer;
+    if (this.isBusy) return;
+    if (this.isOn) {
+      editor.restart(Float64Array.from(deformer.rest, (place, k) => place + this.steps[k]));
+    } else {
+      this.steps = editor.points.map((place, k) => place - deformer.rest[k]);
+      editor.restart(deformer.rest.slice());
+    }
+    this.isOn = !this.isOn;
+    this.viewer.changed();
+    this.onState();
+  }
+
+  // Whether points are to stay where they rest while the cage is moved.
+  get holdsModel() {
+    return this.isOn && !this.viewer.content.served.movesAlong;
+  }
+
+  // To be called whenever the cage may have been moved.
+  async edited() {
+    const { editor } = this.viewer;
+    if (!this.isOn || this.isBusy) return;
+    if (this.isRefused && !editor.start && areSame(editor.points, this.sent)) {
+      return this.goBack(this.solved);
+    }
+    if (areSame(editor.points, this.sent)) return;
+    this.isBusy = true;
+    this.onState();
+    while (!areSame(editor.points, this.sent)) await this.solve();
+    this.isBusy = false;
+    this.onState();
+  }
+
+  // The present shape, and on until it has converged or there is another one.
+  async solve() {
+    const { editor, content } = this.viewer;
+    this.sent = editor.points.slice();
+    const begin = performance.now();
+    let reply = await this.ask({ points: [...this.sent].filter((_, k) => k % 3 < content.dim) });
+    this.milliseconds.push(performance.now() - begin);
+    this.solveMilliseconds.push(reply.milliseconds);
+    while (this.take(reply) && !reply.converged && areSame(editor.points, this.sent)) {
+      reply = await this.ask({ refine: true });
+    }
+    if (reply.refused && areSame(editor.points, this.sent) && !editor.start) this.goBack(this.solved);
+  }
+
+  // \return whether the shape was accepted
+  take(reply) {
+    this.isRefused = Boolean(reply.refused);
+    if (reply.refused) {
+      this.onRefusal(reply.refused);
+      return false;
+    }
+    const { viewer } = this;
+    const { rest, base, weights } = decodeUpdate(reply.update, viewer.content.dim);
+    viewer.content.rest = rest;
+    viewer.editor.rest = rest;
+    Object.assign(viewer.deformer, { rest, base, weights });
+    this.solved = rest;
+    if (reply.converged) this.converged = rest;
+    this.residual = reply.residual;
+    viewer.changed();
+    this.onState();
+    return true;
+  }
+
+  // To the last shape that was solved to the end.
+  cancel() {
+    this.goBack(this.converged);
+  }
+
+  goBack(points) {
+    const { editor } = this.viewer;
+    if (!this.isOn) return;
+    editor.begin();
+    editor.setPoints(points);
+    editor.end();
+  }
+}
+
+async function post(request) {
+  try {
+    const reply = await fetch("reshape", { method: "POST", body: JSON.stringify(request) });
+    return await reply.json();
+  } catch {
+    return { refused: "The program that computes weights has ended" };
+  }
+}
+
+// Tells the program that the page is there; it ends when no page is any more.
+async function stayInTouch(onEnd) {
+  try {
+    const reader = (await fetch("alive")).body.getReader();
+    while (!(await reader.read()).done);
+  } finally {
+    onEnd();
+  }
+}
+
+// \param tell  shows a line to the user
+export function connect(viewer, tell) {
+  const reshaper = new Reshaper(viewer, post);
+  reshaper.onRefusal = tell;
+  viewer.reshaper = reshaper;
+  viewer.editor.onChange = () => {
+    viewer.changed();
+    reshaper.edited();
+  };
+  stayInTouch(() => tell("The program that computes weights has ended"));
+  return reshaper;
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc view --serve: reshaping a resting cage with the mouse. serve_test.mjs BROWSER PROGRAM MESHES
+// With a number of drags and a cage as further arguments it measures them instead.
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { request } from "node:http";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
+import puppeteer from "puppeteer-core";
+
+const [executablePath, program, meshes, drags, measuredCage] = process.argv.slice(2);
+const work = mkdtempSync(join(tmpdir(), "flbc_serve_"));
+
+const browser = await puppeteer.launch({
+  executablePath, protocolTimeout: 240000,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+
+function vertices(text, dim) {
+  return text.split("\n").filter((line) => line.startsWith("v "))
+    .flatMap((line) => line.split(/\s+/).slice(1, dim + 1).map(Number));
+}
+
+function largestDifference(a, b) {
+  assert.equal(a.length, b.length);
+  return a.reduce((most, value, k) => Math.max(most, Math.abs(value - b[k])), 0);
+}
+
+// The program with a page of it.
+class Served {
+  static async start(args) {
+    const served = new Served();
+    served.process = spawn(program, ["view", "--serve", ...args, "-q"]);
+    process.on("exit", () => served.process.kill("SIGKILL"));
+    served.ended = new Promise((done) => served.process.on("exit", (code) => done(code)));
+    served.address = await new Promise((done, fail) => {
+      let text = "";
+      served.process.stdout.on("data", (data) => {
+        text += data;
+        if (text.includes("\n")) done(text.trim());
+      });
+      served.process.stderr.on("data", (data) => fail(new Error(String(data))));
+    });
+    return served;
+  }
+
+  async open() {
+    this.failures = [];
+    this.tab = await browser.newPage();
+    this.tab.on("pageerror", (error) => this.failures.push(error.message));
+    this.tab.on("console", (line) => {
+      if (line.type() === "error") this.failures.push(line.text());
+    });
+    await this.tab.setViewport({ width: 1200, height: 800 });
+    await this.tab.goto(this.address);
+    await this.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+  }
+
+  ask(action, ...values) {
+    return this.tab.evaluate((name, list) => window.flbc[name](...list), action, values);
+  }
+
+  async drag(i, dx, dy, steps = 6) {
+    const { mouse } = this.tab;
+    const spot = await this.ask("spot", i);
+    await mouse.move(spot.x, spot.y);
+    await mouse.down();
+    await mouse.move(spot.x + dx, spot.y + dy, { steps });
+    await mouse.up();
+  }
+
+  async points() {
+    return Object.values(await this.tab.evaluate(() => Array.from(window.flbc.points())));
+  }
+
+  idle() {
+    return this.tab.waitForFunction(() => !window.flbc.reshapes().isBusy, { timeout: 60000 });
+  }
+
+  // Kilobytes in memory.
+  memory() {
+    return Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${this.process.pid}/status`, "utf8"))[1]);
+  }
+}
+
+// The status of a request with headers that a browser would not let a page send.
+function statusOf(address, headers, method = "GET") {
+  return new Promise((done, fail) => {
+    const sent = request(address, { method, headers }, (reply) => {
+      reply.resume();
+      done(reply.statusCode);
+    });
+    sent.on("error", fail);
+    sent.end(method === "POST" ? "{}" : undefined);
+  });
+}
+
+async function testRefusals(served) {
+  const url = new URL(served.address);
+  assert.equal(url.hostname, "127.0.0.1");
+  assert.match(url.pathname, /^\/[0-9a-f]{32}\/$/);
+  assert.equal(await statusOf(served.address, {}), 200);
+  assert.equal(await statusOf(served.address, { Host: "evil.example" }), 403);
+  assert.equal(await statusOf(served.address, { Host: `evil.example:${url.port}` }), 403);
+  assert.equal(await statusOf(`${served.address}reshape`, { Origin: "http://evil.example" }, "POST"), 403);
+  assert.equal(await statusOf(`${served.address}reshape`, { Origin: "null" }, "POST"), 403);
+  assert.equal(await statusOf(`http://127.0.0.1:${url.port}/`, {}), 404);
+  assert.equal(await statusOf(`http://127.0.0.1:${url.port}/${"0".repeat(32)}/`, {}), 404);
+}
+
+async function grabbable(served, count) {
+  for (let i = 0; i < count; ++i) {
+    const spot = await served.ask("spot", i);
+    await served.tab.mouse.click(spot.x, spot.y);
+    if ((await served.ask("selection")).join() === String(i)) return i;
+  }
+  return assert.fail("no control point can be clicked");
+}
+
+// After a drag of the resting cage the page poses the model as weights for that cage do.
+async function testReshaping(folder, name, dim) {
+  const cage = join(meshes, folder, `${name}_cage.obj`);
+  const model = join(meshes, folder, `${name}_model.obj`);
+  const served = await Served.start([cage, model, "--vertices", "800"]);
+  if (dim === 2) await testRefusals(served);
+  await served.open();
+  const rest = vertices(readFileSync(model, "utf8"), dim);
+  const size = Math.max(...rest) - Math.min(...rest);
+  assert.ok(largestDifference(await served.points(), rest) < 1e-5 * size);
+  const count = vertices(readFileSync(cage, "utf8"), dim).length / dim;
+  const i = await grabbable(served, count);
+  const before = await served.ask("controlPoint", i);
+
+  await served.tab.click("#reshape");
+  await served.drag(i, 14, -9);
+  await served.idle();
+  const moved = await served.ask("controlPoint", i);
+  assert.ok(largestDifference(moved, before) > 1e-3 * size, "the cage was not reshaped");
+  assert.ok(largestDifference(await served.points(), rest) < 1e-5 * size, "the model moved");
+  const reshaped = join(work, `${name}_reshaped.obj`);
+  writeFileSync(reshaped, await served.ask("pose"));
+  await served.tab.screenshot({ path: join(work, `${name}.png`) });
+
+  // Posed from the reshaped cage, it reproduces affine maps, whatever the weights.
+  await served.tab.click("#reshape");
+  for (let k = 0; k < count; ++k) {
+    const place = await served.ask("controlPoint", k);
+    await served.ask("move", k, place.map((value) => 1.5 * value));
+  }
+  const scaled = (await served.points()).map((value) => value / 1.5);
+  assert.ok(largestDifference(scaled, rest) < 1e-5 * size);
+  await served.ask("undo");
+
+  // A shape that its solver cannot take is refused, and the last one comes back.
+  await served.tab.click("#resetAll");
+  await served.tab.click("#reshape");
+  const kept = await served.ask("controlPoint", i);
+  await served.drag(i, 900, 700, 2);
+  await served.idle();
+  const after = await served.ask("controlPoint", i);
+  assert.ok(largestDifference(after, kept) < 1e-9 * size, "a refused shape stayed");
+  assert.deepEqual(served.failures, []);
+
+  // Loaded again it is where it was; closed, the program ends.
+  await served.tab.reload();
+  await served.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+  assert.ok(largestDifference(await served.ask("controlPoint", i), kept) < 1e-9 * size);
+  await served.tab.close();
+  assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
+}
+
+async function testInterrupt() {
+  const served = await Served.start([join(meshes, "2d", "letter_cage.obj"), "--vertices", "300"]);
+  served.process.kill("SIGINT");
+  assert.equal(await served.ended, 0);
+  assert.throws(() => execFileSync(program, ["view", "--serve", "absent.obj"], { stdio: "pipe" }));
+}
+
+function median(values) {
+  return values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
+}
+
+// Real drags there and back, each followed by its solve.
+async function measure(cage, numDrags) {
+  const served = await Served.start([cage, "--vertices", "2000"]);
+  await served.open();
+  const count = vertices(readFileSync(cage, "utf8"), 2).length / 2;
+  await served.tab.click("#reshape");
+  let early = 0;
+  for (let k = 0; k < numDrags; ++k) {
+    const turn = 2 * Math.PI * k / 12;
+    const i = Math.floor(k / 2) % count;
+    await served.drag(i, (k % 2 ? -1 : 1) * 6 * Math.cos(turn), (k % 2 ? -1 : 1) * 6 * Math.sin(turn), 1);
+    await served.idle();
+    if (k === Math.floor(numDrags / 5)) early = served.memory();
+  }
+  const { milliseconds, solveMilliseconds } = await served.ask("reshapes");
+  console.log(`${numDrags} drags, ${milliseconds.length} solves: median ${median(milliseconds).toFixed(1)} ms in the page, `
+    + `${median(solveMilliseconds).toFixed(1)} ms in the program, longest ${Math.max(...milliseconds).toFixed(0)} ms; memory ${early} kB after a fifth, `
+    + `${served.memory()} kB at the end`);
+  assert.deepEqual(served.failures, []);
+  await served.tab.close();
+  await served.ended;
+}
+
+try {
+  if (drags) {
+    await measure(measuredCage, Number(drags));
+  } else {
+    await testInterrupt();
+    await testReshaping("2d", "figure", 2);
+    await testReshaping("3d", "limb", 3);
+    console.log("resting cages are reshaped");
+  }
+} finally {
+  await browser.close();
+}
