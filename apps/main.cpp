@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   add_convert_command(app, exit_status);
   add_deform_command(app, exit_status);
   add_sparsify_command(app, exit_status);
+  add_transfer_command(app, exit_status);
   add_export_command(app, exit_status);
   add_draw_command(app, exit_status);
   add_plot_command(app, exit_status);

@@ -24,6 +24,7 @@ void add_info_command(CLI::App& app, int& exit_status);
 void add_plot_command(CLI::App& app, int& exit_status);
 void add_run_command(CLI::App& app, int& exit_status);
 void add_sparsify_command(CLI::App& app, int& exit_status);
+void add_transfer_command(CLI::App& app, int& exit_status);
 void add_view_command(CLI::App& app, int& exit_status);
 
 //! Complaint about a number of vertices, for CLI::Option::check(); empty if it is fine.

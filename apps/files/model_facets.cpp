@@ -99,6 +99,22 @@ AnyModelFacets load_model_facets(const std::string& path) {
 }
 
 template <int Dim>
+ModelElements<Dim> load_model_elements(const std::string& path) {
+  const auto soup = io::read_polygons(path);
+  ModelElements<Dim> model{io::to_points<Dim>(soup, path), solid_facets(soup)};
+  if (model.points.cols() == 0) throw InputError(path + ": the model has no vertices");
+  std::vector<bool> is_used(soup.points.size(), false);
+  for (const Index corner : model.corners.reshaped()) is_used[corner] = true;
+  const auto unused = std::count(is_used.begin(), is_used.end(), false);
+  auto element = model.corners.cols();
+  model.corners.conservativeResize(Eigen::NoChange, element + unused);
+  for (std::size_t p = 0; p < is_used.size(); ++p) {
+    if (!is_used[p]) model.corners.col(element++).setConstant(static_cast<Index>(p));
+  }
+  return model;
+}
+
+template <int Dim>
 void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
   io::PolygonSoup soup;
   for (Index i = 0; i < cage.size(); ++i) {
@@ -124,6 +140,8 @@ void require_cage_writable(const std::string& path) {
   require_writable(path, is_known ? extension.c_str() : "obj");
 }
 
+template ModelElements<2> load_model_elements(const std::string&);
+template ModelElements<3> load_model_elements(const std::string&);
 template void write_cage(const std::string&, const Cage<2>&, double);
 template void write_cage(const std::string&, const Cage<3>&, double);
 template void require_cage_writable<2>(const std::string&);

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "flbc/io/cage_io.h"
+#include "flbc/transfer_weights.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -25,6 +26,11 @@ using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 //! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. \throws
 //! IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
+
+//! A model as its triangles and segments, and points that belong to none of them.
+//! \throws IoError, InputError
+template <int Dim>
+ModelElements<Dim> load_model_elements(const std::string& path);
 
 //! Writes a sound cage: .obj, in 3D also .off and .ply. \param height  2D: the z of all points
 template <int Dim>

@@ -48,6 +48,7 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "flbc/tetrahedralize.h"
+#include "flbc/transfer_weights.h"
 #include "flbc/triangulate.h"
 #include "flbc/types.h"
 #include "flbc/version.h"

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc transfer: weights for another version of a model.
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "files/held_signals.h"
+#include "files/load.h"
+#include "files/model_facets.h"
+#include "flbc/bounding_box.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/names.h"
+#include "flbc/quality.h"
+#include "solve/cage_solver.h"
+#include "solve/weights_of_model.h"
+
+namespace flbc::app {
+namespace {
+
+struct TransferArguments {
+  std::string weights;
+  std::string cage;
+  std::string from;
+  std::string domain;
+  std::string to;
+  std::string output;
+  double limit = 0.02;  // of the size of the model
+  OutsidePoints outside = OutsidePoints::kFail;
+  bool quiet = false;
+};
+
+void check_arguments(const TransferArguments& arguments) {
+  if (arguments.from.empty() == arguments.domain.empty()) {
+    throw OptionError("say whose the weights are: a model's by --from, or a mesh's by --domain");
+  }
+  if (!(arguments.limit >= 0 && arguments.limit <= 1)) {
+    throw OptionError("--limit must be in [0, 1], a part of the model's size");
+  }
+  require_writable(arguments.output, {io::Content::kWeights});
+  require_distinct(
+      {arguments.weights, arguments.cage, arguments.from, arguments.domain, arguments.to},
+      {arguments.output});
+}
+
+// New weights, and how they came about.
+template <int Dim>
+struct Transferred {
+  WeightMatrix weights;
+  PointList<Dim> points;  // where they put the vertices
+  std::string facts;
+};
+
+template <int Dim>
+Transferred<Dim> from_domain(const Cage<Dim>& cage, const WeightMatrix& weights,
+                             const TransferArguments& arguments) {
+  const auto domain = io::read_domain<Dim>(arguments.domain);
+  check_sizes(weights, cage.size(), domain.num_vertices(),
+              {arguments.weights, arguments.cage, arguments.domain});
+  const auto to = load_model<Dim>(arguments.to);
+  const auto placement = naming(
+      arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
+  return {weights_at(cage, domain, weights, placement), placement.points,
+          describe(placement, bounding_box_diagonal(cage.points))};
+}
+
+template <int Dim>
+Transferred<Dim> from_model(const Cage<Dim>& cage, const WeightMatrix& weights,
+                            const TransferArguments& arguments) {
+  const auto from = load_model_elements<Dim>(arguments.from);
+  check_sizes(weights, cage.size(), from.points.cols(),
+              {arguments.weights, arguments.cage, arguments.from});
+  auto to = load_model<Dim>(arguments.to);
+  const double size = bounding_box_diagonal(from.points);
+  Eigen::VectorXd distances;
+  auto transferred = naming(arguments.to, [&] {
+    return transfer_weights(cage.points, from, weights, to, arguments.limit * size, &distances);
+  });
+  std::ostringstream facts;
+  facts << "; at most " << 100 * distances.maxCoeff() / size << " % of the size away from "
+        << arguments.from;
+  return {std::move(transferred), std::move(to), facts.str()};
+}
+
+template <int Dim>
+void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
+  const auto weights = io::read_weights(arguments.weights);
+  const auto result = arguments.domain.empty() ? from_model(cage, weights, arguments)
+                                               : from_domain(cage, weights, arguments);
+  {
+    const HeldSignals held;
+    io::write_weights(arguments.output, result.weights);
+  }
+  if (arguments.quiet) return;
+  const auto quality = measure_quality(cage.points, result.points, result.weights);
+  std::cerr << arguments.output << ": " << result.weights.cols() << " points; minimum weight "
+            << quality.min_weight << ", reproduction error " << quality.max_reproduction_error
+            << result.facts << '\n';
+}
+
+std::string refuse_policy(const std::string& name) {
+  if (value_named<OutsidePoints>(name)) return {};
+  return "'" + name + "' is none of fail|nearest|extend";
+}
+
+}  // namespace
+
+void add_transfer_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<TransferArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("transfer", "Weights for another version of a model");
+  command->footer(
+      "With --domain the weights are those of the mesh of the interior (flbc run keeps them as\n"
+      "domain_weights.npy), and any model inside the cage gets what flbc solve would give it.\n"
+      "With --from they are a model's, and a vertex of the other gets those of the nearest place\n"
+      "on it, changed as little as it takes to reproduce the vertex with weights >= 0.");
+  command->add_option("WEIGHTS", a.weights, "those there are: .mtx, .dmat or .npy")->required();
+  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
+  auto* from = command->add_option("--from", a.from, "the model whose weights they are");
+  auto* domain = command->add_option("--domain", a.domain, "the mesh whose weights they are");
+  domain->excludes(from);
+  command->add_option("--to", a.to, "the model that gets weights")->required();
+  command
+      ->add_option("--limit", a.limit,
+                   "largest distance between the models, as a part of the size (0.02)")
+      ->needs(from);
+  command
+      ->add_option_function<std::string>(
+          "--outside", [&a](const std::string& name) { a.outside = *value_named<OutsidePoints>(name); },
+          "what becomes of vertices outside the cage, as in flbc solve (fail)")
+      ->check(refuse_policy)
+      ->type_name("fail|nearest|extend")
+      ->needs(domain);
+  command->add_option("-o,--output", a.output, "weights: .mtx, .dmat or .npy")->required();
+  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->callback([arguments, &exit_status] {
+    check_arguments(*arguments);
+    std::visit([&](const auto& cage) { transfer(cage, *arguments); }, load_cage(arguments->cage));
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app
