@@ -6,6 +6,7 @@
 
 #include "commands/commands.h"
 #include "commands/exit_status.h"
+#include "files/blender_script.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
@@ -52,7 +53,32 @@ void check_arguments(ExportArguments& arguments) {
   if (arguments.bits == 8) arguments.options.weight_format = WeightFormat::kUnsignedByte;
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
   require_mesh_readable(arguments.model);
-  require_writable(arguments.output, "glb");
+  const auto extension = io::extension_of(arguments.output);
+  const bool is_other = extension == "usda" || extension == "py";
+  require_writable(arguments.output, is_other ? extension.c_str() : "glb");
+  if (extension == "usda") arguments.options.format = gltf::SkinFormat::kUsda;
+  if (extension != "py") return;
+  if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {
+    throw OptionError(arguments.output + ": vertex groups are neither quantized nor animated");
+  }
+}
+
+// Vertex groups of Blender, as a program.
+template <int Dim>
+void write_vertex_groups(const PointList<Dim>& rest, const PointList<Dim>& points,
+                         const WeightMatrix& weights, const ExportArguments& arguments) {
+  const auto few = naming(arguments.model, [&] {
+    return sparsify<Dim>(rest, points, weights, {arguments.options.max_influences});
+  });
+  const auto script = blender_script<Dim>(rest, few);
+  {
+    const HeldSignals held;
+    io::write_file(arguments.output, [&](std::ostream& file) { file << script; });
+  }
+  if (arguments.quiet) return;
+  std::cerr << arguments.output << ": " << rest.cols() << " vertex groups and bones, at most "
+            << count_influences(few).max << " influences per vertex; " << script.size()
+            << " bytes; run it in Blender with the imported model selected\n";
 }
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
@@ -92,7 +118,7 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
     std::cerr << ", " << animation.poses.size() << " poses in " << animation.times.back()
               << " s that move " << skin.moving_joints << " joints";
   }
-  std::cerr << "; " << skin.glb.size() << " bytes";
+  std::cerr << "; " << skin.content.size() << " bytes";
   if (are_reduced || arguments.bits != 0) {
     const auto& error = skin.deformation_error;
     std::cerr << "; deformation error over "
@@ -116,13 +142,16 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(weights, rest.cols(), points.cols(), files);
   check_reproduction(SparseWeights(weights), rest, points, files);
+  if (io::extension_of(arguments.output) == "py") {
+    return write_vertex_groups<Dim>(rest, points, weights, arguments);
+  }
 
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, arguments.options, animation);
   });
   {
     const HeldSignals held;
-    io::write_file(arguments.output, [&](std::ostream& file) { file << skin.glb; });
+    io::write_file(arguments.output, [&](std::ostream& file) { file << skin.content; });
   }
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
@@ -167,7 +196,7 @@ void add_export_command(CLI::App& app, int& exit_status) {
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "most influences per vertex, 8 or 4 (8)");
   command->add_option("--quantize", a.bits, "store weights with 16 or 8 bits (as float)");
-  command->add_option("-o,--output", a.output, "the skin, .glb")->required();
+  command->add_option("-o,--output", a.output, "the skin: .glb, .usda, or .py for vertex groups in Blender")->required();
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);

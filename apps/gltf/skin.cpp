@@ -10,6 +10,7 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/glb_writer.h"
+#include "gltf/usd_writer.h"
 
 namespace flbc::gltf {
 namespace {
@@ -166,7 +167,8 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   scene.name = options.name;
 
   ExportedSkin result;
-  result.glb = encode_glb(scene);
+  result.content =
+      options.format == SkinFormat::kUsda ? encode_usda(scene) : encode_glb(scene);
   result.vertices = static_cast<Index>(surface.sources.size());
   result.triangles = static_cast<Index>(surface.triangles.cols());
   result.joints = static_cast<Index>(control_points.cols());

@@ -16,11 +16,15 @@
 
 namespace flbc::gltf {
 
+//! The file that holds a skin.
+enum class SkinFormat { kGlb, kUsda };
+
 //! How the skin is stored.
 struct SkinOptions {
   Index max_influences = 8;  //!< per point, 4 or 8
   WeightFormat weight_format = WeightFormat::kFloat;
-  std::string name = "model";  //!< of the mesh
+  std::string name = "model";             //!< of the mesh, in .glb
+  SkinFormat format = SkinFormat::kGlb;
 };
 
 //! Poses of the cage, between which it moves along straight lines.
@@ -35,9 +39,9 @@ struct Animation {
 template <int Dim>
 void validate(const Animation<Dim>& animation, Eigen::Index num_control_points);
 
-//! A .glb file and what is in it.
+//! A .glb or .usda file and what is in it.
 struct ExportedSkin {
-  std::string glb{};           //!< the content of the file
+  std::string content{};       //!< of the file
   Index vertices = 0;          //!< S
   Index triangles = 0;         //!< T
   Index joints = 0;            //!< n

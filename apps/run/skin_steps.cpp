@@ -113,11 +113,11 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
                                       options, animation);
   run.folder.add(name, facts_of(skin, run), [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << skin.glb; });
+    io::write_file(path, [&](std::ostream& file) { file << skin.content; });
   });
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {{"file", name},
-          {"bytes", skin.glb.size()},
+          {"bytes", skin.content.size()},
           {"vertices", skin.vertices},
           {"triangles", skin.triangles},
           {"joints", skin.joints},

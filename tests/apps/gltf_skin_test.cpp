@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -100,7 +101,7 @@ TYPED_TEST(GltfSkinTest, MovesAsDeformDoes) {
     gltf::SkinOptions options;
     options.max_influences = count;
     const auto skin = example.skin(options);
-    const GlbFile file(skin.glb);
+    const GlbFile file(skin.content);
     EXPECT_EQ(skin.influences, count);
     EXPECT_EQ(skin.given_influences, example.sample.cage.size());
     EXPECT_EQ(file.has("JOINTS_1"), count == 8);
@@ -126,7 +127,7 @@ TYPED_TEST(GltfSkinTest, QuantisedWeightsAddUpExactly) {
     gltf::SkinOptions options;
     options.weight_format = format;
     const auto skin = example.skin(options);
-    const GlbFile file(skin.glb);
+    const GlbFile file(skin.content);
     const auto& accessor = file.json["accessors"][file.number_of("WEIGHTS_1")];
     EXPECT_EQ(accessor["componentType"], component_type);
     EXPECT_TRUE(accessor.value("normalized", false));
@@ -151,7 +152,7 @@ TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
   animation.poses[2].col(3) -= Vector<Dim>::Constant(0.5);
   const auto skin = example.skin({}, animation);
   EXPECT_EQ(skin.moving_joints, 2);
-  const GlbFile file(skin.glb);
+  const GlbFile file(skin.content);
   ASSERT_EQ(file.json["animations"].size(), 1);
   EXPECT_EQ(file.json["animations"][0]["channels"].size(), 2);
   const auto expect_pose = [&](double time, const PointList<Dim>& pose) {
@@ -162,7 +163,7 @@ TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
   expect_pose(1.625, (animation.poses[1] + 3 * animation.poses[2]) / 4);
 
   // Nothing moves: that is no animation.
-  const GlbFile still(example.skin({}, {{0}, {cage}}).glb);
+  const GlbFile still(example.skin({}, {{0}, {cage}}).content);
   EXPECT_FALSE(still.json.contains("animations"));
 }
 
@@ -171,7 +172,7 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   const Example<Dim> example;
   gltf::SkinOptions options;
   options.name = "caf\xc3\xa9";
-  const GlbFile file(example.skin(options).glb);
+  const GlbFile file(example.skin(options).content);
   const auto& nodes = file.json["nodes"];
   const auto& skin = file.json["skins"][0];
   const auto n = example.sample.cage.size();
@@ -209,14 +210,65 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   EXPECT_TRUE(file.json["accessors"][file.number_of("POSITION")].contains("min"));
 
   options.name = "caf\xe9";  // Latin-1: a name, but no UTF-8
-  EXPECT_EQ(GlbFile(example.skin(options).glb).json["meshes"][0]["name"], "caf\xef\xbf\xbd");
+  EXPECT_EQ(GlbFile(example.skin(options).content).json["meshes"][0]["name"], "caf\xef\xbf\xbd");
+}
+
+// All numbers after the name, to the end of its line.
+std::vector<double> numbers_after(const std::string& text, const std::string& name) {
+  const auto begin = text.find(name);
+  EXPECT_NE(begin, std::string::npos) << name;
+  const auto from = begin + name.size();
+  std::string line = text.substr(from, text.find('\n', from) - from);
+  line = line.substr(0, line.find(']') + 1);
+  for (char& c : line) {
+    if (c == '(' || c == ')' || c == '[' || c == ']' || c == ',') c = ' ';
+  }
+  std::istringstream in(line);
+  std::vector<double> numbers;
+  for (double number; in >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+TYPED_TEST(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
+  constexpr int Dim = TypeParam::value;
+  const Example<Dim> example;
+  const auto& cage = example.sample.cage.points;
+  const auto n = cage.cols();
+  const auto pose = independent_poses<Dim>(cage, 1)[0];
+  gltf::SkinOptions options;
+  options.format = gltf::SkinFormat::kUsda;
+  const auto text = example.skin(options, {{0, 1}, {cage, pose}}).content;
+  EXPECT_EQ(text.substr(0, 9), "#usda 1.0");
+  const auto points = numbers_after(text, "point3f[] points = ");
+  const auto rest = numbers_after(text, "bindTransforms = ");
+  const auto moved = numbers_after(text, " 24: ");
+  const auto joints = numbers_after(text, "skel:jointIndices = ");
+  const auto weights = numbers_after(text, "skel:jointWeights = ");
+  const auto num_points = example.sample.mesh.points.cols();
+  ASSERT_EQ(points.size(), 3 * static_cast<std::size_t>(num_points));
+  ASSERT_EQ(rest.size(), 16 * static_cast<std::size_t>(n));
+  ASSERT_EQ(moved.size(), 3 * static_cast<std::size_t>(n));
+  ASSERT_EQ(joints.size(), weights.size());
+  const auto slots = static_cast<Eigen::Index>(joints.size()) / num_points;
+  const Eigen::MatrixXd expected = in_space<Dim>(deform<Dim>(example.few(8), pose));
+  for (Eigen::Index v = 0; v < num_points; ++v) {
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    for (Eigen::Index k = slots * v; k < slots * (v + 1); ++k) {
+      const auto joint = static_cast<Eigen::Index>(joints[k]);
+      for (int d = 0; d < 3; ++d) {
+        place[d] +=
+            weights[k] * (points[3 * v + d] + moved[3 * joint + d] - rest[16 * joint + 12 + d]);
+      }
+    }
+    EXPECT_LT((place - expected.col(v)).norm(), 1e-5);
+  }
 }
 
 TYPED_TEST(GltfSkinTest, SurfaceAndItsAttributes) {
   constexpr int Dim = TypeParam::value;
   Example<Dim> example;
   auto& surface = example.surface;
-  const GlbFile plain(example.skin().glb);
+  const GlbFile plain(example.skin().content);
   for (const char* name : {"TEXCOORD_0", "COLOR_0", "_VERTEX"}) EXPECT_FALSE(plain.has(name));
   const auto count = static_cast<Eigen::Index>(surface.sources.size());
   surface.texture_coordinates = Eigen::MatrixXd::Random(2, count);
@@ -231,7 +283,7 @@ TYPED_TEST(GltfSkinTest, SurfaceAndItsAttributes) {
   append(surface.texture_coordinates);
   append(surface.colors);
   surface.triangles(0, 0) = static_cast<Index>(count);
-  const GlbFile file(example.skin().glb);
+  const GlbFile file(example.skin().content);
   EXPECT_EQ(file.triangles(), surface.triangles.template cast<double>());
   EXPECT_TRUE(file.has("_VERTEX"));
   EXPECT_EQ(file.sources(),
@@ -262,7 +314,7 @@ struct Segments {
     surface.normals = Vector<3>::UnitZ().replicate(1, 3);
   }
   GlbFile skin() const {
-    return GlbFile(gltf::export_skin<Dim>(control_points, points, weights, surface).glb);
+    return GlbFile(gltf::export_skin<Dim>(control_points, points, weights, surface).content);
   }
 
   PointList<Dim> control_points;
@@ -305,7 +357,7 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
     DomainMesh<2> strip{points, CellList<2>(3, 2 * columns - 3)};
     for (Index t = 0; t < 2 * columns - 3; ++t) strip.cells.col(t) << t, t + 1, t + 2;
     const auto surface = gltf::surface_of_model<2>({io::to_polygons(strip)});
-    const GlbFile file(gltf::export_skin<2>(control_points, points, weights, surface).glb);
+    const GlbFile file(gltf::export_skin<2>(control_points, points, weights, surface).content);
     EXPECT_EQ(
         file.json["accessors"][file.primitive()["indices"].get<std::size_t>()]["componentType"],
         component_type);
@@ -363,7 +415,7 @@ TEST(GltfSkin, PointsInsideAMeshDoNotCount) {
   EXPECT_EQ(skin.given_influences, 3);
   EXPECT_EQ(skin.influences, 3);
   EXPECT_LT(skin.deformation_error.max, 1e-6);
-  const GlbFile file(skin.glb);
+  const GlbFile file(skin.content);
   const auto pose = independent_poses<3>(example.sample.cage.points, 1)[0];
   EXPECT_LT(distance<3>(file, pose, deform<3>(example.weights, pose)), 1e-6);
 }

@@ -27,4 +27,7 @@ for name in 2d/figure 3d/limb; do
   "$flbc" export "$model" --weights few.mtx --cage "$cage" -k 4 -q -o skin.glb
   blender --background --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
     skin.glb "$cage" "$pose" moved.obj
+  "$flbc" export "$model" --weights few.mtx --cage "$cage" -k 4 -q -o groups.py
+  blender --background --factory-startup --python-exit-code 1 \
+    --python "$here/blender_groups.py" -- "$model" groups.py "$cage" "$pose" moved.obj
 done

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gltf/usd_writer.h"
+
+#include <limits>
+#include <sstream>
+
+#include <Eigen/Geometry>
+
+namespace flbc::gltf {
+namespace {
+
+constexpr double kFrames = 24;  // per second, in which times are counted
+
+// "(x, y, z)" of a column.
+template <class Column>
+std::string tuple(const Column& column) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<float>::max_digits10);
+  for (Eigen::Index k = 0; k < column.size(); ++k) text << (k == 0 ? "(" : ", ") << column[k];
+  text << ')';
+  return text.str();
+}
+
+// "[a, b, c]" of what write(k) gives.
+template <class Write>
+std::string list(Eigen::Index count, const Write& write) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<float>::max_digits10);
+  text << '[';
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (k > 0) text << ", ";
+    text << write(k);
+  }
+  text << ']';
+  return text.str();
+}
+
+template <class Matrix>
+std::string columns(const Matrix& matrix) {
+  return list(matrix.cols(), [&](Eigen::Index k) { return tuple(matrix.col(k)); });
+}
+
+template <class Matrix>
+std::string numbers(const Matrix& matrix) {
+  return list(matrix.size(), [&](Eigen::Index k) { return +matrix.reshaped()[k]; });
+}
+
+std::string repeated(Eigen::Index count, const char* value) {
+  return list(count, [&](Eigen::Index) { return value; });
+}
+
+std::string joint_names(const GlbScene& scene) {
+  return list(scene.joints.cols(), [](Eigen::Index i) {
+    return "\"control_point_" + std::to_string(i) + '"';
+  });
+}
+
+void write_skeleton(std::ostream& text, const GlbScene& scene) {
+  const auto binds = list(scene.joints.cols(), [&](Eigen::Index i) {
+    return "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), " +
+           tuple(Eigen::Vector4f(scene.joints.col(i).homogeneous())) + ')';
+  });
+  text << "    def Skeleton \"cage\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
+       << "        uniform token[] joints = " << joint_names(scene) << '\n'
+       << "        uniform matrix4d[] bindTransforms = " << binds << '\n'
+       << "        uniform matrix4d[] restTransforms = " << binds << '\n';
+  if (!scene.channels.empty()) text << "        rel skel:animationSource = </model/poses>\n";
+  text << "    }\n";
+}
+
+void write_animation(std::ostream& text, const GlbScene& scene) {
+  if (scene.channels.empty()) return;
+  const auto count = scene.joints.cols();
+  text << "    def SkelAnimation \"poses\"\n    {\n"
+       << "        uniform token[] joints = " << joint_names(scene) << '\n'
+       << "        quatf[] rotations = " << repeated(count, "(1, 0, 0, 0)") << '\n'
+       << "        half3[] scales = " << repeated(count, "(1, 1, 1)") << '\n'
+       << "        float3[] translations.timeSamples = {\n";
+  for (std::size_t k = 0; k < scene.times.size(); ++k) {
+    Eigen::Matrix3Xf pose = scene.joints;
+    for (const auto& channel : scene.channels) {
+      pose.col(channel.joint) = channel.translations.col(static_cast<Eigen::Index>(k));
+    }
+    text << "            " << kFrames * scene.times[k] << ": " << columns(pose) << ",\n";
+  }
+  text << "        }\n    }\n";
+}
+
+void write_surface(std::ostream& text, const GlbScene& scene) {
+  const auto slots = scene.weights.joints.rows();
+  const Eigen::MatrixXf weights =
+      (scene.weights.numbers / unit_of(scene.weights.format)).cast<float>();
+  const std::string per_vertex =
+      " (elementSize = " + std::to_string(slots) + "\n            interpolation = \"vertex\")\n";
+  text << "    def Mesh \"surface\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
+       << "        uniform bool doubleSided = 1\n"
+       << "        uniform token subdivisionScheme = \"none\"\n"
+       << "        int[] faceVertexCounts = " << repeated(scene.triangles.cols(), "3") << '\n'
+       << "        int[] faceVertexIndices = " << numbers(scene.triangles) << '\n'
+       << "        point3f[] points = " << columns(scene.positions) << '\n'
+       << "        normal3f[] normals = " << columns(scene.normals)
+       << " (interpolation = \"vertex\")\n";
+  if (scene.texture_coordinates.cols() > 0) {
+    Eigen::Matrix2Xf upwards = scene.texture_coordinates;  // glTF counts from the top
+    upwards.row(1) = 1 - upwards.row(1).array();
+    text << "        texCoord2f[] primvars:st = " << columns(upwards)
+         << " (interpolation = \"vertex\")\n";
+  }
+  if (scene.colors.cols() > 0) {
+    text << "        color3f[] primvars:displayColor = " << columns(scene.colors)
+         << " (interpolation = \"vertex\")\n";
+  }
+  text << "        int[] primvars:skel:jointIndices = " << numbers(scene.weights.joints)
+       << per_vertex << "        float[] primvars:skel:jointWeights = " << numbers(weights)
+       << per_vertex
+       << "        matrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), "
+          "(0, 0, 1, 0), (0, 0, 0, 1))\n"
+       << "        rel skel:skeleton = </model/cage>\n    }\n";
+}
+
+}  // namespace
+
+std::string encode_usda(const GlbScene& scene) {
+  std::ostringstream text;
+  text << "#usda 1.0\n(\n    defaultPrim = \"model\"\n    upAxis = \"Y\"\n"
+       << "    timeCodesPerSecond = " << kFrames << '\n';
+  if (!scene.channels.empty()) {
+    text << "    startTimeCode = " << kFrames * scene.times.front()
+         << "\n    endTimeCode = " << kFrames * scene.times.back() << '\n';
+  }
+  text << ")\n\ndef SkelRoot \"model\"\n{\n";
+  write_skeleton(text, scene);
+  write_animation(text, scene);
+  write_surface(text, scene);
+  text << "}\n";
+  return text.str();
+}
+
+}  // namespace flbc::gltf
