@@ -43,7 +43,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
       "--tolerance", options.tolerance,
       "accuracy wanted (by method: value and paper 1e-7, gradient 2.5e-5, lbc2014 5e-8)");
   command.add_option("--gap", options.gap,
-                     "certified relative gap that ends the iteration as well, 0 for none (1e-4 with "
+                     "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
                      "the methods' own tolerances)");
   command.add_option("--max-iterations", options.max_iterations, "limit of iterations (20000)");
   command.add_option("--penalty", settings.penalty,

@@ -282,7 +282,7 @@ TYPED_TEST(WeightsCacheOf, EverythingThatWeightsDependOnIsInTheKey) {
   same.options.threads = 3;
   same.options.method = Method::kValue;
   same.options.tolerance = 1e-7;
-  same.options.gap = 1e-4;
+  same.options.gap = 1e-3;
   EXPECT_EQ(same.key(), keys.front());
 }
 

@@ -83,12 +83,13 @@ SolverOptions never_by_tolerance(double gap) {
 
 TYPED_TEST(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
   const auto cage = round_cage(TypeParam());
-  const auto mesh = mesh_of(cage, 1500);
+  const auto mesh = mesh_of(cage, TypeParam::value == 2 ? 6000 : 3000);  // enough for kHalf
+  ASSERT_GE(mesh.num_cells(), 10000);
   const auto solution = solve(cage, mesh);
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
   EXPECT_EQ(solution.report.criterion, Criterion::kGap);
   EXPECT_GE(solution.report.iterations, 500);
-  EXPECT_LE(solution.report.certificate.relative_gap, 1e-4);
+  EXPECT_LE(solution.report.certificate.relative_gap, 1e-3);
   EXPECT_GT(solution.report.primal_residual, 1);
   EXPECT_NEAR(solution.report.certificate.objective, solution.report.objective,
               1e-9 * solution.report.objective);
@@ -99,7 +100,7 @@ TYPED_TEST(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
   EXPECT_NE(report.criterion, Criterion::kGap);
   EXPECT_EQ(report.certificate.objective, 0);
   EXPECT_GT(report.iterations, solution.report.iterations);
-  EXPECT_LE(solution.report.objective, (1 + 1e-4) * report.objective);
+  EXPECT_LE(solution.report.objective, (1 + 1e-3) * report.objective);
 }
 
 TYPED_TEST(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
@@ -156,10 +157,10 @@ TYPED_TEST(GapCriterionTest, HoldsForSolversThatAreKeptAndForWarmStarts) {
 
 TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {
   SolverOptions options;
-  EXPECT_EQ(*resolve(options).gap, 1e-4);
-  EXPECT_EQ(*resolve(resolve(options)).gap, 1e-4);
+  EXPECT_EQ(*resolve(options).gap, 1e-3);
+  EXPECT_EQ(*resolve(resolve(options)).gap, 1e-3);
   options.method = Method::kGradient;
-  EXPECT_EQ(*resolve(options).gap, 1e-4);
+  EXPECT_EQ(*resolve(options).gap, 1e-3);
   for (const auto method : {Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
     options.method = method;
     EXPECT_EQ(*resolve(options).gap, 0);
@@ -167,8 +168,8 @@ TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {
   options = {};
   options.tolerance = 1e-12;
   EXPECT_EQ(*resolve(options).gap, 0);
-  options.gap = 1e-3;
-  EXPECT_EQ(*resolve(options).gap, 1e-3);
+  options.gap = 1e-2;
+  EXPECT_EQ(*resolve(options).gap, 1e-2);
 }
 
 TEST(GapOption, RefusesGapsThatProveNothing) {

@@ -110,7 +110,7 @@ struct SolverOptions {
   double tolerance = 0;
 
   //! Certified relative gap (certificate.h) that ends a run as well, whichever is met first; > 0, or
-  //! 0 for none. Absent: 1e-4 for kValue and kGradient where the tolerance is the method's own, else
+  //! 0 for none. Absent: 1e-3 for kValue and kGradient where the tolerance is the method's own, else
   //! none. On cages whose optimum is flat, as on round ones, it is met long before the tolerance.
   //! Certified from iteration 500 on, each time a fifth later, for a few percent of the time. Read by
   //! kValue, kGradient, kLbc2014 and kPaper; refused where weights may be negative, since the bound
