@@ -50,6 +50,11 @@ Json cage_json(const CheckReport<Dim>& report) {
   json["measure"] = facts.measure;
   json["shortest_edge"] = {{"length", facts.shortest_edge},
                            {"control_points", facts.shortest_ends}};
+  if (report.thinnest.facet >= 0) {
+    json["thinnest_place"] = {{"distance", report.thinnest.distance},
+                              {"control_point", report.thinnest.control_point},
+                              {"facet", report.thinnest.facet}};
+  }
   return json;
 }
 

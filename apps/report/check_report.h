@@ -34,6 +34,7 @@ struct CheckReport {
   std::vector<Defect> defects;         //!< at most kMostDefects
   bool intersections_checked = false;  //!< whether this build can look for them, and did
   std::optional<CageFacts<Dim>> facts{};
+  ThinPlace thinnest{};  //!< if there are facts
   std::optional<ModelCheck<Dim>> model{};
   std::optional<WeightCheck<Dim>> weights{};
   std::vector<std::string> violations{};  //!< by the weights

@@ -100,6 +100,15 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
              number(facts.shortest_edge) + ", between control points " +
                  std::to_string(facts.shortest_ends[0]) + " and " +
                  std::to_string(facts.shortest_ends[1]));
+  const auto& thinnest = report.thinnest;
+  if (thinnest.facet < 0) return;
+  print_fact(out, "thinnest place",
+             number(thinnest.distance) + ", between control point " +
+                 std::to_string(thinnest.control_point) + " and " +
+                 (Dim == 2 ? "edge " : "triangle ") + std::to_string(thinnest.facet) +
+                 (thinnest.distance < kThin * facts.size
+                      ? ": so thin that meshing may take long, or not end in time"
+                      : ""));
 }
 
 template <int Dim>

@@ -149,6 +149,15 @@ TEST(TetrahedralizeTest, TimeLimit) {
   EXPECT_FALSE(has_child());
 }
 
+TEST(TetrahedralizeTest, AThinWallIsNamedWhereMeshingDoesNotEnd) {
+  const Cage<3> flat = box_cage<3>(Vector<3>(-1, -1, -1e-4), Vector<3>(1, 1, 1e-4));
+  MeshingOptions<3> options = vertices(4000);
+  options.time_limit = 0.5;
+  const std::string text = message_of<InputError>([&] { tetrahedralize(flat, options); });
+  EXPECT_NE(text.find("thinnest between control point"), std::string::npos) << text;
+  EXPECT_NE(text.find("7.1e-05 of its size"), std::string::npos) << text;  // 2e-4 / sqrt(8)
+}
+
 TEST(TetrahedralizeTest, EmbeddedPointsFollowTheControlPoints) {
   PointList<3> points(3, 4);
   points << 0.1 + 0.2, -0.7, 0.123456789, -0.999,  //

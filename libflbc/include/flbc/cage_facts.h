@@ -25,6 +25,23 @@ struct CageFacts {
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
+//! The place where a cage comes nearest to itself: a thin wall, or a facet that is nearly a line.
+//! Meshes of good cells need the more of them the thinner it is.
+struct ThinPlace {
+  double distance = 0;      //!< of the control point from the facet, in the cage's units
+  Index control_point = -1;
+  Index facet = -1;         //!< of which the control point is no corner; -1 if there is none
+};
+
+//! The smallest distance of a control point from a facet that it is no corner of. Takes time
+//! proportional to their numbers' product.
+//! \param cage  has passed validate()
+template <int Dim>
+ThinPlace thinnest_place(const Cage<Dim>& cage);
+
+//! Where thinnest_place() is below this part of the cage's size, meshing may not end in time.
+constexpr double kThin = 1e-3;
+
 //! Points outside a cage by more than kBoundaryTolerance of its size; those inside holes are outside.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage

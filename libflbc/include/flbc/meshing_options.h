@@ -23,7 +23,7 @@ struct MeshingOptions {
   PointList<Dim> embedded_points{};
 
   //! Longest time in seconds for one run of an external mesher, after which it is stopped.
-  double time_limit = 600;
+  double time_limit = 60;
 };
 
 }  // namespace flbc

@@ -4,12 +4,64 @@
 #include "flbc/bounding_box.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 
 namespace flbc {
+
+namespace {
+
+template <int Dim>
+double distance_to_segment(const Vector<Dim>& point, const Vector<Dim>& from,
+                           const Vector<Dim>& to) {
+  const Vector<Dim> along = to - from;
+  const double t = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (from + t * along - point).norm();
+}
+
+double distance_to_facet(const Vector<2>& point, const Eigen::Matrix2d& corners) {
+  return distance_to_segment<2>(point, corners.col(0), corners.col(1));
+}
+
+double distance_to_facet(const Vector<3>& point, const Eigen::Matrix3d& corners) {
+  const Vector<3> normal =
+      (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
+  bool is_above = true;
+  double distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const Vector<3> from = corners.col(k);
+    const Vector<3> to = corners.col((k + 1) % 3);
+    is_above = is_above && normal.cross(to - from).dot(point - from) >= 0;
+    distance = std::min(distance, distance_to_segment<3>(point, from, to));
+  }
+  return is_above ? std::abs(normal.dot(point - corners.col(0))) : distance;
+}
+
+}  // namespace
+
+template <int Dim>
+ThinPlace thinnest_place(const Cage<Dim>& cage) {
+  ThinPlace thinnest;
+  thinnest.distance = std::numeric_limits<double>::infinity();
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    const Vector<Dim> low = corners.rowwise().minCoeff();
+    const Vector<Dim> high = corners.rowwise().maxCoeff();
+    for (Index i = 0; i < cage.size(); ++i) {
+      if ((cage.facets.col(f).array() == i).any()) continue;
+      const Vector<Dim> point = cage.points.col(i);
+      const Vector<Dim> beside = (low - point).cwiseMax(point - high).cwiseMax(0);
+      if (beside.norm() >= thinnest.distance) continue;
+      const double distance = distance_to_facet(point, corners);
+      if (distance < thinnest.distance) thinnest = {distance, i, f};
+    }
+  }
+  return thinnest;
+}
 
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage) {
@@ -53,6 +105,7 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
 
 #define FLBC_INSTANTIATE(Dim)                             \
   template CageFacts<Dim> measure_cage(const Cage<Dim>&); \
+  template ThinPlace thinnest_place(const Cage<Dim>&);    \
   template std::vector<Index> points_outside(const Cage<Dim>&, const PointList<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -11,6 +11,7 @@
 
 #include "base/messages.h"
 #include "cage/point_in_cage.h"
+#include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "meshing/meshing_common.h"
@@ -49,11 +50,14 @@ enum class CoplanarFacets {
 // of circumradius to shortest edge; a: bound the volume; J: keep unused points, so that input
 // points keep their numbers; Q: print nothing. Without Y, TetGen may put points on the cage's
 // facets and edges, which good cells need.
-std::string quality_switches(CoplanarFacets coplanar, double ratio, double largest_volume) {
-  char text[96];
+// S: add so many points at most.
+std::string quality_switches(CoplanarFacets coplanar, double ratio, double largest_volume,
+                             Index most_points) {
+  char text[128];
   const char* merging = coplanar == CoplanarFacets::kKeep ? "M" : "";
   int length =
-      std::snprintf(text, sizeof(text), "p%.9gq%gQJ%s", 180 - kCoplanarAngle, ratio, merging);
+      std::snprintf(text, sizeof(text), "p%.9gq%gQJS%d%s", 180 - kCoplanarAngle, ratio, most_points,
+                    merging);
   if (largest_volume > 0) {
     length += std::snprintf(text + length, sizeof(text) - length, "a%.17g", largest_volume);
   }
@@ -139,6 +143,26 @@ DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMa
   return mesh;
 }
 
+// Without a limit, cells of good shape in a thin wall fill the memory.
+constexpr Index kMostPoints = 1000000;
+
+[[noreturn]] void refuse_count(Index most_points) {
+  throw InputError("cells of good shape would take more than " + std::to_string(most_points) +
+                   " vertices in this cage");
+}
+
+// Where to look for the cause; empty if the cage is not thin anywhere.
+std::string describe_thinnest(const Cage<3>& cage) {
+  const auto place = thinnest_place(cage);
+  const double size = bounding_box_diagonal(cage.points);
+  if (place.facet < 0 || place.distance > kThin * size) return "";
+  char part[32];
+  std::snprintf(part, sizeof(part), "%.2g", place.distance / size);
+  return "; the cage is thinnest between control point " + std::to_string(place.control_point) +
+         " at " + format_point(cage.points.col(place.control_point)) + " and facet " +
+         std::to_string(place.facet) + ": " + part + " of its size";
+}
+
 // A cage to be filled.
 struct Task {
   const Cage<3>& cage;
@@ -149,9 +173,11 @@ struct Task {
 
 // \param time_limit  for each run of TetGen
 DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit) {
+  const Index most_points = std::max(kMostPoints, 4 * task.vertices);
   const auto make_mesh = [&](double ratio, double largest_volume) {
-    const std::string switches = quality_switches(coplanar, ratio, largest_volume);
+    const std::string switches = quality_switches(coplanar, ratio, largest_volume, most_points);
     DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
+    if (mesh.num_vertices() - task.input.points.cols() >= most_points) refuse_count(most_points);
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
   };
@@ -190,7 +216,12 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
                   options.roughly};
 
   const auto start = std::chrono::steady_clock::now();
-  DomainMesh<3> mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+  DomainMesh<3> mesh;
+  try {
+    mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + describe_thinnest(cage));
+  }
   if (!options.roughly && has_coplanar_facets(cage)) {
     // Far more than it takes unless it runs for ever.
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
