@@ -29,7 +29,7 @@ bool prepare_domain(const Context& context, const Model& model, Index vertices);
 //! Makes the coarser meshes that solve() may start from.
 template <int Dim>
 CoarseMesher<Dim> coarse_mesher() {
-  return [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices); };
+  return [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices, true); };
 }
 
 //! A model on a mesh.

@@ -36,12 +36,21 @@ void for_each_case(const std::string& folder, const Cases& cases, const std::str
   }
 }
 
-//! Meshes a cage with about so many vertices.
-inline DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
+//! How to mesh with about so many vertices. \param roughly  in one run of the mesher
+template <int Dim>
+MeshingOptions<Dim> meshing_options(Index vertices, bool roughly) {
+  MeshingOptions<Dim> options;
+  options.vertices = vertices;
+  options.roughly = roughly;
+  return options;
 }
-inline DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
+
+//! Meshes a cage. Parameters as above.
+inline DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices, bool roughly = false) {
+  return triangulate(cage, meshing_options<2>(vertices, roughly));
+}
+inline DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices, bool roughly = false) {
+  return tetrahedralize(cage, meshing_options<3>(vertices, roughly));
 }
 
 }  // namespace flbc::bench

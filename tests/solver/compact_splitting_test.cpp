@@ -5,13 +5,14 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/quality.h"
-#include "solver/splitting/half_then_single.h"
+#include "flbc/solver.h"
 #include "solver/state_storage.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
@@ -203,24 +204,46 @@ TYPED_TEST(CompactSplittingTest, ResumesToTheBit) {
   }
 }
 
-TYPED_TEST(CompactSplittingTest, GoesOnInSinglePrecisionWhereHalfIsNotEnough) {
+// P of half precision is a number of single precision, so nothing changes but what follows.
+TYPED_TEST(CompactSplittingTest, GoesOnInSinglePrecision) {
   constexpr int kDim = TypeParam::value;
   const auto c = make_case<kDim>(Shape::kCorner);
   CompactSplitting<double, double, kDim> exact(c.problem, c.metric, c.penalty, 1.9);
-  CompactSplitting<float, Half, kDim> half(c.problem, c.metric, c.penalty, 1.9);
-  compact::HalfThenSingle<kDim> both(c.problem, c.metric, c.penalty, 1.9, LinearSolver::kDirect,
-                                     nullptr);
-  constexpr int kInHalf = compact::HalfThenSingle<kDim>::kIterationsInHalf;
   exact.start_from_harmonic(8);
-  half.start_from_harmonic(8);
-  both.start_from_harmonic(8);
-  iterate(half, kInHalf);
-  iterate(both, kInHalf);
-  EXPECT_EQ(both.weights(), half.weights());
-  iterate(both, 2000);
-  iterate(exact, kInHalf + 2000);
-  EXPECT_LT(squared_error(c.problem, both.weights(), exact.weights()), 1e-10);
-  EXPECT_NE(both.weights(), half.weights());
+  iterate(exact, 500);
+  KeptState kept;
+  for (StateStorage* storage : {static_cast<StateStorage*>(nullptr),
+                                static_cast<StateStorage*>(&kept)}) {
+    CompactSplitting<float, Half, kDim> half(c.problem, c.metric, c.penalty, 1.9,
+                                             LinearSolver::kDirect, storage);
+    half.start_from_harmonic(8);
+    iterate(half, 100);
+    const auto weights = half.weights();
+    CompactSplitting<float, float, kDim> single(std::move(half), storage);
+    EXPECT_EQ((single.weights() - weights).cwiseAbs().maxCoeff(), 0);
+    EXPECT_LT(single.iterate().change, 1e-2);
+    iterate(single, 399);
+    EXPECT_LT(squared_error(c.problem, single.weights(), exact.weights()), 1e-10);
+  }
+}
+
+// On meshes so fine that half precision is taken.
+TYPED_TEST(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolerances) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 100 : 14, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  ASSERT_GT(problem.mesh.num_cells(), 10000);
+  SolverOptions options;
+  options.gap = 0;
+  options.tolerance = 1e-7;
+  options.precision = Precision::kSingle;
+  const auto single = solve(problem, options);
+  options.precision = Precision::kHalf;
+  const auto half = solve(problem, options);
+  EXPECT_EQ(half.report.status, SolveStatus::kConverged);
+  EXPECT_LT(half.report.iterations, 1.5 * single.report.iterations);
+  EXPECT_GT((half.weights - single.weights).cwiseAbs().maxCoeff(), 0);
+  EXPECT_LT(squared_error(problem, half.weights, single.weights), 1e-7);
 }
 
 TYPED_TEST(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {

@@ -14,16 +14,16 @@ struct MeshingOptions {
   //! demands. \throws OptionError from the meshers if it is below what quality demands.
   Index vertices = 0;
 
-  //! Whether to take the first mesh of about so many vertices, within a factor of two where the cage
-  //! allows: one run of the mesher, enough for coarse meshes to start from (coarse_to_fine.h).
-  bool roughly = false;
-
   //! Points inside the cage that become mesh vertices: they follow the control points directly, in
   //! this order, with their coordinates unchanged.
   PointList<Dim> embedded_points{};
 
   //! Longest time in seconds for one run of an external mesher, after which it is stopped.
   double time_limit = 60;
+
+  //! Whether to take the first mesh of about so many vertices, within a factor of three where the
+  //! cage allows: one run of the mesher, enough for coarse meshes to start from (coarse_to_fine.h).
+  bool roughly = false;
 };
 
 }  // namespace flbc

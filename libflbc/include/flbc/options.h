@@ -35,7 +35,8 @@ enum class NonNegative {
 enum class Precision {
   kAuto,    //!< kHalf where the tolerance allows, for Method::kValue; else kSingle
   kHalf,    //!< Method::kValue only: duals of cells in half precision, all else and all arithmetic in
-            //!< single; kSingle on meshes of less than 10,000 cells, and from iteration 500 on
+            //!< single; kSingle on meshes of less than 10,000 cells, from an estimated error of 1e-6
+            //!< on, and after 300 iterations
   kSingle,  //!< float
   kDouble   //!< double
 };

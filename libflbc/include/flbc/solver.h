@@ -73,8 +73,8 @@ class LbcSolver {
   LbcSolver& operator=(LbcSolver&&) noexcept;
 
   //! Solves, from the last state if there is one. A run in parts is the same as one in one piece,
-  //! to the bit, if options give the penalty; a penalty chosen from the mesh stays as the first
-  //! solve left it. Methods that do not iterate start afresh.
+  //! to the bit, if options give the penalty and kSingle or kDouble as precision; a penalty chosen
+  //! from the mesh stays as the first solve left it. Methods that do not iterate start afresh.
   //! \return the solution, which stays until the next solve; its report is of this solve alone
   //! \throws OptionError, SolverError; the solution is then as it was, and the next solve starts
   //! afresh

@@ -35,6 +35,8 @@ template <int Dim>
 struct WarmStart {
   const Transfer<Dim>* from = nullptr;    //!< where to start
   MeshState<Dim>* final_state = nullptr;  //!< where to leave the last state
+  //! Called by methods that need `from` no longer once they have started; may be empty.
+  std::function<void()> started{};
 };
 
 //! Method::kGradient and kPaper.

@@ -35,12 +35,16 @@ class KeptState : public StateStorage {
                               : shape.precision == Precision::kSingle ? sizeof(float)
                                                                       : sizeof(double);
     const std::size_t size = shape.elements * shape.components * shape.stride * bytes;
+    if (shape.array == StateArray::kSplittingState) splitting_precision_ = shape.precision;
     auto& array = arrays_[shape.array];
     if (array.size() != size) array = AlignedArray<unsigned char>(size);
     return array.data();
   }
 
-  bool holds_half() const override { return true; }
+  // A run that went on in single precision is not gone on from in half.
+  bool holds_half() const override {
+    return penalty_ == 0 || splitting_precision_ == Precision::kHalf;
+  }
   double penalty() const override { return penalty_; }
   void keep_penalty(double penalty) override { penalty_ = penalty; }
 
@@ -49,6 +53,7 @@ class KeptState : public StateStorage {
 
  private:
   std::map<StateArray, AlignedArray<unsigned char>> arrays_;
+  Precision splitting_precision_ = Precision::kHalf;
   double penalty_ = 0;
 };
 

@@ -37,7 +37,13 @@ class Cascade {
     }
     SolveReport report;
     const double placing = watch.lap();
-    auto result = run_method(problem_, options, report, storage, {transfer.get(), nullptr});
+    const auto forget_levels = [&] {
+      transfer.reset();
+      state_ = {};
+      for (auto& level : levels_) level = {{}, {}, {}, level.report};
+    };
+    auto result =
+        run_method(problem_, options, report, storage, {transfer.get(), nullptr, forget_levels});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
     for (const auto& level : levels_) {
@@ -66,7 +72,7 @@ class Cascade {
     }
     SolveReport report;
     MeshState<Dim> state;
-    run_method(level.problem, options, report, nullptr, {transfer.get(), &state});
+    run_method(level.problem, options, report, nullptr, {transfer.get(), &state, {}});
     state_ = std::move(state);
     level.report.iterations = report.iterations;
     level.report.solve_seconds = watch.lap();

@@ -98,7 +98,6 @@ struct Kernel {
   void (*balance)(State, Columns, const Scalar* moved, double* dual, double* motion);
   //! Numbers into the format they are stored in. \param count  a multiple of 8
   void (*encode)(const Scalar* from, Stored* to, std::size_t count);
-  //! And back.
   void (*decode)(const Stored* from, Scalar* to, std::size_t count);
 };
 

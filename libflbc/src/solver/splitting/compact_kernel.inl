@@ -212,7 +212,7 @@ constexpr Kernel<Scalar, Stored, Dim> kKernel{z_step<Scalar, Stored, Dim, false>
                                               flux<Scalar, Stored, Dim>,
                                               balance<Scalar, Stored, Dim>,
                                               encode<Scalar, Stored>,
-                                              decode<Scalar, Stored>};
+    decode<Scalar, Stored>};
 
 }  // namespace
 }  // namespace flbc::compact::FLBC_ISA

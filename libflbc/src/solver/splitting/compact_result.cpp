@@ -10,10 +10,14 @@ namespace flbc::compact {
 template <class Scalar, class Stored, int Dim>
 WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const {
   WeightMatrix weights(n_, problem_.mesh.num_vertices());
-  AlignedArray<Scalar> numbers(stride_);
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
-    read_row(static_cast<Index>(row), numbers.data());
-    for (Index i = 0; i < n_; ++i) weights(i, data_.vertices[row]) = numbers[i];
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> numbers(stride_);
+#pragma omp for schedule(static)
+    for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+      read_row(static_cast<Index>(row), numbers.data());
+      for (Index i = 0; i < n_; ++i) weights(i, data_.vertices[row]) = numbers[i];
+    }
   }
   // Boundary values are known better than single precision holds them.
   problem_.boundary.impose_on(weights);

@@ -182,6 +182,7 @@ void CompactSplitting<Scalar, Stored, Dim>::adapt_penalty(double ratio, double l
   set_difference();
   const std::size_t size = data_.vertices.size() * stride_;
   AlignedArray<Scalar> moved(extrapolated_.size());
+#pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < size; ++k) moved[k] = extrapolated_[k] - difference_[k] - start_[k];
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
@@ -194,6 +195,7 @@ void CompactSplitting<Scalar, Stored, Dim>::adapt_penalty(double ratio, double l
   const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
   penalty_ /= factor;
   const auto shrink = static_cast<Scalar>(1 / factor);
+#pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     Scalar* relaxed = relaxed_.data() + data_.vertices[row] * stride_;
     for (std::size_t i = 0; i < stride_; ++i) {

@@ -58,6 +58,11 @@ class CompactSplitting {
       LinearSolver linear_solver = LinearSolver::kDirect, StateStorage* storage = nullptr,
       const Kernel<Scalar, Stored, Dim>& kernel = select_kernel<Kernel<Scalar, Stored, Dim>>());
 
+  //! Goes on from where another one is, which loses its state, with P and the radii stored
+  //! differently. \param storage  the other one's
+  template <class Other>
+  CompactSplitting(CompactSplitting<Scalar, Other, Dim>&& other, StateStorage* storage);
+
   //! Goes on from the state that the storage holds.
   void resume();
 
@@ -74,10 +79,6 @@ class CompactSplitting {
   //! \param vertex_dual  q - w, n x V; empty for none
   void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
                         const WeightMatrix& vertex_dual);
-
-  //! Goes on where another one of the same problem and metric is, under its penalty.
-  template <class OtherStored>
-  void go_on_from(const CompactSplitting<Scalar, OtherStored, Dim>& other);
 
   Step iterate();
 

@@ -2,15 +2,51 @@
 // Where the compact splitting starts from, and how it leaves its state behind.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/cell_geometry.h"
 #include "solver/splitting/compact_splitting.h"
+#include "solver/state_storage.h"
 
 namespace flbc::compact {
+
+template <class Scalar, class Stored, int Dim>
+template <class Other>
+CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
+    CompactSplitting<Scalar, Other, Dim>&& other, StateStorage* storage)
+    : problem_(other.problem_),
+      kernel_(select_kernel<Kernel<Scalar, Stored, Dim>>()),
+      n_(other.n_),
+      stride_(other.stride_),
+      metric_(other.metric_),
+      unit_(other.unit_),
+      penalty_(other.penalty_),
+      relaxation_(other.relaxation_),
+      solver_(std::move(other.solver_)),
+      data_(make_compact_data(problem_, metric_, solver_.position(), unit_, stride_, kernel_)),
+      extrapolated_(std::move(other.extrapolated_)),
+      relaxed_(std::move(other.relaxed_)),
+      vertex_dual_(std::move(other.vertex_dual_)),
+      residual_(std::move(other.residual_)),
+      stored_extrapolated_(std::move(other.stored_extrapolated_)),
+      start_(std::move(other.start_)),
+      difference_(std::move(other.difference_)) {
+  const std::size_t size = other.cell_dual_.size();
+  AlignedArray<Scalar> dual(size);
+  other.kernel_.decode(other.cell_dual_.data(), dual.data(), size);
+  if (storage == nullptr) {
+    cell_dual_ = std::move(dual);
+    return;
+  }
+  const auto cells = static_cast<std::size_t>(problem_.mesh.num_cells());
+  cell_dual_ = state_array<Stored>(storage, StateArray::kSplittingState, cells, Dim, stride_);
+  kernel_.encode(dual.data(), cell_dual_.data(), size);
+}
 
 // a and W, both sigma w.
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::set_weights(const WeightMatrix& weights) {
+#pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     const Index v = data_.vertices[row];
     for (Index i = 0; i < n_; ++i) {
@@ -56,6 +92,7 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_harmonic(int steps) {
 // From w in the rows of a: W = w, S = 0, P = grad w.
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::begin_from_weights() {
+#pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     std::copy_n(extrapolated_.data() + row * stride_, stride_,
                 relaxed_.data() + data_.vertices[row] * stride_);
@@ -93,8 +130,11 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const WeightMatrix&
     }
   }
   std::fill_n(vertex_dual_.data(), vertex_dual_.size(), Scalar(0));
-  for (const Index v : data_.vertices) {
-    for (Index i = 0; i < n_ && vertex_dual_.size() > 0 && vertex_dual.size() > 0; ++i) {
+  const bool has_dual = vertex_dual_.size() > 0 && vertex_dual.size() > 0;
+#pragma omp parallel for schedule(static)
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    const Index v = data_.vertices[row];
+    for (Index i = 0; i < n_ && has_dual; ++i) {
       vertex_dual_[v * stride_ + i] = static_cast<Scalar>(sigma() * vertex_dual(i, v));
     }
   }
@@ -102,6 +142,7 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const WeightMatrix&
   auto state = arrays();
   state.relaxation = 0;  // the residual alone
   run(state, kernel_.z_step, kernel_.correct);
+#pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     Scalar* relaxed = relaxed_.data() + data_.vertices[row] * stride_;
     for (std::size_t i = 0; i < stride_; ++i) {
@@ -115,6 +156,7 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const WeightMatrix&
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::set_residual() {
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+#pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertex_metric.size(); ++row) {
     const Scalar* dual = vertex_dual_.data() + data_.vertices[row] * stride_;
     for (std::size_t i = 0; i < stride_; ++i) {
@@ -131,25 +173,6 @@ void CompactSplitting<Scalar, Stored, Dim>::resume() {
   }
   set_boundary_rows();
   set_residual();
-}
-
-template <class Scalar, class Stored, int Dim>
-template <class OtherStored>
-void CompactSplitting<Scalar, Stored, Dim>::go_on_from(
-    const CompactSplitting<Scalar, OtherStored, Dim>& other) {
-  penalty_ = other.penalty_;
-  const auto copy = [](const AlignedArray<Scalar>& from, AlignedArray<Scalar>& to) {
-    std::copy_n(from.data(), from.size(), to.data());
-  };
-  copy(other.extrapolated_, extrapolated_);
-  copy(other.relaxed_, relaxed_);
-  copy(other.vertex_dual_, vertex_dual_);
-  copy(other.residual_, residual_);
-  AlignedArray<Scalar> rows(Dim * stride_);
-  for (std::size_t k = 0; k < cell_dual_.size(); k += rows.size()) {
-    other.kernel_.decode(other.cell_dual_.data() + k, rows.data(), rows.size());
-    kernel_.encode(rows.data(), cell_dual_.data() + k, rows.size());
-  }
 }
 
 template <class Scalar, class Stored, int Dim>
@@ -176,14 +199,9 @@ FLBC_INSTANTIATE(float, float, 3)
 FLBC_INSTANTIATE(double, double, 2)
 FLBC_INSTANTIATE(double, double, 3)
 #undef FLBC_INSTANTIATE
-
-#define FLBC_INSTANTIATE(Dim)                                                                 \
-  template void CompactSplitting<float, float, Dim>::go_on_from(                              \
-      const CompactSplitting<float, Half, Dim>&);                                             \
-  template void CompactSplitting<float, Half, Dim>::go_on_from(                               \
-      const CompactSplitting<float, float, Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template CompactSplitting<float, float, 2>::CompactSplitting(CompactSplitting<float, Half, 2>&&,
+                                                             StateStorage*);
+template CompactSplitting<float, float, 3>::CompactSplitting(CompactSplitting<float, Half, 3>&&,
+                                                             StateStorage*);
 
 }  // namespace flbc::compact

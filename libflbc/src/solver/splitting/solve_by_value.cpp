@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Method::kValue from start to weights.
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
@@ -9,10 +13,12 @@
 #include "solver/iterative_method.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/error_estimate.h"
-#include "solver/splitting/half_then_single.h"
 
 namespace flbc {
 namespace {
+
+template <class Scalar, class Stored, int Dim>
+using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
 // The penalty grows to no more than this: what is balanced are lengths of all that moves, and where
 // the start is nearly right everywhere, as on round cages, that takes the penalty out of the range
@@ -22,41 +28,84 @@ double largest_penalty(const LbcProblem<Dim>& problem) {
   return bounding_box_diagonal(problem.cage.points) / 30;
 }
 
-//! \param measure  of the domain
-template <class Splitting, int Dim>
-void iterate(Splitting& splitting, const LbcProblem<Dim>& problem,
-             double measure, const SolverOptions& options, bool adaptive, bool warm,
-             GapCriterion& gap, SolveReport& report) {
-  constexpr double kBalance = 0.3;
-  constexpr int kFewest = 8;
-  const double n = problem.num_control_points();
-  const double interior =
-      problem.mesh.num_vertices() - static_cast<double>(problem.boundary.vertices.size());
-  const double num_weights = std::max(1.0, interior) * n;
-  const double size = bounding_box_diagonal(problem.cage.points);
-  const double residual_scale = size * size / (n * measure);
-  splitting::ErrorEstimate estimate(warm, options.tolerance);
-  auto history = splitting.history();
-  const auto read = [&](Index row, auto* weights) { splitting.read_row(row, weights); };
-  history(0, read);
-  const auto step_at = [&](int iteration) {
-    const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
-    if (adaptive && adapts) return splitting.iterate_and_adapt(kBalance, largest_penalty(problem));
-    return estimate.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
-  };
-  for (int iteration = 1;; ++iteration) {
-    const auto step = step_at(iteration);
-    const double difference = history(iteration, read) / n;
-    report.iterations = iteration;
-    report.primal_residual = estimate(iteration, step.change / num_weights, difference,
-                                      step.violation * residual_scale) /
-                             options.tolerance;
-    const bool look = iteration % options.check_interval == 0 ||
-                      (iteration >= kFewest && report.primal_residual <= 1) ||
-                      iteration == options.max_iterations;
-    if (look && finished(iteration, options, gap, report)) return;
+// A run from its start to its end, which may go on in another precision on the way.
+template <class Scalar, int Dim>
+class Run {
+ public:
+  //! \param measure  of the domain \param adaptive  whether the penalty is to be balanced
+  Run(const LbcProblem<Dim>& problem, double measure, const SolverOptions& options, bool adaptive,
+      bool warm, SolveReport& report)
+      : problem_(problem),
+        options_(options),
+        adaptive_(adaptive),
+        report_(report),
+        num_weights_(std::max<double>(1, problem.boundary.interior_vertices().size()) *
+                     problem.num_control_points()),
+        residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
+                        (problem.num_control_points() * measure)),
+        estimate_(warm, options.tolerance),
+        gap_(*options.gap, [this] { return certificate_(); }) {}
+
+  //! \param certify_weights  by the duals of the splitting
+  //! \return whether the run has ended; otherwise it is to go on in single precision
+  template <class Stored>
+  bool iterate(Splitting<Scalar, Stored, Dim>& splitting,
+               const std::function<Certificate(const WeightMatrix&)>& certify_weights) {
+    constexpr int kFewest = 8;
+    const auto options =
+        with_objective(problem_, options_, [&] { return splitting.weights(); });
+    certificate_ = [&] { return certify_weights(splitting.weights()); };
+    const auto read = [&](Index row, Scalar* weights) { splitting.read_row(row, weights); };
+    if (!history_) {
+      history_.emplace(splitting.history());
+      (*history_)(0, read);
+    }
+    for (;;) {
+      const int iteration = ++report_.iterations;
+      const auto step = step_at(iteration, splitting);
+      const double difference = (*history_)(iteration, read) / problem_.num_control_points();
+      report_.primal_residual = estimate_(iteration, step.change / num_weights_, difference,
+                                          step.violation * residual_scale_) /
+                                options_.tolerance;
+      const bool look = iteration % options_.check_interval == 0 ||
+                        (iteration >= kFewest && report_.primal_residual <= 1) ||
+                        iteration == options_.max_iterations;
+      if (look && finished(iteration, options, gap_, report_)) return true;
+      if (std::is_same_v<Stored, compact::Half> && trembles(iteration)) return false;
+    }
   }
-}
+
+ private:
+  static double square(double x) { return x * x; }
+
+  template <class Stored>
+  compact::Step step_at(int iteration, Splitting<Scalar, Stored, Dim>& splitting) const {
+    constexpr double kBalance = 0.3;
+    const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
+    if (adaptive_ && adapts) return splitting.iterate_and_adapt(kBalance, largest_penalty(problem_));
+    return estimate_.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
+  }
+
+  // Duals that are rounded in every iteration make the weights tremble, of which the estimate of
+  // the error cannot tell that it leads nowhere.
+  bool trembles(int iteration) const {
+    constexpr int kLongest = 300;
+    constexpr double kSmallest = 1e-6;
+    return iteration >= kLongest ||
+           std::max(report_.primal_residual, 1.0) * options_.tolerance < kSmallest;
+  }
+
+  const LbcProblem<Dim>& problem_;
+  const SolverOptions& options_;
+  const bool adaptive_;
+  SolveReport& report_;
+  const double num_weights_;
+  const double residual_scale_;
+  splitting::ErrorEstimate estimate_;
+  std::optional<splitting::WeightHistory<Scalar>> history_;
+  std::function<Certificate()> certificate_;
+  GapCriterion gap_;
+};
 
 // A factor of a large mesh takes more time and memory than the iteration itself; in 3D soon, in 2D
 // where meshes hardly get.
@@ -67,8 +116,8 @@ LinearSolver linear_solver_for(const LbcProblem<Dim>& problem, const SolverOptio
   return problem.mesh.num_vertices() > kLargest ? LinearSolver::kMultigrid : LinearSolver::kDirect;
 }
 
-// Duals that are rounded in every iteration make the weights tremble, the more the coarser the mesh;
-// and small meshes are fast as they are.
+// The coarser the mesh, the more roundings of duals move the weights; and small meshes are fast as
+// they are.
 template <int Dim>
 bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
                 const StateStorage* storage) {
@@ -91,8 +140,8 @@ double choose_penalty(const LbcProblem<Dim>& problem, const SolverOptions& optio
   return bounding_box_diagonal(problem.cage.points) / 40;
 }
 
-template <class Splitting, int Dim>
-void choose_start(Splitting& splitting, const StateStorage* storage,
+template <class Scalar, class Stored, int Dim>
+void choose_start(Splitting<Scalar, Stored, Dim>& splitting, const StateStorage* storage,
                   const WarmStart<Dim>& warm_start) {
   constexpr int kRichardsonSteps = 8;
   if (resumes(storage)) {
@@ -106,8 +155,9 @@ void choose_start(Splitting& splitting, const StateStorage* storage,
   }
 }
 
-template <class Splitting, int Dim>
-MeshState<Dim> keep_state(Splitting& splitting, const LbcProblem<Dim>& problem) {
+template <class Scalar, class Stored, int Dim>
+MeshState<Dim> keep_state(Splitting<Scalar, Stored, Dim>& splitting,
+                          const LbcProblem<Dim>& problem) {
   MeshState<Dim> state;
   state.penalty = splitting.penalty();
   state.weights = splitting.weights();
@@ -116,31 +166,54 @@ MeshState<Dim> keep_state(Splitting& splitting, const LbcProblem<Dim>& problem) 
   return state;
 }
 
-template <class Splitting, int Dim>
+// Leaves everything where it is wanted.
+template <class Scalar, class Stored, int Dim>
+MethodResult end(Splitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& problem,
+                 std::function<Certificate(const WeightMatrix&)> certify_weights,
+                 StateStorage* storage, MeshState<Dim>* final_state, SolveReport& report) {
+  splitting.finish();
+  report.state_scalars_per_cell = splitting.state_scalars_per_cell();
+  report.penalty = splitting.penalty();
+  if (storage != nullptr) storage->keep_penalty(report.penalty);
+  if (final_state) *final_state = keep_state(splitting, problem);
+  return {splitting.weights(), std::move(certify_weights)};
+}
+
+template <class Scalar, class Stored, int Dim>
 MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
                    SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   const auto metric =
       splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
-  auto splitting = std::make_shared<Splitting>(
+  auto splitting = std::make_shared<Splitting<Scalar, Stored, Dim>>(
       problem, metric, choose_penalty(problem, options, storage, warm_start), options.relaxation,
       linear_solver_for(problem, options), storage);
   choose_start(*splitting, storage, warm_start);
-  const bool adaptive = options.penalty == 0 && !resumes(storage) && !warm_start.from;
-  const auto certify_weights = [splitting, &problem](const WeightMatrix& weights) {
-    return certify(problem, splitting->flux(), weights);
+  const bool warm = warm_start.from != nullptr;
+  if (warm_start.started) warm_start.started();
+  const bool adaptive = options.penalty == 0 && !resumes(storage) && !warm;
+  const auto certify_by = [&problem](const auto& any) {
+    return [any, &problem](const WeightMatrix& weights) {
+      return certify(problem, any->flux(), weights);
+    };
   };
-  GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
-  const auto told = with_objective(problem, options, [&] { return splitting->weights(); });
-  iterate(*splitting, problem, metric.cell.sum(), told, adaptive, warm_start.from != nullptr, gap,
-          report);
-  splitting->finish();
-  report.state_scalars_per_cell = splitting->state_scalars_per_cell();
-  report.penalty = splitting->penalty();
-  if (storage != nullptr) storage->keep_penalty(report.penalty);
-  report.seconds.solve = watch.lap();
-  if (warm_start.final_state) *warm_start.final_state = keep_state(*splitting, problem);
-  return {splitting->weights(), certify_weights};
+  report.iterations = 0;
+  Run<Scalar, Dim> run(problem, metric.cell.sum(), options, adaptive, warm, report);
+  const auto end_with = [&](const auto& any) {
+    report.seconds.solve = watch.lap();
+    return end(*any, problem, certify_by(any), storage, warm_start.final_state, report);
+  };
+  [[maybe_unused]] const bool has_ended = run.iterate(*splitting, certify_by(splitting));
+  if constexpr (std::is_same_v<Stored, compact::Half>) {
+    if (!has_ended) {
+      const auto single =
+          std::make_shared<Splitting<Scalar, Scalar, Dim>>(std::move(*splitting), storage);
+      splitting.reset();
+      run.iterate(*single, certify_by(single));
+      return end_with(single);
+    }
+  }
+  return end_with(splitting);
 }
 
 }  // namespace
@@ -148,16 +221,13 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 template <int Dim>
 MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions& options,
                             SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
-  using Double = compact::CompactSplitting<double, double, Dim>;
-  using Single = compact::CompactSplitting<float, float, Dim>;
-  using Half = compact::HalfThenSingle<Dim>;
   if (options.precision == Precision::kDouble) {
-    return solve<Double>(problem, options, report, storage, warm_start);
+    return solve<double, double>(problem, options, report, storage, warm_start);
   }
   if (takes_half(problem, options, storage)) {
-    return solve<Half>(problem, options, report, storage, warm_start);
+    return solve<float, compact::Half>(problem, options, report, storage, warm_start);
   }
-  return solve<Single>(problem, options, report, storage, warm_start);
+  return solve<float, float>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_by_value(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
