@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
+#include <algorithm>
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "commands/commands.h"
 #include "commands/exit_status.h"
@@ -34,14 +36,68 @@ void refuse_empty_values(CLI::App& app) {
   }
 }
 
+std::string version() {
+  std::string text = "flbc " FLBC_VERSION "\nwith";
+#ifdef FLBC_WITH_CGAL
+  text += " CGAL (meshes in 2D, cages of models)";
+#endif
+#ifdef FLBC_WITH_TETGEN
+  text += " TetGen (meshes in 3D)";
+#endif
+#ifdef FLBC_WITH_OPENMESH
+  text += " OpenMesh (.om files)";
+#endif
+  return text;
+}
+
+// Number of letters to change, insert, drop or swap with their neighbours.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      auto& least = cost[i][j];
+      least = i + j;
+      if (i > 0 && j > 0) {
+        least = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1,
+                          cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      }
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        least = std::min(least, cost[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return cost[a.size()][b.size()];
+}
+
+// The command that was meant, if one is near enough.
+std::string suggestion(const CLI::App& app, const std::string& name) {
+  constexpr std::size_t kMostEdits = 2;
+  std::string nearest;
+  std::size_t fewest = kMostEdits + 1;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const auto edits = edit_distance(name, command->get_name());
+    if (edits >= fewest) continue;
+    fewest = edits;
+    nearest = command->get_name();
+  }
+  return nearest.empty() ? "; " : "; did you mean " + nearest + "? If not, ";
+}
+
+std::string describe_usage_error(const CLI::App* app, const CLI::Error& error) {
+  std::string command = "flbc";
+  for (const auto* chosen : app->get_subcommands()) command += " " + chosen->get_name();
+  return command + ": " + error.what() + "; see " + command + " --help\n";
+}
+
 int run(int argc, char** argv) {
   using namespace flbc::app;
   CLI::App app{
       "Local barycentric coordinates of cages in 2D and 3D.\n"
-      "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure."};
-  app.set_version_flag("--version", "flbc " FLBC_VERSION);
+      "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure, "
+      "5 out of memory."};
+  app.set_version_flag("--version", version());
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::simple);
+  app.failure_message(describe_usage_error);
   int exit_status = kDone;
   add_run_command(app, exit_status);
   add_cage_command(app, exit_status);
@@ -59,7 +115,8 @@ int run(int argc, char** argv) {
   add_info_command(app, exit_status);
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-    throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'; see flbc --help");
+    throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'" +
+                            suggestion(app, argv[1]) + "see flbc --help");
   }
   try {
     app.parse(argc, argv);
@@ -69,6 +126,8 @@ int run(int argc, char** argv) {
     app.exit(error);
     return kWrongUsage;
   }
+  // Results that were meant for standard output and are lost must not pass for done.
+  if (!std::cout.flush()) throw flbc::IoError("standard output: cannot write");
   return exit_status;
 }
 
@@ -85,7 +144,7 @@ int main(int argc, char** argv) {
   } catch (const flbc::Error& error) {
     return fail(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kBadInput, "out of memory; try fewer --vertices");
+    return fail(kOutOfMemory, "out of memory; try fewer --vertices");
   } catch (const std::exception& error) {
     return fail(kBadInput, error.what());
   }

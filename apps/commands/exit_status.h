@@ -10,7 +10,8 @@ enum ExitStatus : int {
   kWrongUsage = 1,    //!< unknown or impossible options
   kBadInput = 2,      //!< a defect in a file's content
   kNotConverged = 3,  //!< results are written nevertheless, the report says so
-  kIoFailure = 4      //!< a file cannot be opened, read or written
+  kIoFailure = 4,     //!< a file cannot be opened, read or written
+  kOutOfMemory = 5
 };
 
 }  // namespace flbc::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,16 +66,39 @@ std::string wrapped(const std::string& facts) {
 
 }  // namespace
 
+// Nobody has to remove it: the system drops it with the process.
+class RunFolder::Lock {
+ public:
+  explicit Lock(const std::string& path)
+      : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0) {
+      throw IoError(path + ": cannot open this folder: " + std::strerror(errno));
+    }
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(descriptor_);
+    throw IoError(path + ": another flbc run is writing to this folder; wait for it, or take "
+                         "another one");
+  }
+  ~Lock() { close(descriptor_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 RunFolder::RunFolder(std::string path, const RunFiles& files)
     : path_(std::move(path)), quiet_(files.quiet) {
   std::error_code error;
-  const auto old = names_in_report(path_of(kReport));
-  check_results(files, old);
+  check_results(files, names_in_report(path_of(kReport)));
   fs::create_directories(path_, error);
   if (error) throw IoError(path_ + ": cannot make this folder: " + error.message());
   if (access(path_.c_str(), W_OK | X_OK) != 0) {
     throw IoError(path_ + ": cannot write in this folder: " + std::strerror(errno));
   }
+  lock_ = std::make_shared<Lock>(path_);
+  const auto old = names_in_report(path_of(kReport));
+  check_results(files, old);  // again: another run may have ended just now
   remove_old(files, old);
   write_report({{"command", kCommand}, {"unfinished", true}, {"files", files.names}});
 }

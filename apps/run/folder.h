@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ class RunFolder {
  public:
   //! Makes the folder if there is none, and removes from it what an earlier run has made, so that
   //! nothing of that passes for a file of this run. All other files stay.
-  //! \throws IoError naming the folder if it cannot be used; OptionError if a result would replace
+  //! \throws IoError naming the folder if it cannot be used, or another run is writing to it; OptionError if a result would replace
   //! an input, or without force a file that no earlier run has made
   RunFolder(std::string path, const RunFiles& files);
 
@@ -49,7 +50,10 @@ class RunFolder {
 
   void write_report(const nlohmann::ordered_json& report) const;
 
+  class Lock;
+
   std::string path_;
+  std::shared_ptr<Lock> lock_;  // while it lives, no other run writes here
   bool quiet_;
   std::vector<std::string> names_;
 };

@@ -62,6 +62,14 @@ void keep(const WeightsCache& cache, const std::string& key, const SolvedDomain<
   }
 }
 
+// By the bounding boxes.
+template <int Dim>
+bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
+  if (outer.cols() == 0) return false;
+  return (outer.rowwise().minCoeff().array() < inner.rowwise().minCoeff().array()).all() &&
+         (outer.rowwise().maxCoeff().array() > inner.rowwise().maxCoeff().array()).all();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -71,6 +79,10 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
     throw OptionError("--outside: vertices that become vertices of the mesh must be inside; leave "
                       "--embed or --outside out");
+  }
+  if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points)) {
+    throw InputError(settings.model + ": surrounds the cage " + settings.cage +
+                     "; are CAGE and MODEL swapped?");
   }
   if (!settings.cache.empty()) cache_.emplace(settings.cache);
 }
@@ -98,11 +110,15 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
   is_cached_ = find_in_cache();
   if (!is_cached_) {
+    std::string note;
     if (!has_domain) {
       const ProgressBar bar(quiet, "meshing the cage");
       solved_.domain = app::make_domain(settings_.cage, cage_, settings_.vertices,
-                                        settings_.embed ? settings_.model : "", model_);
+                                        settings_.embed ? settings_.model : "", model_,
+                                        settings_.mesh_timeout);
+      note = note_on_count(settings_.vertices, solved_.domain.num_vertices());
     }
+    if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     solved_.mesh_seconds = seconds.count();
   }

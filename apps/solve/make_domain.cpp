@@ -31,20 +31,31 @@ DomainMesh<3> mesh_cage([[maybe_unused]] const Cage<3>& cage,
 
 template <int Dim>
 DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage, Index vertices,
-                            const std::string& embedded_file, const PointList<Dim>& model) {
+                            const std::string& embedded_file, const PointList<Dim>& model,
+                            double time_limit) {
   MeshingOptions<Dim> options;
   if (!embedded_file.empty()) options.embedded_points = model;
   options.vertices = vertices > 0 ? vertices : kDefaultVertices;
+  options.time_limit = time_limit;
   const auto name = embedded_file.empty() ? cage_file : cage_file + " with " + embedded_file;
   return naming(name, [&] {
-    if (vertices > 0) return mesh_cage(cage, options);
     try {
       return mesh_cage(cage, options);
-    } catch (const OptionError&) {  // the default is too small for this cage or model
+    } catch (const OptionError&) {  // too few for this cage or model, or far too many
+      const Index asked = options.vertices;
       options.vertices = 0;
-      return mesh_cage(cage, options);
+      auto domain = mesh_cage(cage, options);
+      if (domain.num_vertices() < asked) throw;
+      return domain;
     }
   });
+}
+
+std::string note_on_count(Index asked, Index count) {
+  constexpr double kTolerance = 1.1;  // promised by MeshingOptions
+  if (asked == 0 || count <= kTolerance * asked) return "";
+  return "cells of good shape take " + std::to_string(count) + " vertices in this cage, more than " +
+         std::to_string(asked) + " (--vertices)";
 }
 
 template <int Dim>
@@ -69,8 +80,8 @@ CoarseMesher<Dim> coarse_mesher() {
 template CoarseMesher<2> coarse_mesher();
 template CoarseMesher<3> coarse_mesher();
 template DomainMesh<2> make_domain(const std::string&, const Cage<2>&, Index, const std::string&,
-                                   const PointList<2>&);
+                                   const PointList<2>&, double);
 template DomainMesh<3> make_domain(const std::string&, const Cage<3>&, Index, const std::string&,
-                                   const PointList<3>&);
+                                   const PointList<3>&, double);
 
 }  // namespace flbc::app

@@ -25,6 +25,13 @@ void add_choice(CLI::App& command, const std::string& name, Enum& value, const s
 
 }  // namespace
 
+void add_mesh_timeout(CLI::App& command, double& seconds) {
+  command
+      .add_option("--mesh-timeout", seconds,
+                  "seconds after which a run of the mesher in 3D is stopped (60)")
+      ->check(CLI::PositiveNumber);
+}
+
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
   add_choice(command, "--method", options.method, "how to solve (auto)");
@@ -54,6 +61,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "what becomes of the model's vertices outside the cage: nearest: weights of the "
              "nearest point of the cage; extend: those and an affine function of the offset, which "
              "reproduce the vertex but may be negative (fail)");
+  add_mesh_timeout(command, settings.mesh_timeout);
   command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_flag("--history", settings.history,
                    "keep errors, residuals and objective by iteration in the report (flbc plot)");

@@ -173,6 +173,29 @@ TEST_F(CommandLine, HelpAndVersion) {
   }
 }
 
+// Where cells of good shape take more vertices than were asked for, there are more, and a note.
+TEST_F(CommandLine, TooFewVerticesBecomeMore) {
+  const auto cage = sample("2d/letter_cage.obj");
+  const auto result = run("mesh " + cage + " --vertices 3 -o " + path("d.obj"));
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.errors.find("more than 3 (--vertices)"), std::string::npos) << result.errors;
+  EXPECT_GT(io::read_domain<2>(path("d.obj")).num_vertices(), 3);
+  expect_failure("mesh " + cage + " --vertices 2000000000 -o " + path("e.obj"), 1, "too many");
+}
+
+TEST_F(CommandLine, SwappedCageAndModelAreSaid) {
+  expect_failure("solve " + sample("3d/limb_model.obj") + " --model " +
+                     sample("3d/limb_cage.obj") + " -o " + path("w.npy"),
+                 2, "are CAGE and MODEL swapped?");
+}
+
+TEST_F(CommandLine, ALostOutputIsAFailure) {
+  const std::string command = std::string(FLBC_PROGRAM) + " info " + sample("3d/limb_cage.obj") +
+                              " >/dev/full 2>" + path("errors.txt");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos);
+}
+
 TEST_F(CommandLine, WrongUsageIsStatus1) {
   const auto cage = sample("2d/letter_cage.obj");
   const auto o = " -o " + path("w.npy");
@@ -180,8 +203,9 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve", 1, "CAGE");
   expect_failure("solve " + cage, 1, "--output");
   expect_failure("fly " + cage, 1, "fly");
+  expect_failure("slove " + cage, 1, "did you mean solve?");
+  expect_failure("solve " + cage, 1, "flbc solve: --output is required");
   expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
-  expect_failure("solve " + cage + o + " --vertices 3", 1, "vertices");
   expect_failure("solve " + cage + o + " --method magic", 1, "'magic' is none of auto|");
   expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
   expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc run as its users and their scripts see it: it does what the other commands do one by one.
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/inotify.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,6 +19,21 @@ namespace flbc::testing {
 namespace {
 
 namespace fs = std::filesystem;
+
+// As another run holds a folder.
+class HeldFolder {
+ public:
+  explicit HeldFolder(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY)) {
+    EXPECT_EQ(flock(descriptor_, LOCK_EX), 0);
+  }
+  ~HeldFolder() { close(descriptor_); }
+  HeldFolder(const HeldFolder&) = delete;
+  HeldFolder& operator=(const HeldFolder&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 using Names = std::set<std::string>;
 
 class RunCommand : public CommandLineTest {
@@ -335,6 +353,20 @@ TEST_F(RunCommand, KeyframesOfTheArm) {
              0, "deformed_*.obj      3 poses; largest displacement 32");
   EXPECT_EQ(names_in("out").count("deformed_002.obj"), 1U);
   EXPECT_EQ(report("out")["export"]["times"], (std::vector<double>{0, 1.5, 3}));
+}
+
+TEST_F(RunCommand, AFolderThatAnotherRunWritesToIsRefused) {
+  const auto cage = sample("2d/letter_cage.obj");
+  expect_run("a", cage + " --vertices 300", 0, "report.json");
+  const auto names = names_in("a");
+  const auto before = slurp(path("a/report.json"));
+  {
+    const HeldFolder held(path("a"));
+    expect_run("a", cage + " --vertices 300", 4, "another flbc run is writing to this folder");
+    EXPECT_EQ(names_in("a"), names);
+    EXPECT_EQ(slurp(path("a/report.json")), before);
+  }
+  expect_run("a", cage + " --vertices 300", 0, "report.json");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 
 namespace flbc::io {
@@ -90,6 +91,24 @@ TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
   }
 }
 
+TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
+  // A frame of four quadrilaterals round a hole.
+  PolygonSoup frame;
+  frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2}, {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
+  for (Index k = 0; k < 4; ++k) {
+    frame.polygons.push_back({k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k});
+  }
+  const auto cage = std::get<Cage<2>>(to_cage(frame, "frame.obj"));
+  EXPECT_TRUE(find_defects(cage).empty());
+  EXPECT_EQ(cage.facets.cols(), 8);
+  EXPECT_DOUBLE_EQ(measure_cage(cage).measure, 9 - 1);
+  EXPECT_EQ(measure_cage(cage).holes, 1);
+  // Where the polygon is drawn as well, it decides.
+  frame.polylines = {{0, 1, 2, 3, 0}};
+  const auto outline = std::get<Cage<2>>(to_cage(frame, "frame.obj"));
+  EXPECT_EQ(outline.facets.cols(), 4);
+}
+
 TEST(CageIo, RefusesWhatIsNoCage) {
   const auto refused = [](const PolygonSoup& soup, const std::string& words) {
     try {
@@ -105,6 +124,7 @@ TEST(CageIo, RefusesWhatIsNoCage) {
   auto mixed = square();
   mixed.polygons = {{0, 1, 2}};
   mixed.polylines = {{0, 1}};
+  mixed.points[3].z() = 1;
   refused(mixed, "both polygons and polylines");
   auto bent = square();
   bent.points[2].z() = 3;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/cage_io.h"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include "base/messages.h"
 #include "flbc/errors.h"
 #include "flbc/io/cut_polygon.h"
@@ -20,6 +25,24 @@ FacetList<2> edges_of_polylines(const std::vector<Polygon>& polylines) {
   FacetList<2> facets(2, edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e) facets.col(e) << edges[e].first, edges[e].second;
   return facets;
+}
+
+// The edges that one polygon only has, in its direction: what the polygons bound together.
+FacetList<2> boundary_edges(const std::vector<Polygon>& polygons) {
+  std::map<std::pair<Index, Index>, int> uses;  // by the smaller end
+  const auto for_edges = [&](const auto& use) {
+    for (const auto& polygon : polygons) {
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        use(polygon[k], polygon[(k + 1) % polygon.size()]);
+      }
+    }
+  };
+  for_edges([&](Index from, Index to) { ++uses[std::minmax(from, to)]; });
+  std::vector<Polygon> edges;
+  for_edges([&](Index from, Index to) {
+    if (uses[std::minmax(from, to)] == 1) edges.push_back({from, to});
+  });
+  return edges_of_polylines(edges);
 }
 
 FacetList<2> closed_loop(const Polygon& loop) {
@@ -55,7 +78,8 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
     if (Dim == 2 && soup.points[v].z() != soup.points[0].z()) {
       throw InputError(name + ": vertex " + std::to_string(v) + " at " +
                        format_point(soup.points[v]) +
-                       " is not in the plane of vertex 0; a 2D shape must have one z throughout");
+                       " is not in the plane of vertex 0; a 2D cage, and a shape in it, must have "
+                       "one z throughout");
     }
     points.col(v) = soup.points[v].template head<Dim>();
   }
@@ -64,19 +88,20 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
 
 AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
   if (soup.points.empty()) throw InputError(name + ": has no vertices");
-  if (!soup.polygons.empty() && !soup.polylines.empty()) {
+  const bool is_surface = !soup.polygons.empty() && !is_flat(soup);
+  if (is_surface && !soup.polylines.empty()) {
     throw InputError(name +
                      ": has both polygons and polylines; a cage is either a surface (3D) or " +
                      "closed polylines (2D)");
   }
-  if (soup.polygons.size() > 1 || (soup.polygons.size() == 1 && !is_flat(soup))) {
+  if (is_surface) {
     return Cage<3>{to_points<3>(soup, name), triangles_of_polygons(soup)};
   }
   Cage<2> cage{to_points<2>(soup, name), {}};
   if (!soup.polylines.empty()) {
     cage.facets = edges_of_polylines(soup.polylines);
   } else if (!soup.polygons.empty()) {
-    cage.facets = closed_loop(soup.polygons[0]);
+    cage.facets = boundary_edges(soup.polygons);
   } else {
     Polygon loop(soup.points.size());
     for (std::size_t v = 0; v < loop.size(); ++v) loop[v] = static_cast<Index>(v);

@@ -93,7 +93,7 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
       std::snprintf(seconds, sizeof(seconds), "%g", time_limit);
       throw InputError(
           std::string("TetGen was stopped at the time limit of ") + seconds +
-          " s; raise the limit, ask for fewer vertices, or check the cage for facets that "
+          " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage for facets that "
           "intersect or come extremely close");
     }
   }
