@@ -294,19 +294,24 @@ TYPED_TEST(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
   exact.tolerance = 1e-10;
   exact.certify = true;
   const auto optimum = solve(problem, exact);
-  for (const auto method : {Method::kValue, Method::kGradient}) {
+  for (const auto method : {Method::kValue, Method::kGradient, Method::kLbc2014}) {
     SCOPED_TRACE(static_cast<int>(method));
     SolverOptions options;
     options.method = method;
     options.certify = true;
-    options.tolerance = method == Method::kValue ? 1e-6 : 0;
+    // By default kLbc2014 asks for more than single precision has on meshes as small as these; and
+    // where its tail is long, the start decides nothing.
+    options.tolerance = method == Method::kValue ? 1e-6 : method == Method::kLbc2014 ? 1e-5 : 0;
     const auto cold = solve(problem, options);
     options.coarse_levels = test_levels<kDim>();
     const auto warm = solve(problem, options, sample_mesher<kDim>(Shape::kCorner));
     ASSERT_EQ(cold.report.status, SolveStatus::kConverged);
     ASSERT_EQ(warm.report.status, SolveStatus::kConverged);
     EXPECT_FALSE(warm.report.coarse_levels.empty());
-    EXPECT_LT(warm.report.iterations, cold.report.iterations);
+    // kLbc2014 does not start from coarser meshes in 3D by default.
+    if (kDim == 2 || method != Method::kLbc2014) {
+      EXPECT_LT(warm.report.iterations, cold.report.iterations);
+    }
     const auto error = [&](const Solution& solution) {
       return mean_squared_difference(sample.mesh, solution.weights, optimum.weights);
     };
@@ -394,7 +399,7 @@ TYPED_TEST(CoarseToFineTest, OtherMethodsStartAsEver) {
     ++calls;
     return sample_mesher<kDim>(Shape::kCorner)(cage, vertices);
   };
-  for (const auto method : {Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
+  for (const auto method : {Method::kPaper, Method::kHarmonic}) {
     SolverOptions options;
     options.method = method;
     options.max_iterations = 30;

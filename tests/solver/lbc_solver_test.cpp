@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A solver that goes on from where it stopped, and penalties in units of the cage.
+#include <cmath>
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -38,7 +39,11 @@ TYPED_TEST(LbcSolverTest, TheFirstSolveIsTheOneOffFunction) {
     EXPECT_TRUE(same_bits(solution, expected));
     EXPECT_EQ(solution.report.iterations, expected.report.iterations);
     EXPECT_EQ(solution.report.penalty, expected.report.penalty);
-    EXPECT_EQ(solution.report.objective, expected.report.objective);
+    if (method == Method::kHarmonic || method == Method::kMeanValue) {
+      EXPECT_TRUE(std::isnan(solution.report.objective));
+    } else {
+      EXPECT_EQ(solution.report.objective, expected.report.objective);
+    }
     EXPECT_GT(solution.report.seconds.setup, 0);
     solver.restart();
     EXPECT_TRUE(same_bits(solver.solve(), expected));

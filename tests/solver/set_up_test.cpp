@@ -91,6 +91,50 @@ TYPED_TEST(SetUpTest, OtherMethodsAreExactUnlessTold) {
   EXPECT_EQ(source(Distances::kInterpolated), Distances::kInterpolated);
 }
 
+TYPED_TEST(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const CoarseMesher<kDim> never = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+    ADD_FAILURE() << "a coarse mesh was asked for";
+    throw InputError("not needed");
+  };
+  for (const auto method : {Method::kHarmonic, Method::kMeanValue}) {
+    SolverOptions options;
+    options.method = method;
+    options.distances = Distances::kInterpolated;
+    LbcSolver<kDim> solver(sample.cage, sample.mesh, options, never);
+    EXPECT_EQ(solver.problem().phi.size(), 0);
+    const auto solution = solver.solve();
+    EXPECT_EQ(solver.problem().phi.size(), 0);
+    EXPECT_TRUE(std::isnan(solution.report.objective));
+    EXPECT_TRUE(solve(solver.problem(), options).weights == solution.weights);
+    // Who has phi gets the objective.
+    const auto problem = make_problem(sample.cage, sample.mesh, options.phi);
+    const auto with_phi = solve(problem, options);
+    EXPECT_TRUE(with_phi.weights == solution.weights);
+    const double expected = testing::objective(problem.mesh, with_phi.weights, problem.phi) /
+                            std::pow(problem.scale, kDim - 1);
+    EXPECT_NEAR(with_phi.report.objective, expected, 1e-9 * expected);
+  }
+}
+
+TYPED_TEST(SetUpTest, MethodsThatMinimiseFindThemLater) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  SolverOptions options;
+  options.method = Method::kHarmonic;
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  solver.solve();
+  SolverOptions minimise;
+  minimise.max_iterations = 20;
+  EXPECT_THROW(solve(solver.problem(), minimise), InputError);
+  solver.set_options(minimise);
+  const auto expected = solve(sample.cage, sample.mesh, minimise);
+  EXPECT_TRUE(solver.solve().weights == expected.weights);
+  EXPECT_EQ(solver.solution().report.objective, expected.report.objective);
+  EXPECT_GT(solver.solution().report.seconds.setup, 0);
+}
+
 TYPED_TEST(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {
   constexpr int kDim = TypeParam::value;
   const auto sample = sample_of<kDim>();

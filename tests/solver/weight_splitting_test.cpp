@@ -57,6 +57,77 @@ TYPED_TEST(WeightSplittingTest, EqualsTheTextbookIterateByIterate) {
   }
 }
 
+// Weighted by the measure, the start is harmonic coordinates, whatever the vertices weigh.
+TYPED_TEST(WeightSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto expected = harmonic_coordinates(problem);
+    for (const bool non_negative : {false, true}) {
+      SCOPED_TRACE(sample.name + (non_negative ? ", w >= 0" : ""));
+      const auto metric = make_metric(problem, 1, non_negative);
+      WeightSplitting<double, kDim> splitting(problem, metric, 1, 1.5);
+      splitting.start_from_harmonic(40);
+      EXPECT_LT((splitting.weights() - expected).cwiseAbs().maxCoeff(),
+                non_negative ? 1e-3 : 1e-10);
+      const auto dual = splitting.vertex_dual();
+      ASSERT_EQ(dual.size() > 0, non_negative);
+      if (non_negative) EXPECT_EQ(dual.cwiseAbs().maxCoeff(), 0);
+    }
+  }
+}
+
+// With hardly any relaxation an iteration is nothing but its linear system, which duals from
+// elsewhere must leave without effect, whatever they are.
+TYPED_TEST(WeightSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto metric = make_metric(problem, 2, true);
+  const auto start = harmonic_coordinates(problem);
+  const auto n = start.rows();
+  const Eigen::MatrixXd density = Eigen::MatrixXd::Random(n, kDim * problem.mesh.num_cells());
+  WeightMatrix dual = WeightMatrix::Random(n, start.cols());
+  WeightSplitting<double, kDim> splitting(problem, metric, make_penalty(problem, metric), 1e-12);
+  splitting.start_from_weights(start);
+  splitting.iterate();
+  ASSERT_GT((splitting.weights() - start).cwiseAbs().maxCoeff(), 1e-3);
+  splitting.start_from_duals(
+      start, [&](Index s) { return density.template middleCols<kDim>(kDim * s); }, dual);
+  EXPECT_LT((splitting.weights() - start).cwiseAbs().maxCoeff(), 1e-14);
+  splitting.iterate();
+  EXPECT_LT((splitting.weights() - start).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// From the duals of the optimum it stays there, from its weights alone it does not.
+TYPED_TEST(WeightSplittingTest, StaysAtTheOptimumWithItsDuals) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto metric = make_metric(problem, 1, true);
+  const double penalty = make_penalty(problem, metric);
+  WeightSplitting<double, kDim> splitting(problem, metric, penalty, 1.5);
+  splitting.start_from_harmonic(8);
+  for (int iteration = 0; iteration < 6000; ++iteration) splitting.iterate();
+  const auto optimum = splitting.weights();
+  const auto flux = splitting.flux();
+  const auto moved = [&](bool with_duals) {
+    WeightSplitting<double, kDim> other(problem, metric, penalty, 1.5);
+    other.start_from_duals(
+        optimum,
+        [&](Index s) -> Eigen::Matrix<double, Eigen::Dynamic, kDim> {
+          const double measure = simplex_measure<kDim>(cell_corners(problem.mesh, s));
+          return (with_duals ? 1 / measure : 0) * flux.cell(s).transpose();
+        },
+        with_duals ? splitting.vertex_dual() : WeightMatrix());
+    for (int iteration = 0; iteration < 20; ++iteration) other.iterate();
+    return (other.weights() - optimum).cwiseAbs().maxCoeff();
+  };
+  const double with_duals = moved(true);
+  EXPECT_LT(with_duals, 1e-4);
+  EXPECT_GT(moved(false), 100 * with_duals);
+}
+
 TYPED_TEST(WeightSplittingTest, IsTheSameForAnyNumberOfThreads) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);

@@ -17,7 +17,7 @@ enum class Method {
   kAuto,      //!< the method recommended for most uses, at present kValue
   kValue,     //!< splitting on the weights in the metric of the continuous problem: the fastest
   kGradient,  //!< the paper's gradient ADMM, started from harmonic coordinates, over-relaxed
-  kPaper,     //!< the same with the paper's start, parameters and recovery, to the letter
+  kPaper,     //!< the paper's gradient ADMM with its parameters (docs/method.md: what it leaves open)
   kLbc2014,   //!< the original solver (section 3 of the paper; Zhang et al. 2014)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
@@ -72,12 +72,11 @@ struct SolverOptions {
   //! How the coordinates are computed.
   Method method = Method::kAuto;
 
-  //! Growth of the weight functions phi. Read by all methods but kHarmonic and kMeanValue, whose
-  //! reports alone depend on it.
+  //! Growth of the weight functions phi. Read by all methods but kHarmonic and kMeanValue.
   DistanceScheme phi = DistanceScheme::kSquare;
 
   //! Where the distances behind phi come from. Read where solve() sets the problem up, by all methods
-  //! but kHarmonic and kMeanValue, for which they are exact. kAuto interpolates if the estimated
+  //! but kHarmonic and kMeanValue, for which none are computed. kAuto interpolates if the estimated
   //! effect on the weights stays within half the tolerance; the report says how far phi is off.
   Distances distances = Distances::kAuto;
 
@@ -93,11 +92,11 @@ struct SolverOptions {
   //! For the linear system of each iteration. Read by kValue and kLbc2014.
   LinearSolver linear_solver = LinearSolver::kAuto;
 
-  //! Whether to start from coarser meshes, for which solve() takes a mesher. Read by kValue and
-  //! kGradient; other methods start as ever.
+  //! Whether to start from coarser meshes, for which solve() takes a mesher. Read by kValue,
+  //! kGradient and, where the penalty is chosen from the mesh, kLbc2014; other methods start as ever.
   CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
 
-  //! Which coarser meshes. Read by kValue and kGradient.
+  //! Which coarser meshes. Read by kValue, kGradient and kLbc2014.
   CoarseLevels coarse_levels{};
 
   //! How accurate, > 0; 0 = by method.

@@ -66,7 +66,8 @@ struct SolveReport {
   double dual_residual = 0;    //!< |r_d| divided by its threshold
   double penalty = 0;          //!< used last, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same on the scale of the literature (published_penalty())
-  //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1).
+  //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN where phi was
+  //! not computed: for kHarmonic and kMeanValue, unless the problem came with it.
   double objective = 0;
   Certificate certificate{};  //!< if asked for or the criterion, in the same units
   double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point

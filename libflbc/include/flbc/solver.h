@@ -26,19 +26,20 @@ using MesherArgument = std::common_type_t<CoarseMesher<Dim>>;
 
 //! Solves a problem; several calls with different options may share it.
 //!
-//! Methods kValue and kGradient start from weights and duals of a coarser mesh of the cage, which
+//! Methods kValue, kGradient and kLbc2014 start from weights and duals of a coarser mesh of the cage, which
 //! is solved in the same way, where there is a mesher and options.coarse_to_fine and coarse_levels
 //! say so: by default, where it was measured to pay. The result is the same up to the tolerance. A
 //! coarse mesh is left out if the mesher throws (the cage may be too fine for so few vertices) or
 //! does not make a clearly smaller mesh. The report is that of the given mesh and lists the coarser
 //! ones besides; their seconds, meshing included, count as part of the solve, and options.progress
 //! is called on all of them.
-//! \param problem  made with options.phi
+//! \param problem  made with options.phi; kHarmonic and kMeanValue need no phi
 //! \param mesher  makes the coarser meshes; empty for none
 //! \param storage  where the iteration's state lives, to be kept or to go on from, in which case no
 //! coarser meshes are used; null for memory that is freed at the end
 //! \return n x V weights and how it went; not converging is a status in the report
-//! \throws OptionError, SolverError; InputError if a coarse mesh does not belong to the cage
+//! \throws OptionError, SolverError; InputError if a coarse mesh does not belong to the cage, or
+//! phi is missing
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, StateStorage* storage = nullptr);
@@ -92,7 +93,7 @@ class LbcSolver {
   //! As given.
   const SolverOptions& options() const;
 
-  //! The problem that is solved.
+  //! The problem that is solved; without phi until a method that minimises has solved it.
   const LbcProblem<Dim>& problem() const;
 
   //! Of the last solve; without weights before the first.

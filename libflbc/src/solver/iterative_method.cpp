@@ -2,6 +2,7 @@
 #include "solver/iterative_method.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -108,7 +109,7 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
       result = solve_by_value(problem, options, report, storage, warm_start);
       break;
     case Method::kLbc2014:
-      result = solve_lbc2014(problem, options, report, storage);
+      result = solve_lbc2014(problem, options, report, storage, warm_start);
       break;
     default:
       result = solve_by_gradients(problem, options, report, storage, warm_start);
@@ -132,7 +133,10 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
     report.certificate = certify(problem, result);
   }
   report.seconds.certify = watch.lap();
-  report.objective = unscaled(problem, objective(problem.mesh, problem.phi, result.weights));
+  report.objective =
+      problem.phi.size() > 0
+          ? unscaled(problem, objective(problem.mesh, problem.phi, result.weights))
+          : std::numeric_limits<double>::quiet_NaN();
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, result.weights);
   return {std::move(result.weights), std::move(report)};
 }

@@ -26,7 +26,12 @@ struct MethodResult {
 
 //! Whether a method can start from weights and duals found elsewhere.
 inline bool inherits(Method method) {
-  return method == Method::kValue || method == Method::kGradient;
+  return method == Method::kValue || method == Method::kGradient || method == Method::kLbc2014;
+}
+
+//! Whether a method minimises the objective, for which it needs phi.
+inline bool minimises(Method method) {
+  return method != Method::kHarmonic && method != Method::kMeanValue;
 }
 
 //! Warm start from the state on another mesh, and the state to warm-start yet another one from;
@@ -57,7 +62,7 @@ MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions&
 //! Method::kLbc2014. Parameters as above.
 template <int Dim>
 MethodResult solve_lbc2014(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage);
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! Any method, up to weights that may be negative. Parameters as above, but the penalty is in the
 //! user's unit and the report is made anew.

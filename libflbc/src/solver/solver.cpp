@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "flbc/errors.h"
+#include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/cascade.h"
 #include "solver/multilevel/set_up.h"
@@ -34,10 +36,6 @@ bool share_state(const SolverOptions& a, const SolverOptions& b) {
          a.linear_solver == b.linear_solver && a.penalty == b.penalty;
 }
 
-bool resumes(const StateStorage* storage) {
-  return storage != nullptr && storage->penalty() > 0;
-}
-
 //! \param options  resolved \param coarse  to start from
 template <int Dim>
 Solution solve_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
@@ -62,6 +60,14 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
   return solve_from(problem, std::move(coarse), options, storage);
 }
 
+// A problem set up for a method that does not minimise comes without.
+template <int Dim>
+void require_phi(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  if (!minimises(options.method) || problem.phi.cols() == problem.mesh.num_cells()) return;
+  throw InputError("the problem has no weight functions phi for the cells of its mesh; make_problem() "
+                   "computes them");
+}
+
 void add_set_up(double seconds, const DistanceReport& distances, SolveReport& report) {
   report.seconds.setup = seconds;
   report.distances = distances;
@@ -73,6 +79,7 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
                const MesherArgument<Dim>& mesher, StateStorage* storage) {
   require_valid(options, bool(mesher));
+  require_phi(problem, resolve(options));
   return solve_valid(problem, options, mesher, storage);
 }
 
@@ -100,6 +107,7 @@ class LbcSolver<Dim>::State {
 
   void solve() {
     try {
+      complete();
       solution_ = solve_next();
     } catch (...) {
       restart();
@@ -128,6 +136,17 @@ class LbcSolver<Dim>::State {
   const Solution& solution() const { return solution_; }
 
  private:
+  // Phi, once a method needs it.
+  void complete() {
+    auto& problem = ready_.problem;
+    if (problem.phi.size() > 0 || !minimises(resolve(options_).method)) return;
+    const ThreadScope threads(options_.threads);
+    Stopwatch watch;
+    problem.phi = distance_weights(options_.phi, distances_for(options_.phi, problem), problem.mesh,
+                                   problem.num_control_points());
+    ready_.seconds += watch.lap();
+  }
+
   // What set_up() made for the first solve serves that one alone.
   Solution solve_next() {
     auto coarse = std::exchange(ready_.coarse, {});

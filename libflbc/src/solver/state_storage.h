@@ -57,4 +57,9 @@ class KeptState : public StateStorage {
   double penalty_ = 0;
 };
 
+//! Whether there is a state to go on from.
+inline bool resumes(const StateStorage* storage) {
+  return storage != nullptr && storage->penalty() > 0;
+}
+
 }  // namespace flbc

@@ -8,7 +8,8 @@ namespace {
 
 // Where a coarse start pays, and how coarse it may get, as measured (docs/results.md). It saves
 // iterations: those of kGradient are many, and the more the finer the mesh; those of kValue are
-// few, so that a coarse mesh must cost little: a tenth of the vertices, and once.
+// few, so that a coarse mesh must cost little: a tenth of the vertices, and once. So do those of
+// kLbc2014, whose iterations are as dear.
 struct Worthwhile {
   double numbers;  // least number of vertices times control points
   Index coarsest;  // vertices

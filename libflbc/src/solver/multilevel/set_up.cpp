@@ -112,6 +112,8 @@ std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMeshe
   if (!mesher || options.coarse_to_fine == CoarseToFine::kOff || !inherits(options.method)) {
     return {};
   }
+  // A penalty of the metric A^2 belongs to one mesh, and who gives it wants the iteration as it is.
+  if (options.method == Method::kLbc2014 && options.penalty > 0) return {};
   return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(),
                           options.method, options.coarse_levels);
 }
@@ -122,6 +124,10 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   Stopwatch watch;
   SetUp<Dim> result{make_geometry(std::move(cage), std::move(mesh))};
   auto& problem = result.problem;
+  if (!minimises(options.method)) {
+    result.seconds = watch.lap();
+    return result;
+  }
   auto sizes = start_sizes(problem, mesher, options);
   const bool starts_coarse = !sizes.empty();
   const bool interpolates = tries_to_interpolate(problem, options, mesher, starts_coarse);

@@ -25,7 +25,7 @@ std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMeshe
                                const SolverOptions& options);
 
 //! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
-//! options say so.
+//! options say so, and without phi where the method does not need it.
 //! \param options  resolved
 //! \param mesher  may be empty unless options demand it
 //! \throws InputError, SolverError

@@ -13,6 +13,7 @@
 #include "solver/iterative_method.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/error_estimate.h"
+#include "solver/state_storage.h"
 
 namespace flbc {
 namespace {
@@ -124,10 +125,6 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
   constexpr Index kFewestCells = 10000;
   return options.precision == Precision::kHalf && problem.mesh.num_cells() >= kFewestCells &&
          (storage == nullptr || storage->holds_half());
-}
-
-bool resumes(const StateStorage* storage) {
-  return storage != nullptr && storage->penalty() > 0;
 }
 
 // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.

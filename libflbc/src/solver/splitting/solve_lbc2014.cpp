@@ -5,9 +5,9 @@
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
-#include "flbc/harmonic.h"
 #include "solver/iterative_method.h"
 #include "solver/splitting/weight_splitting.h"
+#include "solver/state_storage.h"
 
 namespace flbc {
 namespace {
@@ -32,12 +32,23 @@ splitting::Metric metric_2014(const LbcProblem<Dim>& problem, bool non_negative,
   return metric;
 }
 
-// The best penalty makes rho m a multiple of the measure on average: then it acts as kValue's.
+// What the penalty has to be multiplied by to act as kValue's, whose metric is the measure: rho m is
+// the same multiple of the measure then, on average.
+double penalty_of_measure(const splitting::Metric& metric) {
+  return metric.cell.sum() / metric.cell.cwiseSqrt().sum();
+}
+
 template <int Dim>
-double penalty_2014(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
+double choose_penalty(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                      const SolverOptions& options, const StateStorage* storage,
+                      const WarmStart<Dim>& warm_start) {
   constexpr double kDiameters = 0.0085;
-  return kDiameters * bounding_box_diagonal(problem.cage.points) * metric.cell.cwiseSqrt().sum() /
-         metric.cell.sum();
+  if (resumes(storage)) return storage->penalty();
+  if (options.penalty > 0) return options.penalty;
+  const double of_measure = warm_start.from
+                                ? warm_start.from->penalty()
+                                : kDiameters * bounding_box_diagonal(problem.cage.points);
+  return of_measure / penalty_of_measure(metric);
 }
 
 // Ends by the thresholds of section 5 of the paper.
@@ -60,24 +71,44 @@ void iterate(Splitting<Scalar, Dim>& splitting, const SolverOptions& options, Ga
 }
 
 template <class Scalar, int Dim>
-MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage) {
+void choose_start(Splitting<Scalar, Dim>& splitting, double of_measure, const StateStorage* storage,
+                  const WarmStart<Dim>& warm_start) {
+  constexpr int kRichardsonSteps = 8;
+  if (resumes(storage)) {
+    splitting.resume();
+  } else if (warm_start.from) {
+    splitting.start_from_duals(
+        warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
+        warm_start.from->vertex_dual(of_measure * splitting.penalty()));
+  } else {
+    splitting.start_from_harmonic(kRichardsonSteps);
+  }
+}
+
+template <class Scalar, int Dim>
+MeshState<Dim> keep_state(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
+                          double of_measure) {
+  MeshState<Dim> state;
+  state.penalty = of_measure * splitting.penalty();
+  state.weights = splitting.weights();
+  state.vertex_dual = splitting.vertex_dual();
+  state.flux_density = flux_densities(problem, splitting.flux());
+  return state;
+}
+
+template <class Scalar, int Dim>
+MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
   const auto metric = metric_2014(problem, options.non_negative == NonNegative::kConstraint,
                                   options.penalty > 0 ? 1 : 0);
-  const bool resumed = storage != nullptr && storage->penalty() > 0;
-  const double penalty = resumed               ? storage->penalty()
-                         : options.penalty > 0 ? options.penalty
-                                               : penalty_2014(problem, metric);
+  const double penalty = choose_penalty(problem, metric, options, storage, warm_start);
+  const double of_measure = penalty_of_measure(metric);
   const auto linear_solver =
       options.linear_solver == LinearSolver::kAuto ? LinearSolver::kDirect : options.linear_solver;
   auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
       problem, metric, penalty, options.relaxation, linear_solver, storage);
-  if (resumed) {
-    splitting->resume();
-  } else {
-    splitting->start_from_weights(harmonic_coordinates(problem));
-  }
+  choose_start(*splitting, of_measure, storage, warm_start);
   const auto certify_weights = [splitting, &problem](const WeightMatrix& weights) {
     return certify(problem, splitting->flux(), weights);
   };
@@ -88,6 +119,9 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   report.penalty = splitting->penalty();
   if (storage != nullptr) storage->keep_penalty(report.penalty);
   report.seconds.solve = watch.lap();
+  if (warm_start.final_state) {
+    *warm_start.final_state = keep_state(*splitting, problem, of_measure);
+  }
   return {splitting->weights(), certify_weights};
 }
 
@@ -95,14 +129,15 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 
 template <int Dim>
 MethodResult solve_lbc2014(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                           SolveReport& report, StateStorage* storage) {
-  return options.precision == Precision::kDouble ? solve<double>(problem, options, report, storage)
-                                                 : solve<float>(problem, options, report, storage);
+                           SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+  return options.precision == Precision::kDouble
+             ? solve_in<double>(problem, options, report, storage, warm_start)
+             : solve_in<float>(problem, options, report, storage, warm_start);
 }
 
 template MethodResult solve_lbc2014(const LbcProblem<2>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*);
+                                    StateStorage*, WarmStart<2>);
 template MethodResult solve_lbc2014(const LbcProblem<3>&, const SolverOptions&, SolveReport&,
-                                    StateStorage*);
+                                    StateStorage*, WarmStart<3>);
 
 }  // namespace flbc

@@ -24,7 +24,8 @@ struct Arrays {
   Scalar* weights;        // V: w, in the order of the mesh
   Scalar* cell_state;     // F x Dim: y
   Scalar* vertex_state;   // V: q, in the order of the mesh; null without non-negativity
-  Scalar* residual;       // m + 1: right-hand side, then solution; the last row is for the boundary
+  // m + 1: right-hand side, solution, and last the change of w; the last row is for the boundary
+  Scalar* residual;
   double* violation;      // stride: squared constraint violation per control point, if measured
   Scalar* violation_sum;  // stride: the same, of a few elements
   // data

@@ -126,7 +126,8 @@ inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row, std::s
 }
 
 // The corrected row r = w + delta, projected on { sum w = 1, sum w c = x }: the Laplacian acts on
-// columns and this on rows, so doing one after the other solves for both exactly.
+// columns and this on rows, so doing one after the other solves for both exactly. The change of
+// the weights is left where the correction was.
 template <class Scalar, int Dim>
 double y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
   constexpr int kLanes = kRowLanes;
@@ -155,6 +156,7 @@ double y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
     }
     const Numbers step = projected - load_pack<kLanes>(weights + i);
     store_pack<kLanes>(weights + i, projected);
+    store_pack<kLanes>(corrected + i, step);
     change += step * step;
   }
   double total = 0;

@@ -24,7 +24,8 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
       metric_(std::move(metric)),
       penalty_(penalty),
       relaxation_(relaxation),
-      solver_(system_matrix(problem, metric_), stride_, linear_solver),
+      system_(system_matrix(problem, metric_)),
+      solver_(system_, stride_, linear_solver),
       data_(make_splitting_data<Scalar>(problem, metric_, solver_.position(), stride_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
@@ -107,26 +108,6 @@ double WeightSplitting<Scalar, Dim>::run(const SliceLoop& residual) {
 }
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
-  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
-    for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
-  }
-  std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
-  std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
-}
-
-template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::resume() {
-  Eigen::VectorXd row(n_);
-  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
-    row.setZero();
-    problem_.boundary.scatter(static_cast<Index>(b), row);
-    Scalar* weights = weights_.data() + problem_.boundary.vertices[b] * stride_;
-    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(row[i]);
-  }
-}
-
-template <class Scalar, int Dim>
 Step WeightSplitting<Scalar, Dim>::iterate() {
   return {run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
     kernel_.w_step(state, columns);
@@ -147,40 +128,30 @@ Step WeightSplitting<Scalar, Dim>::iterate_measured() {
 
 template <class Scalar, int Dim>
 Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals() {
-  AlignedArray<Scalar> before(weights_.size());
-  std::copy_n(weights_.data(), weights_.size(), before.data());
   const Step step = iterate_measured();
-  return {std::sqrt(step.violation), penalty_ * std::sqrt(weight_change_norm2(before))};
+  return {std::sqrt(step.violation), penalty_ * std::sqrt(change_norm2())};
 }
 
-// Squared norm, in the metric, of what an iteration changed in the gradients and the weights.
+// Squared norm, in the metric, of what an iteration changed in the gradients and the weights: the
+// quadratic form of the system matrix, since boundary values do not change.
 template <class Scalar, int Dim>
-double WeightSplitting<Scalar, Dim>::weight_change_norm2(const AlignedArray<Scalar>& before) const {
-  using Row = Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>;
-  const auto change = [&](Index v) -> Eigen::ArrayXd {
-    return (Row(weights_.data() + v * stride_, n_) - Row(before.data() + v * stride_, n_))
-        .template cast<double>();
+double WeightSplitting<Scalar, Dim>::change_norm2() const {
+  using Row = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
+  const auto change = [&](Eigen::Index unknown) {
+    return Row(residual_.data() + solver_.position()[unknown] * stride_, n_).template cast<double>();
   };
-  double sum = parallel_sum(problem_.mesh.num_cells(), 0.0, [&](Index begin, Index end) {
+  const auto columns = static_cast<Index>(system_.outerSize());
+  return parallel_sum(columns, 0.0, [&](Index begin, Index end) {
     double part = 0;
-    for (Index s = begin; s < end; ++s) {
-      Eigen::Matrix<double, Eigen::Dynamic, Dim> gradient =
-          Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n_, Dim);
-      const Eigen::ArrayXd first = change(problem_.mesh.cells(0, s));
-      for (int k = 0; k < Dim; ++k) {
-        const Eigen::Map<const Eigen::Matrix<Scalar, Dim, 1>> hat(data_.hat_gradients.data() +
-                                                                  (s * Dim + k) * Dim);
-        gradient += (change(problem_.mesh.cells(k + 1, s)) - first).matrix() *
-                    hat.template cast<double>().transpose();
+    for (Index column = begin; column < end; ++column) {
+      const Eigen::VectorXd own = change(column);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(system_, column); entry; ++entry) {
+        const double both = entry.row() == column ? 1 : 2;
+        part += both * entry.value() * change(entry.row()).dot(own);
       }
-      part += metric_.cell[s] * gradient.squaredNorm();
     }
     return part;
   });
-  for (const Index v : data_.vertices) {
-    if (metric_.vertex.size() > 0) sum += metric_.vertex[v] * change(v).square().sum();
-  }
-  return sum;
 }
 
 template <class Scalar, int Dim>
@@ -203,6 +174,18 @@ WeightMatrix WeightSplitting<Scalar, Dim>::weights() const {
 }
 
 template <class Scalar, int Dim>
+WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const {
+  if (vertex_state_.size() == 0) return {};
+  WeightMatrix dual = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
+  for (const Index v : data_.vertices) {
+    for (Index i = 0; i < n_; ++i) {
+      dual(i, v) = static_cast<double>(vertex_state_[v * stride_ + i] - weights_[v * stride_ + i]);
+    }
+  }
+  return dual;
+}
+
+template <class Scalar, int Dim>
 CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux() {
   flux_ = AlignedArray<Scalar>(cell_state_.size());
   std::vector<Scalar> scale(data_.cell_metric.size());
@@ -222,9 +205,24 @@ double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const {
   return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
 }
 
-template class WeightSplitting<float, 2>;
-template class WeightSplitting<float, 3>;
-template class WeightSplitting<double, 2>;
-template class WeightSplitting<double, 3>;
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                         \
+  template WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>&, Metric,      \
+                                                         double, double, LinearSolver,        \
+                                                         StateStorage*);                      \
+  template Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays();                        \
+  template double WeightSplitting<Scalar, Dim>::run(const SliceLoop&);                        \
+  template Step WeightSplitting<Scalar, Dim>::iterate();                                      \
+  template Step WeightSplitting<Scalar, Dim>::iterate_measured();                             \
+  template Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals();                  \
+  template double WeightSplitting<Scalar, Dim>::num_residual_components() const;              \
+  template WeightMatrix WeightSplitting<Scalar, Dim>::weights() const;                        \
+  template WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const;                    \
+  template CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux();                   \
+  template double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const;
+FLBC_INSTANTIATE(float, 2)
+FLBC_INSTANTIATE(float, 3)
+FLBC_INSTANTIATE(double, 2)
+FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::splitting

@@ -6,6 +6,8 @@
 
 #include <functional>
 
+#include <Eigen/SparseCore>
+
 #include "base/aligned_array.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
@@ -56,12 +58,24 @@ class WeightSplitting {
   //! Starts from weights n x V, with y = 0 and q = w: duals zero where the weights are harmonic.
   void start_from_weights(const WeightMatrix& weights);
 
+  //! The same from the weights that minimise sum m |grad w|^2, which the factor of the iteration
+  //! gives: at once without non-negativity, by Richardson's iteration otherwise.
+  //! \param steps  at most
+  void start_from_harmonic(int steps);
+
+  //! Starts from weights and duals found elsewhere.
+  //! \param weights  n x V, feasible
+  //! \param flux_density  p / A in a cell
+  //! \param vertex_dual  q - w, n x V; empty for none
+  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
+                        const WeightMatrix& vertex_dual);
+
   Step iterate();
 
   //! The same, for half as much again, and what the constraints lacked.
   Step iterate_measured();
 
-  //! The same, for several times as much, with the norms of the residuals.
+  //! The same, with the norms of the residuals.
   Residuals iterate_with_residuals();
 
   double penalty() const { return penalty_; }
@@ -70,6 +84,9 @@ class WeightSplitting {
 
   //! n x V.
   WeightMatrix weights() const;
+
+  //! q - w, n x V: the dual of the constraint u = w, u >= 0; empty without it.
+  WeightMatrix vertex_dual() const;
 
   //! p = rho m clip(2 x - y): the dual of the total variation, |p_s^i| <= phi A up to rounding.
   CellFieldView<Scalar, Dim> flux();
@@ -84,7 +101,9 @@ class WeightSplitting {
   Arrays<Scalar, Dim> arrays();
   void for_slices(const SliceLoop& body);
   double run(const SliceLoop& residual);
-  double weight_change_norm2(const AlignedArray<Scalar>& before) const;
+  double solve_for_weights();
+  void set_states(const VectorsAt<Dim>& flux_density, const WeightMatrix& vertex_dual);
+  double change_norm2() const;
 
   const LbcProblem<Dim>& problem_;
   const Kernel<Scalar, Dim>& kernel_;
@@ -93,6 +112,7 @@ class WeightSplitting {
   const Metric metric_;
   const double penalty_;
   const double relaxation_;
+  const Eigen::SparseMatrix<double> system_;  // lower triangle
   SpdSolver<Scalar> solver_;
   SplittingData<Scalar, Dim> data_;
   // state
