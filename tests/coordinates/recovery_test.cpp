@@ -106,7 +106,7 @@ TYPED_TEST(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrab
       (integrate_breadth_first(problem, gradients.view).array() == breadth_first.array()).all());
 }
 
-TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrincipleAndTheConstraints) {
+TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
@@ -117,6 +117,37 @@ TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrincipleAndTheConstra
     EXPECT_EQ(judgement.lagrange_error, 0);
     EXPECT_LT(judgement.linearity_error, 1e-11);
   }
+}
+
+// Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbours.
+TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
+  constexpr int kDim = TypeParam::value;
+  for (const Index subdivisions : {3, 4, 5}) {
+    const auto sample = make_sample<kDim>(Shape::kBox, subdivisions);
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    ASSERT_FALSE(problem.boundary.interior_vertices().empty());
+    const auto judgement = judge(problem.cage, problem.mesh, harmonic_coordinates(problem), 1e-12);
+    EXPECT_GE(judgement.min_weight, -1e-12);
+    for (Index i = 0; i < sample.cage.size(); ++i) {
+      EXPECT_EQ(judgement.local_minima[i], 0) << "control point " << i;
+      EXPECT_EQ(judgement.local_maxima[i], 0) << "control point " << i;
+    }
+  }
+}
+
+// The judge of the test above finds an extremum where there is one.
+TYPED_TEST(RecoveryTest, ExtremaInsideAreFound) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  auto weights = harmonic_coordinates(problem);
+  const Index v = problem.boundary.interior_vertices()[0];
+  weights(0, v) += 2;
+  weights(1, v) -= 2;
+  const auto judgement = judge(problem.cage, problem.mesh, weights, 1e-12);
+  EXPECT_EQ(judgement.local_maxima[0], 1);
+  EXPECT_EQ(judgement.local_minima[1], 1);
 }
 
 }  // namespace
