@@ -3,7 +3,9 @@
 //! Settings shared by all experiments.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "flbc/types.h"
 
@@ -14,6 +16,13 @@ struct Context {
   std::string out;     //!< folder of all results
   bool quick = false;  //!< small meshes and few iterations, to see that everything works
   int threads = 1;
+  std::vector<std::string> only_models{};  //!< names of those to measure; empty for all
+
+  //! Whether a model is to be measured.
+  bool wants(const std::string& model) const {
+    return only_models.empty() ||
+           std::find(only_models.begin(), only_models.end(), model) != only_models.end();
+  }
 
   //! Number of vertices for a mesh that has `full` in a full run.
   Index size(int dim, Index full) const {

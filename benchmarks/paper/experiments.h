@@ -21,6 +21,7 @@ const std::vector<Experiment>& experiments();
 
 bool run_table1(const Context& context);     //!< with and without non-negativity
 bool run_table2(const Context& context);     //!< methods compared at the paper's sizes
+bool run_conjecture1(const Context& context);  //!< local extrema inside the domain
 bool run_figure1(const Context& context);    //!< pictures for table 1
 bool run_figure2(const Context& context);    //!< pictures at growing resolution
 bool run_figure3(const Context& context);    //!< time and memory against resolution

@@ -9,16 +9,18 @@
 
 #include "paper/experiments.h"
 #include "paper/machine.h"
+#include "paper/models.h"
 #include "paper/stopwatch.h"
 
 namespace flbc::bench {
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> kExperiments = {
-      {"table1", run_table1},   {"table2", run_table2},   {"figure1", run_figure1},
-      {"figure2", run_figure2}, {"figure3", run_figure3}, {"figure4", run_figure4},
-      {"figure5", run_figure5}, {"figure6", run_figure6}, {"speed", run_speed},
-      {"race", run_race},       {"growth", run_growth},   {"bandwidth", run_bandwidth}};
+      {"table1", run_table1},   {"table2", run_table2},   {"conjecture1", run_conjecture1},
+      {"figure1", run_figure1}, {"figure2", run_figure2}, {"figure3", run_figure3},
+      {"figure4", run_figure4}, {"figure5", run_figure5}, {"figure6", run_figure6},
+      {"speed", run_speed},     {"race", run_race},       {"growth", run_growth},
+      {"bandwidth", run_bandwidth}};
   return kExperiments;
 }
 
@@ -27,6 +29,12 @@ namespace {
 std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
   for (const auto& experiment : experiments()) names.emplace_back(experiment.name);
+  return names;
+}
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const auto& model : models()) names.emplace_back(model.name);
   return names;
 }
 
@@ -57,6 +65,9 @@ int run(int argc, char** argv) {
   app.add_option("--only", only, "names of tables and figures, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(experiment_names()));
+  app.add_option("--models", context.only_models, "names of models, separated by commas (all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(model_names()));
   app.add_option("--threads", context.threads, "number of threads (all cores)")
       ->check(CLI::Range(1, 1024));
   CLI11_PARSE(app, argc, argv);

@@ -27,8 +27,8 @@ struct NamedMethod {
   }
 };
 
-//! The slowest first: the 2014 solver as published and at its best, the paper's to the letter, the
-//! improved gradient method, the splitting on the weights.
+//! The slowest first: the 2014 solver with its published penalty and at its best, the paper's, the
+//! over-relaxed gradient method, the splitting on the weights.
 const std::vector<NamedMethod>& methods();
 
 }  // namespace flbc::bench

@@ -8,7 +8,7 @@ import math
 METHODS = [
     ("lbc2014", "LBC 2014, penalty 10", "#9a9a9a", "s"),
     ("lbc2014-tuned", "LBC 2014, tuned penalty", "#3b3b3b", "D"),
-    ("paper", "paper (FLBC), to the letter", "#e08214", "^"),
+    ("paper", "paper (FLBC)", "#e08214", "^"),
     ("gradient", "gradient", "#2c7fb8", "v"),
     ("value", "value", "#1b9e4b", "o"),
 ]

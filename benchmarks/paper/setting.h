@@ -45,11 +45,13 @@ struct Setting {
 template <int Dim>
 Setting<Dim> load_setting(const Context& context, const Model& model, Index vertices);
 
-//! Calls body(setting) -> std::string in a child process.
+//! Calls body(setting) -> std::string in a child process; for a model that is not wanted the answer
+//! is empty.
 //! \param experiment  for messages \return what the body returned, nothing if it failed
 template <class Body>
 std::optional<std::string> in_setting(const Context& context, const std::string& experiment,
                                       const Model& model, Index vertices, const Body& body) {
+  if (!context.wants(model.name)) return std::string();
   if (!prepare_domain(context, model, vertices)) return std::nullopt;
   const auto what = experiment + ": " + model.name + ", " + std::to_string(vertices) + " vertices";
   std::printf("%s\n", what.c_str());
