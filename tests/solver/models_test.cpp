@@ -32,14 +32,16 @@ DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
 }
 
 template <int Dim>
-void expect_properties(const Model& model, double least_weight, double tolerance) {
+void expect_properties(const Model& model) {
   if (!has_model(model.file)) GTEST_SKIP() << model_path(model.file) << " is absent";
   const auto cage = load_cage<Dim>(model.file);
   const auto mesh = mesh_of(cage, model.vertices);
+  EXPECT_NEAR(mesh.num_vertices(), model.vertices, 0.05 * model.vertices);
   SolverOptions options;
-  options.tolerance = tolerance;
+  options.certify = true;
   const auto solution = solve(cage, mesh, options);
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  EXPECT_LT(solution.report.certificate.relative_gap, 0.01);
   const auto judgement = judge(cage, mesh, solution.weights);
   EXPECT_LT(judgement.partition_error, 1e-12);
   // TetGen's points on facets lie beside them by up to 1e-9 of the cage's size.
@@ -48,7 +50,9 @@ void expect_properties(const Model& model, double least_weight, double tolerance
   EXPECT_LT(judgement.linearity_error, 1e-9);
   EXPECT_EQ(judgement.control_points_found, cage.size());
   EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
-  EXPECT_GT(judgement.min_weight, least_weight);
+  EXPECT_GE(judgement.min_weight, 0);
+  // Local by itself: a few control points matter to a vertex, whatever their number.
+  EXPECT_LT(solution.report.quality.mean_influences, 5.5);
   for (const char* extension : {"npy", "dmat", "mtx"}) {
     const auto path = ::testing::TempDir() + "/flbc_model." + extension;
     io::write_weights(path, solution.weights);
@@ -56,12 +60,39 @@ void expect_properties(const Model& model, double least_weight, double tolerance
   }
 }
 
+// The default tolerance is a mean squared error, so weights of a hundredth of it tell whether that
+// was kept; and they are nearer to the optimum by the certificate and by their objective.
+template <int Dim>
+void expect_tighter_is_better(const Model& model) {
+  if (!has_model(model.file)) GTEST_SKIP() << model_path(model.file) << " is absent";
+  const auto cage = load_cage<Dim>(model.file);
+  const auto mesh = mesh_of(cage, model.vertices);
+  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+  SolverOptions options;
+  options.certify = true;
+  options.gap = 0;
+  const auto by_default = solve(problem, options);
+  const double tolerance = resolve(options).tolerance;
+  options.tolerance = tolerance / 100;
+  options.precision = Precision::kDouble;
+  const auto tighter = solve(problem, options);
+  EXPECT_EQ(tighter.report.status, SolveStatus::kConverged);
+  EXPECT_GT(tighter.report.iterations, by_default.report.iterations);
+  EXPECT_LT(mean_squared_difference(mesh, by_default.weights, tighter.weights), 2 * tolerance);
+  const auto objective = [&](const Solution& solution) {
+    return testing::objective(problem.mesh, solution.weights, problem.phi);
+  };
+  EXPECT_LT(objective(tighter), objective(by_default));
+  EXPECT_LT(tighter.report.certificate.relative_gap,
+            0.3 * by_default.report.certificate.relative_gap);
+}
+
 class Models2d : public ::testing::TestWithParam<Model> {};
 TEST_P(Models2d, DefaultTolerance) {
-  expect_properties<2>(GetParam(), -0.05, 0);
+  expect_properties<2>(GetParam());
 }
 TEST_P(Models2d, TighterTolerance) {
-  expect_properties<2>(GetParam(), -0.001, 5e-6);
+  expect_tighter_is_better<2>(GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Paper, Models2d,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 10800},
@@ -69,10 +100,12 @@ INSTANTIATE_TEST_SUITE_P(Paper, Models2d,
                                            Model{"logo", "2d/LBClogo-control-edgeset.obj", 26800}),
                          name_of);
 
-// In 3D the optimum itself has negative weights on meshes like these (docs/results.md).
 class Models3d : public ::testing::TestWithParam<Model> {};
 TEST_P(Models3d, DefaultTolerance) {
-  expect_properties<3>(GetParam(), -0.1, 0);
+  expect_properties<3>(GetParam());
+}
+TEST_P(Models3d, TighterTolerance) {
+  expect_tighter_is_better<3>(GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Paper, Models3d,
                          ::testing::Values(Model{"horse", "3d/horse_cage.obj", 5900},
