@@ -72,7 +72,9 @@ TYPED_TEST(WeightSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
                 non_negative ? 1e-3 : 1e-10);
       const auto dual = splitting.vertex_dual();
       ASSERT_EQ(dual.size() > 0, non_negative);
-      if (non_negative) EXPECT_EQ(dual.cwiseAbs().maxCoeff(), 0);
+      if (non_negative) {
+        EXPECT_EQ(dual.cwiseAbs().maxCoeff(), 0);
+      }
     }
   }
 }

@@ -40,7 +40,7 @@ class Run {
         options_(options),
         adaptive_(adaptive),
         report_(report),
-        num_weights_(std::max<double>(1, problem.boundary.interior_vertices().size()) *
+        num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                      problem.num_control_points()),
         residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
                         (problem.num_control_points() * measure)),
