@@ -134,6 +134,7 @@ int main(int argc, char** argv) {
     auto model = load_model(argv[2]);
     openmesh::bind(model, cage);
     compare_frames(cage, model, pairs);
+    openmesh::restore_rest(model);
     compare_binding(cage, model, pairs);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
