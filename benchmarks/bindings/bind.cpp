@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost of binding and moving an OpenMesh model instead of plain arrays:
 //
-//   flbc_bench_bind CAGE MODEL [PAIRS]
+//   flbc_bench_bind CAGE MODEL [PAIRS] [--frames]
 //
 // Alternates bind() with the steps that flbc run takes for the same (mesh, solve, evaluate,
 // reduce), and deform() by the property with deform() of SparseWeights on arrays, and prints the
-// ratio of each pair's seconds and their median. A 3D cage and model, as .obj.
+// ratio of each pair's seconds and their median; with --frames the latter only. Then as many threads
+// as there are cores spin while deform() is timed again. A 3D cage and model, as .obj.
+// flbc_bench_bind_debug is the same without optimisation, linked to the same library: what a user's
+// debug build sees.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <numeric>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -31,6 +38,7 @@ struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
 };
 using Model = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
+using FloatModel = OpenMesh::PolyMesh_ArrayKernelT<>;
 
 constexpr Index kMost = 8;
 
@@ -94,46 +102,116 @@ void compare_binding(const Cage<3>& cage, Model& model, int pairs) {
   std::printf("bind: median ratio %.3f\n", median(ratios));
 }
 
-void compare_frames(const Cage<3>& cage, Model& model, int pairs) {
-  const SparseWeights weights(openmesh::get_weights(model));
+// Milliseconds of a frame. The median is that of a frame which no other program interrupts.
+struct Frames {
+  double mean, median, longest;
+};
+
+Frames time_frames(const std::function<void()>& frame) {
   constexpr int kFrames = 200;
-  const PointList<3> pose = 1.5 * cage.points;
+  std::vector<double> times(kFrames);
+  for (double& time : times) time = 1e3 * seconds_of(frame);
+  const double mean = std::accumulate(times.begin(), times.end(), 0.0) / kFrames;
+  const double longest = *std::max_element(times.begin(), times.end());
+  return {mean, median(times), longest};
+}
+
+// Keeps cores busy while it lives.
+class Spinners {
+ public:
+  explicit Spinners(int count) {
+    for (int k = 0; k < count; ++k) {
+      threads_.emplace_back([this] {
+        while (!ended_) {
+        }
+      });
+    }
+  }
+  ~Spinners() {
+    ended_ = true;
+    for (auto& thread : threads_) thread.join();
+  }
+  Spinners(const Spinners&) = delete;
+  Spinners& operator=(const Spinners&) = delete;
+
+ private:
+  std::atomic<bool> ended_ = false;
+  std::vector<std::thread> threads_;
+};
+
+template <class AnyModel>
+void compare_frames(const char* kind, const SparseWeights& weights, AnyModel& model,
+                    const PointList<3>& pose, int pairs) {
   std::vector<double> ratios;
+  Frames arrays{}, property{};
   for (int pair = 0; pair < pairs; ++pair) {
-    double arrays = 0, property = 0;
     PointList<3> points;
     for (int turn = 0; turn < 2; ++turn) {
       if ((pair + turn) % 2 == 0) {
-        arrays = seconds_of([&] {
-          for (int frame = 0; frame < kFrames; ++frame) points = deform(weights, pose);
-        });
+        arrays = time_frames([&] { points = deform(weights, pose); });
       } else {
-        property = seconds_of([&] {
-          for (int frame = 0; frame < kFrames; ++frame) openmesh::deform(model, pose);
-        });
+        property = time_frames([&] { openmesh::deform(model, pose); });
       }
     }
-    ratios.push_back(property / arrays);
-    std::printf("deform: %zu vertices, arrays %.4f ms, property %.4f ms, ratio %.3f\n",
-                model.n_vertices(), 1e3 * arrays / kFrames, 1e3 * property / kFrames,
-                ratios.back());
+    ratios.push_back(property.median / arrays.median);
   }
-  std::printf("deform: median ratio %.3f\n", median(ratios));
+  std::printf("deform, %s: %zu vertices, arrays %.4f ms, property %.4f ms, median ratio %.3f\n",
+              kind, model.n_vertices(), arrays.median, property.median, median(ratios));
+}
+
+template <class AnyModel>
+void compare_busy(const char* kind, AnyModel& model, const PointList<3>& pose) {
+  const auto measure = [&] { return time_frames([&] { openmesh::deform(model, pose); }); };
+  const Frames quiet = measure();
+  Frames busy{};
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  {
+    const Spinners spinners(cores);
+    busy = measure();
+  }
+  std::printf(
+      "deform, %s, %d threads spinning: mean %.4f ms instead of %.4f ms, ratio %.2f; median "
+      "%.4f ms, ratio %.2f; longest %.1f ms instead of %.1f ms\n",
+      kind, cores, busy.mean, quiet.mean, busy.mean / quiet.mean, busy.median,
+      busy.median / quiet.median, busy.longest, quiet.longest);
+}
+
+// The same vertices with points of floats, without faces: moving needs none.
+FloatModel in_single_precision(const Model& model) {
+  FloatModel copy;
+  for (const auto vertex : model.vertices()) {
+    copy.add_vertex(OpenMesh::vector_cast<FloatModel::Point>(model.point(vertex)));
+  }
+  openmesh::set_influences(copy, SparseWeights(openmesh::get_weights(model)), kMost);
+  return copy;
+}
+
+void measure_frames(const Cage<3>& cage, Model& model, int pairs) {
+  const SparseWeights weights(openmesh::get_weights(model));
+  const PointList<3> pose = 1.5 * cage.points;
+  auto single = in_single_precision(model);
+  compare_frames("points of doubles", weights, model, pose, pairs);
+  compare_frames("points of floats", weights, single, pose, pairs);
+  compare_busy("points of doubles", model, pose);
+  compare_busy("points of floats", single, pose);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    const bool frames_only = argc > 1 && std::string(argv[argc - 1]) == "--frames";
+    if (frames_only) --argc;
     if (argc < 3) {
-      std::fprintf(stderr, "usage: flbc_bench_bind CAGE.obj MODEL.obj [PAIRS]\n");
+      std::fprintf(stderr, "usage: flbc_bench_bind CAGE.obj MODEL.obj [PAIRS] [--frames]\n");
       return 1;
     }
     const int pairs = argc > 3 ? std::max(1, std::atoi(argv[3])) : 5;
     const auto cage = std::get<Cage<3>>(io::to_cage(io::read_polygons(argv[1]), argv[1]));
     auto model = load_model(argv[2]);
     openmesh::bind(model, cage);
-    compare_frames(cage, model, pairs);
+    measure_frames(cage, model, pairs);
+    if (frames_only) return 0;
     openmesh::restore_rest(model);
     compare_binding(cage, model, pairs);
   } catch (const std::exception& error) {

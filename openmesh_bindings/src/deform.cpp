@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/deform.h"
 
-#include <omp.h>
-
 #include <cstdint>
+
+#include "coordinates/weighted_sums.h"
 
 namespace flbc::openmesh::internal {
 namespace {
 
-// Numbers that a thread deals with while the others wake up, with something to spare: where other
-// programs keep the cores busy, it may take milliseconds until all have had their turn.
-constexpr std::size_t kWorthThreads = 4'000'000;
-
-int threads_for(std::size_t numbers, int wanted) {
-  if (numbers < kWorthThreads) return 1;
-  return wanted > 0 ? wanted : omp_get_max_threads();
-}
-
 // Sums in the order of deform(SparseWeights), so that the results are the same.
 template <int Dim>
-Vector<Dim> place_of(const InfluenceBlock& weights, std::int64_t p,
-                     const PointList<Dim>& control_points) {
+Vector<Dim> place_of(const InfluenceBlock& weights, std::int64_t p, const PaddedPoints<Dim>& cage) {
   const std::size_t most = weights.most();
   const std::size_t start = static_cast<std::size_t>(p) * most;
-  const std::uint32_t* of = weights.control_points() + start;
-  const double* values = weights.weights() + start;
-  Vector<Dim> place = Vector<Dim>::Zero();
-  for (std::size_t j = 0; j < most; ++j) place += values[j] * control_points.col(of[j]);
-  return place;
+  return cage.sum(weights.weights() + start, weights.control_points() + start,
+                  static_cast<std::ptrdiff_t>(most));
 }
 
 template <int Dim>
@@ -55,8 +42,8 @@ std::size_t control_points_of(const RowBlock<double>& weights) {
 
 // As the loop over a point's weights wants them.
 template <int Dim>
-const PointList<Dim>& arranged(const InfluenceBlock&, const PointList<Dim>& control_points) {
-  return control_points;
+PaddedPoints<Dim> arranged(const InfluenceBlock&, const PointList<Dim>& control_points) {
+  return PaddedPoints<Dim>(control_points);
 }
 // A coordinate per column: the sums then run over contiguous numbers.
 template <int Dim>
@@ -71,9 +58,9 @@ template <class Block, class Scalar, int Dim>
 void move_points(const Block& weights, const PointList<Dim>& control_points,
                  const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
   require_control_points(control_points_of(weights), control_points.cols());
-  const auto& cage = arranged<Dim>(weights, control_points);
+  const auto cage = arranged<Dim>(weights, control_points);
   const auto count = static_cast<std::int64_t>(weights.size());
-  const int team = threads_for(numbers_in(weights), threads);
+  const int team = deform_threads(numbers_in(weights), threads);
 #pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
   for (std::int64_t p = 0; p < count; ++p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);

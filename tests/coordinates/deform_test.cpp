@@ -43,7 +43,7 @@ TYPED_TEST_SUITE(Deform, Dimensions);
 
 TYPED_TEST(Deform, SumsWeightsTimesControlPoints) {
   constexpr int kDim = TypeParam::value;
-  const Index num_points = 5003;  // more than one thread takes
+  const Index num_points = 5003;
   const auto weights = TestFixture::make_weights(num_points);
   const auto pose = TestFixture::make_pose();
   const PointList<kDim> moved = deform(weights, pose);
@@ -55,6 +55,20 @@ TYPED_TEST(Deform, SumsWeightsTimesControlPoints) {
     for (Index i = 0; i < pose.cols(); ++i) expected += weights(i, p) * pose.col(i);
     ASSERT_NEAR((moved.col(p) - expected).norm(), 0, 1e-14) << p;
     ASSERT_NEAR((sparse.col(p) - expected).norm(), 0, 1e-14) << p;
+  }
+}
+
+TYPED_TEST(Deform, ThreadsChangeNoBit) {
+  constexpr int kDim = TypeParam::value;
+  // Seven weights each, half of them zero: more than one thread takes, in both forms.
+  const auto weights = TestFixture::make_weights(1'200'000);
+  const auto pose = TestFixture::make_pose();
+  const SparseWeights sparse(weights);
+  const PointList<kDim> alone = deform(weights, pose, 1);
+  const PointList<kDim> alone_sparse = deform(sparse, pose, 1);
+  for (const int threads : {0, 2, 3}) {
+    EXPECT_EQ(deform(weights, pose, threads), alone) << threads;
+    EXPECT_EQ(deform(sparse, pose, threads), alone_sparse) << threads;
   }
 }
 

@@ -13,10 +13,14 @@ namespace flbc {
 //! Where points go when the control points move.
 //! \param weights  n x P
 //! \param control_points  Dim x n, in any units
+//! \param threads  at most so many; 0 = as many as OpenMP offers. Less than four million weights take
+//! one whatever this says: waking others may cost more, by far where other programs keep the cores
+//! busy. The result does not depend on it
 //! \return Dim x P, in the units of the control points
 //! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
-PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points);
+PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
+                      int threads = 0);
 
 //! Weights without their zeros, point by point: the form for many poses of local coordinates, and
 //! the one that skinning takes.
@@ -58,10 +62,12 @@ class SparseWeights {
 //! The same for weights without zeros.
 //! \param weights  of P points
 //! \param control_points  Dim x n, in any units
+//! \param threads  as above
 //! \return Dim x P, in the units of the control points
 //! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
-PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points);
+PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
+                      int threads = 0);
 
 //! How far each point moved.
 //! \param before  Dim x P

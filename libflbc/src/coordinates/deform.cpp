@@ -4,12 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "coordinates/weighted_sums.h"
 #include "flbc/errors.h"
 
 namespace flbc {
 namespace {
 
-// Below this many points waking threads up takes longer than the work.
+// Below this many points waking threads up takes longer than collecting their weights.
 constexpr Eigen::Index kParallelPoints = 2000;
 
 void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
@@ -21,13 +22,15 @@ void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
 }  // namespace
 
 template <int Dim>
-PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points) {
+PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
+                      int threads) {
   check_pose(weights.rows(), control_points.cols());
   // A coordinate per column: the sums then run over contiguous numbers.
   const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
   const Eigen::Index count = weights.cols();
   PointList<Dim> points(Dim, count);
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  const int team = deform_threads(static_cast<std::size_t>(weights.size()), threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
   for (Eigen::Index p = 0; p < count; ++p) {
     for (int d = 0; d < Dim; ++d) points(d, p) = coordinates.col(d).dot(weights.col(p));
   }
@@ -61,20 +64,20 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
 }
 
 template <int Dim>
-PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points) {
+PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
+                      int threads) {
   check_pose(weights.num_control_points(), control_points.cols());
   const Eigen::Index count = weights.num_points();
   PointList<Dim> points(Dim, count);
+  const PaddedPoints<Dim> cage(control_points);
   const auto* starts = weights.starts().data();
   const auto* of = weights.control_points().data();
   const auto* values = weights.values().data();
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  const int team = deform_threads(weights.values().size(), threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
   for (Eigen::Index p = 0; p < count; ++p) {
-    Vector<Dim> point = Vector<Dim>::Zero();
-    for (auto entry = starts[p]; entry < starts[p + 1]; ++entry) {
-      point += values[entry] * control_points.col(of[entry]);
-    }
-    points.col(p) = point;
+    const auto start = starts[p];
+    points.col(p) = cage.sum(values + start, of + start, starts[p + 1] - start);
   }
   return points;
 }
@@ -88,10 +91,10 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
   return (after - before).colwise().norm().transpose();
 }
 
-template PointList<2> deform(const WeightMatrix&, const PointList<2>&);
-template PointList<3> deform(const WeightMatrix&, const PointList<3>&);
-template PointList<2> deform(const SparseWeights&, const PointList<2>&);
-template PointList<3> deform(const SparseWeights&, const PointList<3>&);
+template PointList<2> deform(const WeightMatrix&, const PointList<2>&, int);
+template PointList<3> deform(const WeightMatrix&, const PointList<3>&, int);
+template PointList<2> deform(const SparseWeights&, const PointList<2>&, int);
+template PointList<3> deform(const SparseWeights&, const PointList<3>&, int);
 template Eigen::VectorXd displacements(const PointList<2>&, const PointList<2>&);
 template Eigen::VectorXd displacements(const PointList<3>&, const PointList<3>&);
 

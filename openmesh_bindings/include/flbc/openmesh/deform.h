@@ -21,8 +21,8 @@ struct DeformOptions {
   //! Update the normals that the mesh has of its vertices, halfedges and faces.
   bool normals = false;
 
-  //! At most so many threads; 0 = as many as OpenMP offers. Meshes of less than about half a
-  //! million vertices with 8 influences take one whatever this says: waking others costs more.
+  //! At most so many threads; 0 = as many as OpenMP offers. Less than four million weights, half a
+  //! million vertices with 8 influences, take one whatever this says: waking others may cost more.
   int threads = 0;
 };
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Sums of control points times weights, the inner loop of every deformation.
+#pragma once
+
+#include <omp.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Threads for a deformation by so many weights. Waking others takes microseconds on cores at rest
+//! and milliseconds on busy ones, so they come in where one thread alone would take longer.
+//! \param wanted  at most so many; 0 = as many as OpenMP offers
+inline int deform_threads(std::size_t num_weights, int wanted) {
+  constexpr std::size_t kWorthThreads = 4'000'000;
+  if (num_weights < kWorthThreads) return 1;
+  return wanted > 0 ? wanted : omp_get_max_threads();
+}
+
+//! Control points whose coordinates are padded with zeros to an even number, so that a sum of them
+//! takes vector instructions. Coordinates add up in the order of the weights, as without.
+template <int Dim>
+class PaddedPoints {
+ public:
+  explicit PaddedPoints(const PointList<Dim>& points)
+      : points_(Padded::Zero(kRows, points.cols())) {
+    points_.template topRows<Dim>() = points;
+  }
+
+  //! \param of  the control points that the weights belong to
+  Vector<Dim> sum(const double* weights, const std::uint32_t* of, std::ptrdiff_t count) const {
+    Eigen::Matrix<double, kRows, 1> sum = Eigen::Matrix<double, kRows, 1>::Zero();
+    for (std::ptrdiff_t j = 0; j < count; ++j) sum += weights[j] * points_.col(of[j]);
+    return sum.template head<Dim>();
+  }
+
+ private:
+  static constexpr int kRows = Dim + Dim % 2;
+  using Padded = Eigen::Matrix<double, kRows, Eigen::Dynamic>;
+  Padded points_;
+};
+
+}  // namespace flbc
