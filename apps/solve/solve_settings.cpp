@@ -48,7 +48,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "numbers of the iteration (auto: half where the tolerance allows)");
   command.add_option(
       "--tolerance", options.tolerance,
-      "accuracy wanted (by method: value and paper 1e-7, gradient 2.5e-5, lbc2014 5e-8)");
+      "accuracy wanted (by method: gradient 2.5e-5, others 1e-7)");
   command.add_option("--gap", options.gap,
                      "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
                      "the methods' own tolerances)");

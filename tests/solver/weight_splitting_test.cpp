@@ -8,9 +8,12 @@
 
 #include "base/parallel.h"
 #include "flbc/errors.h"
+#include "flbc/bounding_box.h"
 #include "flbc/harmonic.h"
+#include "flbc/non_negative.h"
+#include "flbc/published_penalty.h"
 #include "flbc/quality.h"
-#include "flbc/recovery.h"
+#include "flbc/solver.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
@@ -54,6 +57,55 @@ TYPED_TEST(WeightSplittingTest, EqualsTheTextbookIterateByIterate) {
       if (sample.cage.size() == kDim + 1) continue;
       EXPECT_GT((splitting.weights() - start).cwiseAbs().maxCoeff(), 1e-3);
     }
+  }
+}
+
+// kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh their
+// squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
+TYPED_TEST(WeightSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    auto metric = make_metric(problem, 2, true);
+    metric.vertex.setOnes();
+    SolverOptions options;
+    options.method = Method::kLbc2014;
+    options.precision = Precision::kDouble;
+    options.penalty = published_penalty(sample.cage, sample.mesh, Method::kLbc2014, 10);
+    options.tolerance = 1e-30;
+    for (const int iterations : {1, 7, 20}) {
+      options.max_iterations = iterations;
+      const auto solution = solve(problem, options);
+      auto expected = textbook_for(problem, metric, 10, 1.65, harmonic_coordinates(problem));
+      for (int k = 0; k < iterations; ++k) expected.iterate();
+      auto weights = expected.weights();
+      project_non_negative(problem.cage.points, problem.mesh.points, weights,
+                           problem.boundary.interior_vertices());
+      EXPECT_LT((solution.weights - weights).cwiseAbs().maxCoeff(), 1e-8) << iterations;
+      EXPECT_NEAR(solution.report.published_penalty, 10, 1e-9);
+    }
+  }
+}
+
+// The penalty of its own choice, by the sums that define it, judged in the same way.
+TYPED_TEST(WeightSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    SolverOptions options;
+    options.method = Method::kLbc2014;
+    options.max_iterations = 1;
+    const double penalty = solve(problem, options).report.published_penalty;
+    double squares = 0, measure = 0;
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      const double own = simplex_measure<kDim>(cell_corners(problem.mesh, s));
+      squares += own * own;
+      measure += own;
+    }
+    const double size = bounding_box_diagonal(problem.cage.points);
+    EXPECT_NEAR(penalty * squares, size / 30 * measure, 1e-9 * size * measure);
   }
 }
 

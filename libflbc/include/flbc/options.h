@@ -105,7 +105,7 @@ struct SolverOptions {
   //! - kGradient: root mean square of the primal residual's components (the dual's: 10 times as
   //!   much); 2.5e-5 by default.
   //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
-  //!   tolerance; by default the paper's 1e-7, and 5e-8 for kLbc2014.
+  //!   tolerance; by default the paper's 1e-7.
   //! - kHarmonic, kMeanValue do not read it.
   double tolerance = 0;
 

@@ -106,7 +106,7 @@ SolverOptions resolve(SolverOptions options) {
     options.coarse_levels.coarsest = kCoarsest;
   }
   if (options.tolerance == 0)
-    options.tolerance = value ? 1e-7 : gradient ? 2.5e-5 : lbc2014 ? 5e-8 : 1e-7;
+    options.tolerance = gradient ? 2.5e-5 : 1e-7;
   // Radii in half precision are phi rounded by 1.4e-4 on average. That moves weights by as much on
   // meshes of some dozen cells, squared 1e-8, and by a few 1e-11 squared on models.
   constexpr double kHalfIsEnough = 1e-7;
@@ -115,7 +115,8 @@ SolverOptions resolve(SolverOptions options) {
         value && options.tolerance >= kHalfIsEnough ? Precision::kHalf : Precision::kSingle;
   }
   if (options.relaxation == 0) {
-    options.relaxation = value ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
+    const bool tuned = value || (lbc2014 && options.penalty == 0);
+    options.relaxation = tuned ? 1.9 : gradient ? 1.8 : lbc2014 ? 1.65 : 1;
   }
   return options;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Method::kLbc2014 from start to weights.
+#include <algorithm>
 #include <memory>
 
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
+#include "flbc/harmonic.h"
 #include "solver/iterative_method.h"
 #include "solver/splitting/weight_splitting.h"
 #include "solver/state_storage.h"
@@ -15,81 +17,86 @@ namespace {
 template <class Scalar, int Dim>
 using Splitting = splitting::WeightSplitting<Scalar, Dim>;
 
-// The constraints Z = grad w scaled by the measure, and W = w.
-//! \param vertex_weight  of |W - w|^2; 1 as published, 0 for the one that suits the mesh
+// The augmented Lagrangian of (2), in which a cell weighs its squared measure: of the constraint
+// A z = A grad w. With a penalty that is given, that is all there is to it, and W = w has the same
+// weight as every other constraint. Otherwise penalty and weight of W = w are chosen such that on
+// average over the domain they act as kValue's, whose metric is the measure.
 template <int Dim>
-splitting::Metric metric_2014(const LbcProblem<Dim>& problem, bool non_negative,
-                              double vertex_weight) {
-  const auto measures = splitting::cell_measures(problem.mesh);
-  splitting::Metric metric;
-  metric.cell = measures.array().square();
-  if (!non_negative) return metric;
-  if (vertex_weight == 0) {
-    vertex_weight =
-        splitting::measure_metric(problem, true).vertex.mean() * metric.cell.sum() / measures.sum();
+class AugmentedLagrangian {
+ public:
+  AugmentedLagrangian(const LbcProblem<Dim>& problem, const SolverOptions& options)
+      : chosen_(options.penalty == 0), penalty_(options.penalty) {
+    constexpr double kOfSize = 1.0 / 30;  // the best one of those measured (docs/lab_book.md)
+    const auto like_value = splitting::measure_metric(
+        problem, options.non_negative == NonNegative::kConstraint);
+    const Eigen::VectorXd& measures = like_value.cell;
+    mean_measure_ = measures.squaredNorm() / measures.sum();
+    metric_.cell = measures.cwiseAbs2();
+    if (chosen_) penalty_ = kOfSize * bounding_box_diagonal(problem.cage.points) / mean_measure_;
+    if (like_value.vertex.size() == 0) return;
+    const double weight = chosen_ ? mean_measure_ * like_value.vertex.mean() : 1;
+    metric_.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), weight);
   }
-  metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), vertex_weight);
-  return metric;
+
+  bool is_chosen() const { return chosen_; }
+  const splitting::Metric& metric() const { return metric_; }
+  double penalty() const { return penalty_; }
+
+  // rho m is on average this multiple of the measure; what penalties of two meshes have in common.
+  double per_measure(double penalty) const { return penalty * mean_measure_; }
+  double from_per_measure(double multiple) const { return multiple / mean_measure_; }
+
+ private:
+  bool chosen_;
+  double penalty_;
+  double mean_measure_ = 0;
+  splitting::Metric metric_;
+};
+
+template <class Scalar, int Dim>
+void start(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
+           const AugmentedLagrangian<Dim>& lagrangian, const StateStorage* storage,
+           const Transfer<Dim>* from) {
+  constexpr int kMostSolves = 8;
+  if (resumes(storage)) {
+    splitting.resume();
+  } else if (from != nullptr) {
+    const double per_measure = lagrangian.per_measure(splitting.penalty());
+    splitting.start_from_duals(
+        from->weights(), [from](Index s) { return from->flux_density(s); },
+        from->vertex_dual(per_measure));
+  } else if (lagrangian.is_chosen()) {
+    splitting.start_from_harmonic(kMostSolves);
+  } else {
+    // Where W = w weighs much, the iteration's own factor takes hundreds of solves to get there.
+    splitting.start_from_weights(harmonic_coordinates(problem));
+  }
 }
 
-// What the penalty has to be multiplied by to act as kValue's, whose metric is the measure: rho m is
-// the same multiple of the measure then, on average.
-double penalty_of_measure(const splitting::Metric& metric) {
-  return metric.cell.sum() / metric.cell.cwiseSqrt().sum();
-}
-
-template <int Dim>
-double choose_penalty(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
-                      const SolverOptions& options, const StateStorage* storage,
-                      const WarmStart<Dim>& warm_start) {
-  constexpr double kDiameters = 0.0085;
-  if (resumes(storage)) return storage->penalty();
-  if (options.penalty > 0) return options.penalty;
-  const double of_measure = warm_start.from
-                                ? warm_start.from->penalty()
-                                : kDiameters * bounding_box_diagonal(problem.cage.points);
-  return of_measure / penalty_of_measure(metric);
-}
-
-// Ends by the thresholds of section 5 of the paper.
+// Ends by the thresholds of section 5 of the paper: norms at most N 1e-7 and N 1e-6 by default.
 template <class Scalar, int Dim>
 void iterate(Splitting<Scalar, Dim>& splitting, const SolverOptions& options, GapCriterion& gap,
              SolveReport& report) {
-  const double primal_threshold = options.tolerance * splitting.num_residual_components();
-  const double dual_threshold = 10 * primal_threshold;
-  for (int iteration = 1;; ++iteration) {
-    report.iterations = iteration;
+  constexpr double kDualToPrimal = 10;
+  const double threshold = options.tolerance * splitting.num_residual_components();
+  for (bool ends = false; !ends;) {
+    const int iteration = ++report.iterations;
     if (iteration % options.check_interval != 0 && iteration < options.max_iterations) {
       splitting.iterate();
       continue;
     }
     const auto residuals = splitting.iterate_with_residuals();
-    report.primal_residual = residuals.primal / primal_threshold;
-    report.dual_residual = residuals.dual / dual_threshold;
-    if (finished(iteration, options, gap, report)) return;
+    report.primal_residual = residuals.primal / threshold;
+    report.dual_residual = residuals.dual / (kDualToPrimal * threshold);
+    ends = finished(iteration, options, gap, report);
   }
 }
 
 template <class Scalar, int Dim>
-void choose_start(Splitting<Scalar, Dim>& splitting, double of_measure, const StateStorage* storage,
-                  const WarmStart<Dim>& warm_start) {
-  constexpr int kRichardsonSteps = 8;
-  if (resumes(storage)) {
-    splitting.resume();
-  } else if (warm_start.from) {
-    splitting.start_from_duals(
-        warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
-        warm_start.from->vertex_dual(of_measure * splitting.penalty()));
-  } else {
-    splitting.start_from_harmonic(kRichardsonSteps);
-  }
-}
-
-template <class Scalar, int Dim>
-MeshState<Dim> keep_state(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
-                          double of_measure) {
+MeshState<Dim> state_of(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>& problem,
+                        double per_measure) {
   MeshState<Dim> state;
-  state.penalty = of_measure * splitting.penalty();
+  state.penalty = per_measure;
   state.weights = splitting.weights();
   state.vertex_dual = splitting.vertex_dual();
   state.flux_density = flux_densities(problem, splitting.flux());
@@ -98,29 +105,36 @@ MeshState<Dim> keep_state(Splitting<Scalar, Dim>& splitting, const LbcProblem<Di
 
 template <class Scalar, int Dim>
 MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
+                      SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   Stopwatch watch;
-  const auto metric = metric_2014(problem, options.non_negative == NonNegative::kConstraint,
-                                  options.penalty > 0 ? 1 : 0);
-  const double penalty = choose_penalty(problem, metric, options, storage, warm_start);
-  const double of_measure = penalty_of_measure(metric);
-  const auto linear_solver =
-      options.linear_solver == LinearSolver::kAuto ? LinearSolver::kDirect : options.linear_solver;
-  auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
-      problem, metric, penalty, options.relaxation, linear_solver, storage);
-  choose_start(*splitting, of_measure, storage, warm_start);
+  const AugmentedLagrangian<Dim> lagrangian(problem, options);
+  double penalty = lagrangian.penalty();
+  if (resumes(storage)) {
+    penalty = storage->penalty();
+  } else if (warm_start.from && lagrangian.is_chosen()) {
+    penalty = lagrangian.from_per_measure(warm_start.from->penalty());
+  }
+  const auto linear_solver = options.linear_solver == LinearSolver::kMultigrid
+                                 ? LinearSolver::kMultigrid
+                                 : LinearSolver::kDirect;
+  const auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
+      problem, lagrangian.metric(), penalty, options.relaxation, linear_solver, storage);
+  start(*splitting, problem, lagrangian, storage, warm_start.from);
+  if (warm_start.started) warm_start.started();
+
   const auto certify_weights = [splitting, &problem](const WeightMatrix& weights) {
     return certify(problem, splitting->flux(), weights);
   };
   GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
-  const auto told = with_objective(problem, options, [&] { return splitting->weights(); });
-  iterate(*splitting, told, gap, report);
+  report.iterations = 0;
+  iterate(*splitting, with_objective(problem, options, [&] { return splitting->weights(); }), gap,
+          report);
+  report.penalty = penalty;
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();
-  report.penalty = splitting->penalty();
-  if (storage != nullptr) storage->keep_penalty(report.penalty);
+  if (storage != nullptr) storage->keep_penalty(penalty);
   report.seconds.solve = watch.lap();
   if (warm_start.final_state) {
-    *warm_start.final_state = keep_state(*splitting, problem, of_measure);
+    *warm_start.final_state = state_of(*splitting, problem, lagrangian.per_measure(penalty));
   }
   return {splitting->weights(), certify_weights};
 }

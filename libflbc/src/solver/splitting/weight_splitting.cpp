@@ -24,8 +24,7 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
       metric_(std::move(metric)),
       penalty_(penalty),
       relaxation_(relaxation),
-      system_(system_matrix(problem, metric_)),
-      solver_(system_, stride_, linear_solver),
+      solver_(system_matrix(problem, metric_), stride_, linear_solver),
       data_(make_splitting_data<Scalar>(problem, metric_, solver_.position(), stride_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
@@ -108,47 +107,54 @@ double WeightSplitting<Scalar, Dim>::run(const SliceLoop& residual) {
 }
 
 template <class Scalar, int Dim>
-Step WeightSplitting<Scalar, Dim>::iterate() {
-  return {run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
+double WeightSplitting<Scalar, Dim>::iterate() {
+  return run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
     kernel_.w_step(state, columns);
     kernel_.z_step(state, columns);
-  })};
-}
-
-template <class Scalar, int Dim>
-Step WeightSplitting<Scalar, Dim>::iterate_measured() {
-  std::fill_n(violation_.data(), violation_.size(), 0.0);
-  Step step{run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
-    kernel_.w_step_measured(state, columns);
-    kernel_.z_step_measured(state, columns);
-  })};
-  step.violation = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
-  return step;
+  });
 }
 
 template <class Scalar, int Dim>
 Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals() {
-  const Step step = iterate_measured();
-  return {std::sqrt(step.violation), penalty_ * std::sqrt(change_norm2())};
+  if (right_side_.size() == 0) right_side_ = AlignedArray<Scalar>(residual_.size());
+  std::fill_n(violation_.data(), violation_.size(), 0.0);
+  run([&](const Arrays<Scalar, Dim>& state, Columns columns) {
+    kernel_.w_step_measured(state, columns);
+    kernel_.z_step_measured(state, columns);
+    keep_right_side(columns);
+  });
+  const double violation = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
+  return {std::sqrt(violation), penalty_ * std::sqrt(std::max(change_norm2(), 0.0))};
 }
 
-// Squared norm, in the metric, of what an iteration changed in the gradients and the weights: the
-// quadratic form of the system matrix, since boundary values do not change.
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::keep_right_side(Columns columns) {
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    std::copy(residual_.data() + row * stride_ + columns.begin,
+              residual_.data() + row * stride_ + columns.end,
+              right_side_.data() + row * stride_ + columns.begin);
+  }
+}
+
+// Squared norm, in the metric, of what an iteration changed in the gradients and the weights: with
+// the system matrix K, <delta, K delta>. The Y-step solves K delta = P r, P the projection of rows
+// on what the constraints leave free, so that this is <delta, P r>.
 template <class Scalar, int Dim>
 double WeightSplitting<Scalar, Dim>::change_norm2() const {
   using Row = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
-  const auto change = [&](Eigen::Index unknown) {
-    return Row(residual_.data() + solver_.position()[unknown] * stride_, n_).template cast<double>();
-  };
-  const auto columns = static_cast<Index>(system_.outerSize());
-  return parallel_sum(columns, 0.0, [&](Index begin, Index end) {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis(n_, Dim + 1);
+  for (int k = 0; k <= Dim; ++k) {
+    basis.col(k) = Row(data_.constraints.basis.data() + k * stride_, n_).template cast<double>();
+  }
+  const auto rows = static_cast<Index>(data_.vertices.size());
+  return parallel_sum(rows, 0.0, [&](Index begin, Index end) {
     double part = 0;
-    for (Index column = begin; column < end; ++column) {
-      const Eigen::VectorXd own = change(column);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(system_, column); entry; ++entry) {
-        const double both = entry.row() == column ? 1 : 2;
-        part += both * entry.value() * change(entry.row()).dot(own);
-      }
+    Eigen::VectorXd right(n_);
+    for (Index row = begin; row < end; ++row) {
+      right = Row(right_side_.data() + row * stride_, n_).template cast<double>();
+      const Eigen::Matrix<double, Dim + 1, 1> fixed = basis.transpose() * right;
+      right.noalias() -= basis * fixed;
+      part += right.dot(Row(residual_.data() + row * stride_, n_).template cast<double>());
     }
     return part;
   });
@@ -211,8 +217,7 @@ double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const {
                                                          StateStorage*);                      \
   template Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays();                        \
   template double WeightSplitting<Scalar, Dim>::run(const SliceLoop&);                        \
-  template Step WeightSplitting<Scalar, Dim>::iterate();                                      \
-  template Step WeightSplitting<Scalar, Dim>::iterate_measured();                             \
+  template double WeightSplitting<Scalar, Dim>::iterate();                                    \
   template Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals();                  \
   template double WeightSplitting<Scalar, Dim>::num_residual_components() const;              \
   template WeightMatrix WeightSplitting<Scalar, Dim>::weights() const;                        \

@@ -6,8 +6,6 @@
 
 #include <functional>
 
-#include <Eigen/SparseCore>
-
 #include "base/aligned_array.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
@@ -17,13 +15,6 @@
 #include "solver/splitting/splitting_kernel.h"
 
 namespace flbc::splitting {
-
-//! Changes made by one iteration.
-struct Step {
-  double change;          //!< squared change of all weights
-  double violation = -1;  //!< of the constraints z = grad w and u = w, squared, in the metric; if
-                          //!< measured
-};
 
 //! Norms of the residual matrices of ADMM, constraints scaled by the square root of the metric.
 struct Residuals {
@@ -58,24 +49,24 @@ class WeightSplitting {
   //! Starts from weights n x V, with y = 0 and q = w: duals zero where the weights are harmonic.
   void start_from_weights(const WeightMatrix& weights);
 
-  //! The same from the weights that minimise sum m |grad w|^2, which the factor of the iteration
-  //! gives: at once without non-negativity, by Richardson's iteration otherwise.
-  //! \param steps  at most
+  //! The same from weights that nearly minimise sum m |grad w|^2, by the iteration's own factor: one
+  //! solve without non-negativity; with it solves that each take the weights before for q, until
+  //! they no longer move or `steps` are done.
   void start_from_harmonic(int steps);
 
-  //! Starts from weights and duals found elsewhere.
+  //! Starts from weights and duals found elsewhere, balanced as an iteration leaves them: the first
+  //! Y-step finds nothing to correct.
   //! \param weights  n x V, feasible
   //! \param flux_density  p / A in a cell
   //! \param vertex_dual  q - w, n x V; empty for none
   void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
                         const WeightMatrix& vertex_dual);
 
-  Step iterate();
+  //! \return squared change of all weights
+  double iterate();
 
-  //! The same, for half as much again, and what the constraints lacked.
-  Step iterate_measured();
-
-  //! The same, with the norms of the residuals.
+  //! The same, with the norms of the residuals. The dual one is that of an exact Y-step; a multigrid
+  //! cycle in its place gives no less.
   Residuals iterate_with_residuals();
 
   double penalty() const { return penalty_; }
@@ -101,9 +92,12 @@ class WeightSplitting {
   Arrays<Scalar, Dim> arrays();
   void for_slices(const SliceLoop& body);
   double run(const SliceLoop& residual);
-  double solve_for_weights();
-  void set_states(const VectorsAt<Dim>& flux_density, const WeightMatrix& vertex_dual);
+  void keep_right_side(Columns columns);
   double change_norm2() const;
+  void set_weights(const WeightMatrix& weights);
+  void set_states(const VectorsAt<Dim>& flux_density, const WeightMatrix& vertex_dual);
+  double correct_weights();
+  void take_back_correction();
 
   const LbcProblem<Dim>& problem_;
   const Kernel<Scalar, Dim>& kernel_;
@@ -112,14 +106,15 @@ class WeightSplitting {
   const Metric metric_;
   const double penalty_;
   const double relaxation_;
-  const Eigen::SparseMatrix<double> system_;  // lower triangle
   SpdSolver<Scalar> solver_;
   SplittingData<Scalar, Dim> data_;
   // state
   AlignedArray<Scalar> weights_;
   AlignedArray<Scalar> cell_state_;
   AlignedArray<Scalar> vertex_state_;
+  // of the last iteration: right-hand side, then correction of the weights
   AlignedArray<Scalar> residual_;
+  AlignedArray<Scalar> right_side_;  // where residuals are asked for
   AlignedArray<Scalar> flux_;
   AlignedArray<double> violation_;
   AlignedArray<Scalar> violation_sum_;

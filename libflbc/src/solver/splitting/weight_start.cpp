@@ -8,76 +8,87 @@
 namespace flbc::splitting {
 
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+void WeightSplitting<Scalar, Dim>::resume() {
+  WeightMatrix row(n_, 1);
+  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
+    row.setZero();
+    problem_.boundary.scatter(static_cast<Index>(b), row.col(0));
+    Scalar* weights = weights_.data() + problem_.boundary.vertices[b] * stride_;
+    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(row(i, 0));
+  }
+}
+
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::set_weights(const WeightMatrix& weights) {
+#pragma omp parallel for schedule(static)
   for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
     for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
   }
-  std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
-  std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
 }
 
-// Solves for the weights without taking a step: states stay as they are. \return squared change
 template <class Scalar, int Dim>
-double WeightSplitting<Scalar, Dim>::solve_for_weights() {
+void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+  set_weights(weights);
+  std::fill_n(cell_state_.data(), cell_state_.size(), Scalar(0));
+  std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
+}
+
+// A Y-step alone, for the states there are. \return squared change of the weights
+template <class Scalar, int Dim>
+double WeightSplitting<Scalar, Dim>::correct_weights() {
   return run([&](Arrays<Scalar, Dim> state, Columns columns) {
-    state.relaxation = 0;
+    state.relaxation = 0;  // the states stay
     kernel_.w_step(state, columns);
     kernel_.z_step(state, columns);
   });
 }
 
-// With y = 0 and q = w the right-hand side is minus the gradient of sum m |grad w|^2 / 2.
+// With y = 0 the right-hand side is -Div m grad w + k (q - w), which without k is solved by the
+// minimiser of sum m |grad w|^2. With q = w it is solved by (K + k) w' = k w, where K w = 0 is the
+// minimiser's equation: each step takes it nearer.
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
-  constexpr double kSmallChange = 1e-9;  // mean squared
-  const double numbers = static_cast<double>(data_.vertices.size()) * n_;
+  constexpr double kStands = 1e-9;  // mean squared change, far below what the iteration moves
   start_from_weights(WeightMatrix::Zero(n_, problem_.mesh.num_vertices()));
   resume();
-  for (int step = 0; step < steps; ++step) {
-    const double change = solve_for_weights();
+  const double stands = kStands * static_cast<double>(data_.vertices.size()) * n_;
+  bool moves = true;
+  for (int step = 0; step < steps && moves; ++step) {
+    moves = correct_weights() > stands;
     std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
-    if (change <= kSmallChange * numbers) return;
   }
 }
 
-// Every iteration leaves states whose right-hand side moves no weight. Duals from elsewhere would
-// move them by d; y = grad (w - d) - p / (rho m) and q = w - d + dual do not.
+// For states y = grad w - p / (rho m) and q = w + dual a Y-step would find a correction d. States
+// that are lower by grad d and d have the right-hand side -K d in addition: they leave w alone.
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
                                                     const VectorsAt<Dim>& flux_density,
                                                     const WeightMatrix& vertex_dual) {
-  start_from_weights(weights);
+  set_weights(weights);
   set_states(flux_density, vertex_dual);
-  solve_for_weights();
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
-    Scalar* moved = weights_.data() + data_.vertices[row] * stride_;
-    for (std::size_t i = 0; i < stride_; ++i) moved[i] -= 2 * residual_[row * stride_ + i];
-  }
-  set_states(flux_density, vertex_dual);
-  for (const Index v : data_.vertices) {
-    for (Index i = 0; i < n_; ++i) weights_[v * stride_ + i] = static_cast<Scalar>(weights(i, v));
-  }
+  correct_weights();
+  take_back_correction();
+  set_weights(weights);
 }
 
-// y = grad w - p / (rho m) and q = w + dual.
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::set_states(const VectorsAt<Dim>& flux_density,
                                               const WeightMatrix& vertex_dual) {
-  const Index cells = problem_.mesh.num_cells();
 #pragma omp parallel for schedule(static)
-  for (Index s = 0; s < cells; ++s) {
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
     const auto geometry = cell_geometry(problem_.mesh, s);
     Eigen::Matrix<double, Eigen::Dynamic, Dim> state =
-        -geometry.measure / (penalty_ * metric_.cell[s]) * flux_density(s);
+        flux_density(s) * (-geometry.measure / (penalty_ * metric_.cell[s]));
     for (int k = 0; k <= Dim; ++k) {
       const Scalar* corner = weights_.data() + problem_.mesh.cells(k, s) * stride_;
-      state += Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>(corner, n_)
-                   .template cast<double>() *
-               geometry.hat_gradients.col(k).transpose();
+      for (Index i = 0; i < n_; ++i) {
+        state.row(i) += static_cast<double>(corner[i]) * geometry.hat_gradients.col(k).transpose();
+      }
     }
+    Scalar* rows = cell_state_.data() + static_cast<std::size_t>(s) * Dim * stride_;
     for (int d = 0; d < Dim; ++d) {
-      Scalar* row = cell_state_.data() + (static_cast<std::size_t>(s) * Dim + d) * stride_;
-      for (Index i = 0; i < n_; ++i) row[i] = static_cast<Scalar>(state(i, d));
+      for (Index i = 0; i < n_; ++i) rows[d * stride_ + i] = static_cast<Scalar>(state(i, d));
     }
   }
   std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
@@ -89,23 +100,38 @@ void WeightSplitting<Scalar, Dim>::set_states(const VectorsAt<Dim>& flux_density
   }
 }
 
+// y -= grad d and q -= d for the correction d that the last Y-step left, zero on the boundary.
 template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::resume() {
-  Eigen::VectorXd row(n_);
-  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
-    row.setZero();
-    problem_.boundary.scatter(static_cast<Index>(b), row);
-    Scalar* weights = weights_.data() + problem_.boundary.vertices[b] * stride_;
-    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(row[i]);
+void WeightSplitting<Scalar, Dim>::take_back_correction() {
+  using Row = Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>;
+  using StateRow = Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>;
+  const std::size_t boundary_row = data_.vertices.size() * stride_;
+  std::fill_n(residual_.data() + boundary_row, stride_, Scalar(0));
+  const auto correction = [&](Index row) { return Row(residual_.data() + row * stride_, n_); };
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    const auto hats = cell_geometry(problem_.mesh, s).hat_gradients;
+    Scalar* rows = cell_state_.data() + static_cast<std::size_t>(s) * Dim * stride_;
+    for (int k = 0; k <= Dim; ++k) {
+      const auto d = correction(data_.cell_rows[static_cast<std::size_t>(s) * (Dim + 1) + k]);
+      for (int c = 0; c < Dim; ++c) {
+        StateRow(rows + c * stride_, n_) -= static_cast<Scalar>(hats(c, k)) * d;
+      }
+    }
+  }
+  if (vertex_state_.size() == 0) return;
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    StateRow(vertex_state_.data() + data_.vertices[row] * stride_, n_) -=
+        correction(static_cast<Index>(row));
   }
 }
 
 #define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
+  template void WeightSplitting<Scalar, Dim>::resume();                                   \
   template void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix&);    \
   template void WeightSplitting<Scalar, Dim>::start_from_harmonic(int);                   \
   template void WeightSplitting<Scalar, Dim>::start_from_duals(                           \
-      const WeightMatrix&, const VectorsAt<Dim>&, const WeightMatrix&);                   \
-  template void WeightSplitting<Scalar, Dim>::resume();
+      const WeightMatrix&, const VectorsAt<Dim>&, const WeightMatrix&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)
