@@ -44,6 +44,9 @@ std::string version() {
 #ifdef FLBC_WITH_TETGEN
   text += " TetGen (meshes in 3D)";
 #endif
+#ifdef FLBC_WITH_NETGEN
+  text += " Netgen (meshes in 3D where TetGen fails)";
+#endif
 #ifdef FLBC_WITH_OPENMESH
   text += " OpenMesh (.om files)";
 #endif

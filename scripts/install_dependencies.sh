@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libsuitesparse-dev libopenblas0-serial  # core; OpenBLAS halves factoring
-  libopenmesh-dev libcgal-dev libtet1.5-dev  # optional components
+  libopenmesh-dev libcgal-dev libtet1.5-dev libnglib-dev  # optional components
   libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev  # the program flbc
   libcpp-httplib-dev                      # flbc view --serve
   libgtest-dev poppler-utils librsvg2-bin python3-numpy  # tests; the last three read results

@@ -19,7 +19,7 @@ struct MeshArguments {
   std::string output;
   std::string model;
   Index vertices = 0;
-  double timeout = 60;
+  MesherSettings meshing{};
   bool quiet = false;
 };
 
@@ -28,18 +28,18 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   require_writable(arguments.output, {io::kMesh<Dim>});
   PointList<Dim> embedded;
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
-  const auto domain = [&] {
+  const auto made = [&] {
     const ProgressBar bar(arguments.quiet, "meshing the cage");
-    return make_domain(arguments.cage, cage, arguments.vertices, arguments.model, embedded,
-                       arguments.timeout);
+    return make_domain<Dim>({cage, arguments.cage, arguments.vertices, arguments.meshing,
+                             arguments.model, embedded});
   }();
+  const auto& domain = made.mesh;
   {
     const HeldSignals held;
     io::write_domain(arguments.output, domain);
   }
   if (!arguments.quiet) {
-    const auto note = note_on_count(arguments.vertices, domain.num_vertices());
-    if (!note.empty()) std::cerr << "flbc: " << note << '\n';
+    if (!made.note.empty()) std::cerr << "flbc: " << made.note << '\n';
     std::cerr << arguments.output << ": " << domain.num_vertices() << " vertices, "
               << domain.num_cells() << (Dim == 2 ? " triangles\n" : " tetrahedra\n");
   }
@@ -54,7 +54,7 @@ void add_mesh_command(CLI::App& app, int&) {
   command->add_option("-o,--output", arguments->output, mesh_formats_help())->required();
   command->add_option("--vertices", arguments->vertices, "number of mesh vertices wanted")
       ->check(refuse_vertex_count);
-  add_mesh_timeout(*command, arguments->timeout);
+  add_mesher_options(*command, arguments->meshing);
   command->add_option("--model", arguments->model, "make this model's vertices mesh vertices");
   command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
   command->callback([arguments] {

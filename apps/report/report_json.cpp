@@ -40,6 +40,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"embed", settings.embed},
           {"outside", name_of(settings.outside)},
           {"vertices", settings.vertices},
+          {"mesher", name_of(settings.meshing.mesher)},
           {"method", name_of(given.method)},
           {"non_negative", name_of(options.non_negative)},
           {"coarse_to_fine", name_of(options.coarse_to_fine)},
@@ -75,6 +76,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
   json["dim"] = context.dim;
+  json["mesher"] = name_of(context.mesher);
   json["control_points"] = report.control_points;
   json["vertices"] = report.vertices;
   json["cells"] = report.cells;

@@ -37,11 +37,13 @@ void mesh_interior(Run<Dim>& run) {
   run.report["mesh"] = {{"file", name},
                         {"vertices", domain.num_vertices()},
                         {"cells", domain.num_cells()},
+                        {"mesher", name_of(solver.mesher())},
                         {"cached", solver.is_cached()},
                         {"seconds", solver.mesh_seconds()}};
   Facts facts;
   facts << domain.num_vertices() << " vertices, " << domain.num_cells()
         << (Dim == 2 ? " triangles" : " tetrahedra");
+  if (solver.mesher() == Mesher::kNetgen) facts << ", by Netgen";
   run.folder.add(name, facts.text(),
                  [&](const std::string& path) { io::write_domain(path, domain); });
 }

@@ -44,8 +44,7 @@ DomainMesh<Dim> mesh_interior(const Cage<Dim>& cage, const ServeArguments& argum
   const ProgressBar bar(arguments.quiet, "meshing the cage");
   constexpr Index kQuick = 2000;  // vertices that are solved again within a moment
   const Index vertices = arguments.vertices > 0 ? arguments.vertices : kQuick;
-  return make_domain(arguments.cage, cage, vertices, "", PointList<Dim>(),
-                     MeshingOptions<Dim>().time_limit);
+  return make_domain<Dim>({cage, arguments.cage, vertices}).mesh;
 }
 
 template <int Dim>

@@ -53,7 +53,8 @@ std::string key_of(const WeightOrigin<Dim>& origin) {
   key << "version " << FLBC_VERSION << '\n'
       << "dim " << Dim << '\n'
       << "published_penalty " << origin.penalty << '\n'
-      << "can_mesh " << origin.can_mesh << '\n';
+      << "can_mesh " << origin.can_mesh << '\n'
+      << "mesher " << name_of(origin.mesher) << '\n';
   add_options(key, resolve(origin.options));
   add_numbers(key, "control_points", origin.cage.points);
   add_numbers(key, "facets", origin.cage.facets);

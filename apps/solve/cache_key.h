@@ -8,6 +8,7 @@
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/options.h"
+#include "solve/mesher.h"
 
 namespace flbc::app {
 
@@ -21,6 +22,7 @@ struct WeightOrigin {
   bool can_mesh = true;                      //!< whether there is a mesher for coarser meshes
   double penalty = 0;                        //!< as published, 0 = by method
   SolverOptions options{};                   //!< but for the penalty
+  Mesher mesher = Mesher::kAuto;             //!< asked for
 };
 
 //! Lines that can be read, then the bytes of all numbers of cage, domain and embedded points. Keys

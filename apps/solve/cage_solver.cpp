@@ -25,8 +25,8 @@ namespace {
 // Starts from coarser meshes where that pays and a mesher was built in.
 template <int Dim>
 Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
-                      double penalty) {
-  const auto mesher = coarse_mesher<Dim>();
+                      double penalty, Mesher made_by) {
+  const auto mesher = coarse_mesher<Dim>(made_by);
   if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
     throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
                       std::to_string(Dim) + "D");
@@ -93,7 +93,8 @@ bool CageSolver<Dim>::find_in_cache() {
   const bool has_domain = !settings_.domain.empty();
   key_ = key_of<Dim>({cage_, has_domain ? &solved_.domain : nullptr,
                       settings_.embed ? &model_ : nullptr, settings_.vertices,
-                      bool(coarse_mesher<Dim>()), settings_.penalty, settings_.options});
+                      bool(coarse_mesher<Dim>(settings_.meshing.mesher)), settings_.penalty,
+                      settings_.options, settings_.meshing.mesher});
   auto answer = cache_->find<Dim>(key_);
   if (!answer.complaint.empty()) {
     std::cerr << "flbc: " << answer.complaint << "; the weights are computed anew\n";
@@ -113,10 +114,12 @@ void CageSolver<Dim>::make_domain(bool quiet) {
     std::string note;
     if (!has_domain) {
       const ProgressBar bar(quiet, "meshing the cage");
-      solved_.domain = app::make_domain(settings_.cage, cage_, settings_.vertices,
-                                        settings_.embed ? settings_.model : "", model_,
-                                        settings_.mesh_timeout);
-      note = note_on_count(settings_.vertices, solved_.domain.num_vertices());
+      auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
+                                         settings_.meshing, settings_.embed ? settings_.model : "",
+                                         settings_.embed ? model_ : PointList<Dim>()});
+      solved_.domain = std::move(made.mesh);
+      solved_.mesher = made.mesher;
+      note = std::move(made.note);
     }
     if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -142,7 +145,7 @@ void CageSolver<Dim>::solve(bool quiet) {
       return true;
     };
     solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-      return solve_domain(cage_, solved_.domain, options, settings_.penalty);
+      return solve_domain(cage_, solved_.domain, options, settings_.penalty, solved_.mesher);
     });
     if (settings_.history) history_ = recorder.finished(report());
   }
@@ -165,7 +168,7 @@ WeightMatrix CageSolver<Dim>::rows() const {
 
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
-  auto json = report_json(report(), settings_, {Dim, mesh_seconds(), is_cached_, delivered});
+  auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), is_cached_, delivered});
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(settings_.outside)},
                        {"on_cage", beside_json(placement_.on_cage)},

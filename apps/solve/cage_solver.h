@@ -41,6 +41,7 @@ class CageSolver {
   const SolveReport& report() const { return solved_.solution.report; }
   bool is_cached() const { return is_cached_; }
   double mesh_seconds() const { return solved_.mesh_seconds; }
+  Mesher mesher() const { return solved_.mesher; }
 
   //! The points that get weights: the model's vertices, or those of the mesh. Vertices beside the
   //! cage are where their weights put them.

@@ -1,54 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/make_domain.h"
 
+#include <utility>
+#include <vector>
+
 #include "files/load.h"
 #include "flbc/errors.h"
+#include "flbc/tetrahedralize_by_netgen.h"
 
 namespace flbc::app {
 namespace {
 
-DomainMesh<2> mesh_cage([[maybe_unused]] const Cage<2>& cage,
-                        [[maybe_unused]] const MeshingOptions<2>& options) {
+bool is_built_in(Mesher mesher) {
+#ifdef FLBC_WITH_CGAL
+  if (mesher == Mesher::kCgal) return true;
+#endif
+#ifdef FLBC_WITH_TETGEN
+  if (mesher == Mesher::kTetgen) return true;
+#endif
+#ifdef FLBC_WITH_NETGEN
+  if (mesher == Mesher::kNetgen) return true;
+#endif
+  return false;
+}
+
+// In the order in which they are tried.
+template <int Dim>
+std::vector<Mesher> meshers_for(Mesher asked_for) {
+  std::vector<Mesher> meshers;
+  for (const Mesher mesher : Dim == 2 ? std::vector<Mesher>{Mesher::kCgal}
+                                      : std::vector<Mesher>{Mesher::kTetgen, Mesher::kNetgen}) {
+    const bool is_meant =
+        asked_for == Mesher::kAuto || asked_for == Mesher::kGiven || asked_for == mesher;
+    if (is_meant && is_built_in(mesher)) meshers.push_back(mesher);
+  }
+  return meshers;
+}
+
+template <int Dim>
+void require_mesher(Mesher asked_for) {
+  const bool is_one_for_3d = asked_for == Mesher::kTetgen || asked_for == Mesher::kNetgen;
+  if (asked_for != Mesher::kAuto && is_one_for_3d != (Dim == 3)) {
+    throw OptionError(std::string("--mesher ") + name_of(asked_for) + ": it makes no meshes in " +
+                      std::to_string(Dim) + "D");
+  }
+  if (!meshers_for<Dim>(asked_for).empty()) return;
+  const std::string wanted = asked_for != Mesher::kAuto ? name_of(asked_for)
+                             : Dim == 2                 ? "CGAL"
+                                                        : "TetGen or Netgen";
+  throw OptionError("this flbc was built without " + wanted + " and cannot mesh in " +
+                    std::to_string(Dim) + "D; give a mesh by --domain");
+}
+
+DomainMesh<2> fill(Mesher, [[maybe_unused]] const Cage<2>& cage,
+                   [[maybe_unused]] const MeshingOptions<2>& options) {
 #ifdef FLBC_WITH_CGAL
   return triangulate(cage, options);
 #else
-  throw OptionError(
-      "this flbc was built without CGAL and cannot mesh in 2D; give a mesh by --domain");
+  return {};
 #endif
 }
 
-DomainMesh<3> mesh_cage([[maybe_unused]] const Cage<3>& cage,
-                        [[maybe_unused]] const MeshingOptions<3>& options) {
+DomainMesh<3> fill([[maybe_unused]] Mesher mesher, [[maybe_unused]] const Cage<3>& cage,
+                   [[maybe_unused]] const MeshingOptions<3>& options) {
+#ifdef FLBC_WITH_NETGEN
+  if (mesher == Mesher::kNetgen) return tetrahedralize_by_netgen(cage, options);
+#endif
 #ifdef FLBC_WITH_TETGEN
   return tetrahedralize(cage, options);
 #else
-  throw OptionError(
-      "this flbc was built without TetGen and cannot mesh in 3D; give a mesh by --domain");
+  return {};
 #endif
 }
 
-}  // namespace
-
+// Takes more vertices than were asked for where the cage needs them.
 template <int Dim>
-DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage, Index vertices,
-                            const std::string& embedded_file, const PointList<Dim>& model,
-                            double time_limit) {
-  MeshingOptions<Dim> options;
-  if (!embedded_file.empty()) options.embedded_points = model;
-  options.vertices = vertices > 0 ? vertices : kDefaultVertices;
-  options.time_limit = time_limit;
-  const auto name = embedded_file.empty() ? cage_file : cage_file + " with " + embedded_file;
-  return naming(name, [&] {
-    try {
-      return mesh_cage(cage, options);
-    } catch (const OptionError&) {  // too few for this cage or model, or far too many
-      const Index asked = options.vertices;
-      options.vertices = 0;
-      auto domain = mesh_cage(cage, options);
-      if (domain.num_vertices() < asked) throw;
-      return domain;
-    }
-  });
+DomainMesh<Dim> fill_or_exceed(Mesher mesher, const Cage<Dim>& cage, MeshingOptions<Dim> options) {
+  try {
+    return fill(mesher, cage, options);
+  } catch (const OptionError&) {  // too few for this cage or model, or far too many
+    const Index asked = options.vertices;
+    options.vertices = 0;
+    auto mesh = fill(mesher, cage, options);
+    if (mesh.num_vertices() < asked) throw;
+    return mesh;
+  }
 }
 
 std::string note_on_count(Index asked, Index count) {
@@ -58,30 +94,70 @@ std::string note_on_count(Index asked, Index count) {
          std::to_string(asked) + " (--vertices)";
 }
 
+// The first mesher that can; what those before it said goes into the note.
 template <int Dim>
-CoarseMesher<Dim> coarse_mesher() {
-#ifndef FLBC_WITH_CGAL
-  if (Dim == 2) return {};
-#endif
-#ifndef FLBC_WITH_TETGEN
-  if (Dim == 3) return {};
-#endif
+MadeDomain<Dim> fill_by_any(const DomainRequest<Dim>& request,
+                            const MeshingOptions<Dim>& options) {
+  const auto meshers = meshers_for<Dim>(request.meshing.mesher);
+  std::string failures;
+  for (const Mesher mesher : meshers) {
+    const bool is_last = mesher == meshers.back();
+    try {
+      auto mesh = fill_or_exceed(mesher, request.cage, options);
+      auto note = note_on_count(request.vertices, mesh.num_vertices());
+      if (!failures.empty()) {
+        note = failures + "; the mesh was made by " + name_of(mesher) + (note.empty() ? "" : "; ") +
+               note;
+      }
+      return {std::move(mesh), mesher, note};
+    } catch (const InputError& error) {
+      if (request.meshing.mesher == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
+        throw InputError(error.what() + std::string("; or try --mesher netgen"));
+      }
+      if (is_last && failures.empty()) throw;
+      failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+      if (is_last) throw InputError(failures);
+    } catch (const OptionError&) {
+      if (failures.empty()) throw;  // else this mesher cannot do what the one before could not
+      throw InputError(failures);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+template <int Dim>
+MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request) {
+  require_mesher<Dim>(request.meshing.mesher);
+  MeshingOptions<Dim> options;
+  if (!request.embedded_file.empty()) options.embedded_points = request.embedded;
+  options.vertices = request.vertices > 0 ? request.vertices : kDefaultVertices;
+  options.time_limit = request.meshing.timeout;
+  const auto name = request.embedded_file.empty()
+                        ? request.cage_file
+                        : request.cage_file + " with " + request.embedded_file;
+  return naming(name, [&] { return fill_by_any(request, options); });
+}
+
+template <int Dim>
+CoarseMesher<Dim> coarse_mesher(Mesher mesher) {
+  const auto meshers = meshers_for<Dim>(mesher);
+  if (meshers.empty()) return {};
   // A mesher that fails on so few vertices must not keep the solve waiting.
   constexpr double kTimeLimit = 60;
-  return [](const Cage<Dim>& cage, Index vertices) {
+  return [chosen = meshers.front()](const Cage<Dim>& cage, Index vertices) {
     MeshingOptions<Dim> options;
     options.vertices = vertices;
     options.roughly = true;
     options.time_limit = kTimeLimit;
-    return mesh_cage(cage, options);
+    return fill(chosen, cage, options);
   };
 }
 
-template CoarseMesher<2> coarse_mesher();
-template CoarseMesher<3> coarse_mesher();
-template DomainMesh<2> make_domain(const std::string&, const Cage<2>&, Index, const std::string&,
-                                   const PointList<2>&, double);
-template DomainMesh<3> make_domain(const std::string&, const Cage<3>&, Index, const std::string&,
-                                   const PointList<3>&, double);
+template CoarseMesher<2> coarse_mesher(Mesher);
+template CoarseMesher<3> coarse_mesher(Mesher);
+template MadeDomain<2> make_domain(const DomainRequest<2>&);
+template MadeDomain<3> make_domain(const DomainRequest<3>&);
 
 }  // namespace flbc::app

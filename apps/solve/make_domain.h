@@ -8,29 +8,40 @@
 #include "flbc/cage.h"
 #include "flbc/coarse_to_fine.h"
 #include "flbc/meshing.h"
+#include "solve/mesher.h"
 
 namespace flbc::app {
 
 //! Number of mesh vertices if the user does not ask for one.
 constexpr Index kDefaultVertices = 10000;
 
-//! \param cage_file  named in messages
-//! \param vertices  wanted number, 0 = kDefaultVertices; where quality demands more, that
-//! \param embedded_file  the model whose points become mesh vertices; empty for none
-//! \param time_limit  of one run of the mesher, in seconds
-//! \throws OptionError if the program was built without the mesher for this dimension
+//! A mesh to be made. Files are named in messages.
 template <int Dim>
-DomainMesh<Dim> make_domain(const std::string& cage_file, const Cage<Dim>& cage, Index vertices,
-                            const std::string& embedded_file, const PointList<Dim>& model,
-                            double time_limit);
+struct DomainRequest {
+  const Cage<Dim>& cage;
+  std::string cage_file;
+  Index vertices = 0;             //!< wanted, 0 = kDefaultVertices; where quality demands more, that
+  MesherSettings meshing{};
+  std::string embedded_file{};    //!< of the model whose points become vertices; empty for none
+  PointList<Dim> embedded{};      //!< these points
+};
 
-//! A note that a mesh has more vertices than were asked for, for the user; empty if it has not.
-//! \param asked  0 = no number in particular
-std::string note_on_count(Index asked, Index count);
+//! A mesh that was made.
+template <int Dim>
+struct MadeDomain {
+  DomainMesh<Dim> mesh{};
+  Mesher mesher = Mesher::kAuto;  //!< that made it
+  std::string note{};             //!< for the user: it is not quite as asked for, or made otherwise
+};
+
+//! \throws OptionError if the program was built without the mesher, or it is none for this
+//! dimension; InputError if the cage cannot be meshed
+template <int Dim>
+MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request);
 
 //! Meshes of the cage's interior for a start from coarser ones; empty if the program was built
-//! without the mesher for this dimension.
+//! without the mesher for this dimension. \param mesher  the one that made the finest mesh
 template <int Dim>
-CoarseMesher<Dim> coarse_mesher();
+CoarseMesher<Dim> coarse_mesher(Mesher mesher);
 
 }  // namespace flbc::app

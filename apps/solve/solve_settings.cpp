@@ -25,9 +25,25 @@ void add_choice(CLI::App& command, const std::string& name, Enum& value, const s
 
 }  // namespace
 
-void add_mesh_timeout(CLI::App& command, double& seconds) {
+void add_mesher_options(CLI::App& command, MesherSettings& settings) {
   command
-      .add_option("--mesh-timeout", seconds,
+      .add_option_function<std::string>(
+          "--mesher",
+          [&settings](const std::string& text) {
+            for (const Mesher mesher :
+                 {Mesher::kAuto, Mesher::kCgal, Mesher::kTetgen, Mesher::kNetgen}) {
+              if (text != name_of(mesher)) continue;
+              settings.mesher = mesher;
+              return;
+            }
+            throw CLI::ValidationError("--mesher",
+                                       "'" + text + "' is none of auto|cgal|tetgen|netgen");
+          },
+          "who fills the cage with cells (auto: CGAL in 2D; TetGen in 3D, and Netgen where that "
+          "fails)")
+      ->type_name("auto|cgal|tetgen|netgen");
+  command
+      .add_option("--mesh-timeout", settings.timeout,
                   "seconds after which a run of the mesher in 3D is stopped (60)")
       ->check(CLI::PositiveNumber);
 }
@@ -61,7 +77,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "what becomes of the model's vertices outside the cage: nearest: weights of the "
              "nearest point of the cage; extend: those and an affine function of the offset, which "
              "reproduce the vertex but may be negative (fail)");
-  add_mesh_timeout(command, settings.mesh_timeout);
+  add_mesher_options(command, settings.meshing);
   command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_flag("--history", settings.history,
                    "keep errors, residuals and objective by iteration in the report (flbc plot)");

@@ -8,6 +8,7 @@
 
 #include "flbc/options.h"
 #include "flbc/placement.h"
+#include "solve/mesher.h"
 
 namespace flbc::app {
 
@@ -19,15 +20,15 @@ struct SolveSettings {
   bool embed = false;  //!< the model's vertices become vertices of the mesh
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
-  double mesh_timeout = 60;  //!< seconds that a run of the mesher may take
+  MesherSettings meshing{};
   std::string cache;   //!< folder of weights computed before
   bool history = false;  //!< the report tells how the iteration came nearer to its end
   double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };
 
-//! Adds --mesh-timeout to a command. \param seconds  outlives it
-void add_mesh_timeout(CLI::App& command, double& seconds);
+//! Adds --mesher and --mesh-timeout to a command. \param settings  outlives it
+void add_mesher_options(CLI::App& command, MesherSettings& settings);
 
 //! Adds all options about the solver, and --cache, to a command. \param settings  outlives it
 void add_solver_options(CLI::App& command, SolveSettings& settings);

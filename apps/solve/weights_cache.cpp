@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kMagic = "flbc weights, format 4\n";
+constexpr std::string_view kMagic = "flbc weights, format 5\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -60,7 +60,8 @@ void visit_report(Archive& archive, Report& report) {
 
 template <class Archive, class Solved>
 void visit_solved(Archive& archive, Solved& solved) {
-  archive(solved.domain.points, solved.domain.cells, solved.solution.weights, solved.mesh_seconds);
+  archive(solved.domain.points, solved.domain.cells, solved.solution.weights, solved.mesh_seconds,
+          solved.mesher);
   visit_report(archive, solved.solution.report);
 }
 

@@ -8,6 +8,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "flbc/solver.h"
+#include "solve/mesher.h"
 
 namespace flbc::app {
 
@@ -17,6 +18,7 @@ struct SolvedDomain {
   DomainMesh<Dim> domain{};
   Solution solution{};      //!< n x V, at the vertices of the domain
   double mesh_seconds = 0;  //!< for making or reading the domain
+  Mesher mesher = Mesher::kGiven;
 };
 
 //! Answer of the cache for a key.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshing/tetgen/isolated_process.h"
+#include "meshing/isolated_process.h"
 
 #include <dirent.h>
 #include <gtest/gtest.h>

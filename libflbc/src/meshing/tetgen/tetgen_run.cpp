@@ -10,7 +10,7 @@
 #include <tetgen.h>
 
 #include "flbc/errors.h"
-#include "meshing/tetgen/isolated_process.h"
+#include "meshing/isolated_process.h"
 
 namespace flbc {
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finer triangles on the same surface, for meshers that keep the surface they are given.
+#pragma once
+
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! Bisects triangles at the middles of their longest edges until no edge is longer than a length;
+//! neighbours are divided alike, so that the surface stays closed. The control points keep their
+//! numbers and places, and the triangles their orientation.
+//! \param longest  > 0, in the units of the cage
+Cage<3> subdivide_surface(const Cage<3>& cage, double longest);
+
+}  // namespace flbc

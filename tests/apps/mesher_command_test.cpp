@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who fills a cage with cells: the second mesher where the first one fails.
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "flbc/io/weights_io.h"
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+class MesherCommand : public CommandLineTest {
+ protected:
+  // Too thin for cells of good shape.
+  std::string flat_box() const {
+    return file("flat.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 0.0005\nv 1 0 0.0005\nv 0 1 0.0005\n"
+                "v 1 1 0.0005\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  }
+  static bool has_netgen() { return FLBC_HAS_NETGEN != 0; }
+};
+
+TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
+  const auto solve = "solve " + flat_box() + " --vertices 200 --mesh-timeout 6 -o " +
+                     path("w.npy") + " --report " + path("report.json");
+  const auto refused = run(solve + " --mesher tetgen");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("TetGen"), std::string::npos) << refused.errors;
+  EXPECT_FALSE(std::filesystem::exists(path("w.npy")));
+  if (!has_netgen()) GTEST_SKIP() << "built without Netgen";
+  EXPECT_NE(refused.errors.find("--mesher netgen"), std::string::npos) << refused.errors;
+  for (const std::string mesher : {"", " --mesher auto", " --mesher netgen"}) {
+    const auto solved = run(solve + mesher);
+    ASSERT_EQ(solved.status, 0) << solved.errors;
+    const auto report = nlohmann::json::parse(slurp(path("report.json")));
+    EXPECT_EQ(report["mesher"], "netgen");
+    const bool is_second = mesher != " --mesher netgen";
+    EXPECT_EQ(solved.errors.find("the mesh was made by netgen") != std::string::npos, is_second)
+        << solved.errors;
+    const auto weights = io::read_weights(path("w.npy"));
+    EXPECT_NEAR(weights.colwise().sum().minCoeff(), 1, 1e-12);
+    EXPECT_NEAR(weights.colwise().sum().maxCoeff(), 1, 1e-12);
+    EXPECT_GE(weights.minCoeff(), 0);
+  }
+}
+
+TEST_F(MesherCommand, SoundCagesAreMeshedByTheFirst) {
+  const auto cage = sample("3d/limb_cage.obj");
+  ASSERT_EQ(run("run " + cage + " --vertices 1000 -q -o " + path("out")).status, 0);
+  const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
+  EXPECT_EQ(report["solve"]["mesher"], "tetgen");
+  EXPECT_EQ(report["mesh"]["mesher"], "tetgen");
+}
+
+TEST_F(MesherCommand, MeshersOfTheOtherDimensionAreRefused) {
+  const auto in_3d = run("mesh " + sample("3d/limb_cage.obj") + " --mesher cgal -o " +
+                         path("m.mesh"));
+  EXPECT_EQ(in_3d.status, 1);
+  EXPECT_NE(in_3d.errors.find("--mesher cgal: it makes no meshes in 3D"), std::string::npos);
+  const auto in_2d = run("mesh " + sample("2d/ring_cage.obj") + " --mesher tetgen -o " +
+                         path("m.obj"));
+  EXPECT_EQ(in_2d.status, 1);
+  EXPECT_EQ(run("mesh " + sample("2d/ring_cage.obj") + " --mesher x -o " + path("m.obj")).status,
+            1);
+}
+
+}  // namespace
+}  // namespace flbc::testing

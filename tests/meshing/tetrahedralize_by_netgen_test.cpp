@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/tetrahedralize_by_netgen.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "flbc/quality.h"
+#include "flbc/solver.h"
+#include "support/code_cages.h"
+#include "support/mesh_checks.h"
+#include "support/model_cages.h"
+
+namespace flbc {
+namespace {
+
+using flbc::testing::box_cage;
+using flbc::testing::covers_edges;
+using flbc::testing::enclosed_measure;
+using flbc::testing::expect_count;
+using flbc::testing::expect_fills;
+using flbc::testing::has_model;
+using flbc::testing::join;
+using flbc::testing::load_cage;
+using flbc::testing::message_of;
+using flbc::testing::reversed;
+using flbc::testing::without_facet;
+
+MeshingOptions<3> vertices(Index count) {
+  MeshingOptions<3> options;
+  options.vertices = count;
+  return options;
+}
+
+// A box on which TetGen asks for more than a million vertices.
+Cage<3> flat_box() {
+  return box_cage<3>(Vector<3>(-1, -1, -5e-4), Vector<3>(1, 1, 5e-4));
+}
+
+TEST(TetrahedralizeByNetgenTest, CountAndCoverWhateverTheSizeAndOrientation) {
+  for (double size : {1e-6, 1.0, 1e5}) {
+    const Cage<3> cage = box_cage<3>(size);
+    for (Index count : {0, 600}) {
+      const DomainMesh<3> mesh = tetrahedralize_by_netgen(reversed(cage), vertices(count));
+      expect_fills(cage, mesh, 8 * size * size * size);
+      EXPECT_TRUE(covers_edges(cage, mesh));
+      if (count > 0) expect_count(mesh, count, 0.4);  // twelve facets alike
+    }
+  }
+}
+
+TEST(TetrahedralizeByNetgenTest, CavitiesStayEmpty) {
+  const Cage<3> box = box_cage<3>(1), cavity = box_cage<3>(0.5);
+  for (const Cage<3>& cage : {join(box, cavity), join(reversed(cavity), box)}) {
+    expect_fills(cage, tetrahedralize_by_netgen(cage, vertices(600)), 7);
+  }
+}
+
+TEST(TetrahedralizeByNetgenTest, ThinWallsTakeFlatCellsAndWeightsAreCoordinates) {
+  const Cage<3> flat = flat_box();
+  const Cage<3> wall = join(box_cage<3>(1), box_cage<3>(0.999));
+  for (const Cage<3>& cage : {flat, wall}) {
+    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices(500));
+    const double volume = cage.size() == 8 ? 4e-3 : 8 * (1 - 0.999 * 0.999 * 0.999);
+    expect_fills(cage, mesh, volume);
+    EXPECT_TRUE(covers_edges(cage, mesh));
+    EXPECT_LT(mesh.num_vertices(), 1500);
+    const Solution solution = solve(cage, mesh);
+    const Quality quality = measure_quality(cage.points, mesh.points, solution.weights);
+    EXPECT_LT(quality.max_partition_error, 1e-12);
+    EXPECT_LT(quality.max_reproduction_error, 1e-9);
+    EXPECT_GE(quality.min_weight, 0);
+    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  }
+}
+
+TEST(TetrahedralizeByNetgenTest, RunsAgreeBitByBit) {
+  const DomainMesh<3> first = tetrahedralize_by_netgen(flat_box(), vertices(150));
+  const DomainMesh<3> second = tetrahedralize_by_netgen(flat_box(), vertices(150));
+  ASSERT_EQ(first.num_vertices(), second.num_vertices());
+  EXPECT_EQ(first.points, second.points);
+  EXPECT_EQ(first.cells, second.cells);
+}
+
+TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
+  const Cage<3> cage = box_cage<3>(1);
+  EXPECT_NE(message_of<InputError>([&] { tetrahedralize_by_netgen(without_facet(cage, 4)); })
+                .find("open at the edge"),
+            std::string::npos);
+  EXPECT_THROW(tetrahedralize_by_netgen(cage, vertices(-1)), OptionError);
+  MeshingOptions<3> embedding;
+  embedding.embedded_points = Vector<3>(0.1, 0.2, 0.3);
+  EXPECT_NE(message_of<OptionError>([&] { tetrahedralize_by_netgen(cage, embedding); })
+                .find("--embed"),
+            std::string::npos);
+  MeshingOptions<3> hasty = vertices(300000);
+  hasty.time_limit = 0.2;
+  EXPECT_NE(message_of<InputError>([&] { tetrahedralize_by_netgen(cage, hasty); })
+                .find("time limit of 0.2 s (--mesh-timeout)"),
+            std::string::npos);
+  const Cage<3> crossing = join(box_cage<3>(Vector<3>(-1, -2, -1), Vector<3>(1, 2, 1)),
+                                box_cage<3>(Vector<3>(-3, -0.5, -0.5), Vector<3>(3, 0.5, 0.5)));
+  EXPECT_THROW(tetrahedralize_by_netgen(crossing), InputError);
+}
+
+TEST(TetrahedralizeByNetgenTest, RealCages) {
+  if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
+  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
+    SCOPED_TRACE(name);
+    const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
+    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices(1500));
+    expect_fills(cage, mesh, enclosed_measure(cage));
+    expect_count(mesh, 1500, 0.15);
+    EXPECT_TRUE(covers_edges(cage, mesh));
+  }
+}
+
+}  // namespace
+}  // namespace flbc
