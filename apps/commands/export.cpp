@@ -146,8 +146,10 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
     return write_vertex_groups<Dim>(rest, points, weights, arguments);
   }
 
+  auto options = arguments.options;
+  options.cage_edges = edges_of_cage<Dim>(io::read_polygons(arguments.cage));
   const auto skin = naming(arguments.model, [&] {
-    return gltf::export_skin(rest, points, weights, surface, arguments.options, animation);
+    return gltf::export_skin(rest, points, weights, surface, options, animation);
   });
   {
     const HeldSignals held;
@@ -155,6 +157,10 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   }
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
+  for (const auto& phrase : skin.left_out) {
+    std::cerr << "flbc: " << arguments.output << " has not all of " << arguments.model << ": "
+              << phrase << '\n';
+  }
   const double change = skin.position_change / size;
   if (change > kWorthATell) {
     std::cerr << "flbc: " << arguments.output << ": single precision, which glTF has, moves "

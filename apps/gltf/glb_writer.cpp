@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gltf/glb_writer.h"
 
-#include <cstring>
+#include <algorithm>
 #include <fstream>  // tiny_gltf.h forgets it
 #include <limits>
+#include <map>
 #include <sstream>
-#include <type_traits>
+#include <vector>
 
-#include "flbc/errors.h"
 #include "flbc/version.h"
 
 // The library's images and files are not needed: no other library is, then.
@@ -17,40 +17,15 @@
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS
 #include <tiny_gltf.h>
+#undef TINYGLTF_IMPLEMENTATION
+
+#include "gltf/glb_buffer.h"
 
 namespace flbc::gltf {
 namespace {
 
-// More than that, with its description, might not fit the 32 bits in which the file has its length.
-constexpr std::size_t kMaxBytes = 4'000'000'000;
-
 // Of the joints drawn as bones, relative to the cage's size.
 constexpr float kBoneLength = 0.02F;
-
-template <class Number>
-constexpr int component_type() {
-  if constexpr (std::is_same_v<Number, std::uint8_t>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-  if constexpr (std::is_same_v<Number, std::uint16_t>) {
-    return TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-  }
-  if constexpr (std::is_same_v<Number, std::uint32_t>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  if constexpr (std::is_same_v<Number, float>) return TINYGLTF_COMPONENT_TYPE_FLOAT;
-}
-
-int element_type(Eigen::Index rows) {
-  switch (rows) {
-    case 1:
-      return TINYGLTF_TYPE_SCALAR;
-    case 2:
-      return TINYGLTF_TYPE_VEC2;
-    case 3:
-      return TINYGLTF_TYPE_VEC3;
-    case 4:
-      return TINYGLTF_TYPE_VEC4;
-    default:
-      return TINYGLTF_TYPE_MAT4;
-  }
-}
 
 // JSON must be UTF-8, which the name of a file need not be.
 std::string as_utf8(const std::string& name) {
@@ -65,16 +40,18 @@ std::vector<double> to_doubles(const Eigen::Vector3f& point) {
 // Puts the parts of the scene into the library's model one after the other.
 class ModelBuilder {
  public:
-  explicit ModelBuilder(const GlbScene& scene) : scene_(scene) {
+  explicit ModelBuilder(const GlbScene& scene) : scene_(scene), buffer_(model_) {
     model_.asset.version = "2.0";
     model_.asset.generator = "flbc " FLBC_VERSION;
-    model_.buffers.emplace_back();
+    add_materials();
     add_mesh();
     add_joints();
     add_animation();
     model_.scenes.emplace_back();
+    model_.scenes[0].name = "model";
     model_.scenes[0].nodes = {kMeshNode, kCageNode};
     model_.defaultScene = 0;
+    if (scene_.wire.cols() > 0) add_wire();
   }
 
   const tinygltf::Model& model() const { return model_; }
@@ -85,70 +62,78 @@ class ModelBuilder {
   static constexpr int kCageNode = 1;
   static constexpr int kFirstJoint = 2;
 
-  // Appends a column per element. \return the number of the accessor
-  template <class Number, class Matrix>
-  int add_accessor(const Matrix& columns, int target, bool has_bounds = false) {
-    constexpr std::size_t kAlignment = 4;
-    const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> numbers =
-        columns.template cast<Number>();
-    auto& bytes = model_.buffers[0].data;
-    bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = bytes.size();
-    view.byteLength = static_cast<std::size_t>(numbers.size()) * sizeof(Number);
-    view.target = target;
-    if (view.byteOffset + view.byteLength > kMaxBytes) {
-      throw InputError("it has too many vertices: a .glb file cannot be larger than 4 GB");
-    }
-    bytes.resize(view.byteOffset + view.byteLength);
-    std::memcpy(bytes.data() + view.byteOffset, numbers.data(), view.byteLength);
-    model_.bufferViews.push_back(view);
-
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
-    accessor.componentType = component_type<Number>();
-    accessor.type = element_type(numbers.rows());
-    accessor.count = static_cast<std::size_t>(numbers.cols());
-    if (has_bounds) {
-      for (const auto& row : numbers.rowwise()) {
-        accessor.minValues.push_back(row.minCoeff());
-        accessor.maxValues.push_back(row.maxCoeff());
-      }
-    }
-    model_.accessors.push_back(accessor);
-    return static_cast<int>(model_.accessors.size()) - 1;
-  }
-
-  template <class Number, class Matrix>
-  int add_attribute(const Matrix& columns, bool has_bounds = false) {
-    return add_accessor<Number>(columns, TINYGLTF_TARGET_ARRAY_BUFFER, has_bounds);
-  }
-
   void add_mesh() {
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    auto& attributes = primitive.attributes;
-    attributes["POSITION"] = add_attribute<float>(scene_.positions, true);
-    attributes["NORMAL"] = add_attribute<float>(scene_.normals);
+    std::map<std::string, int> attributes;
+    attributes["POSITION"] = buffer_.add_attribute<float>(scene_.positions, true);
+    attributes["NORMAL"] = buffer_.add_attribute<float>(scene_.normals);
     if (scene_.texture_coordinates.cols() > 0) {
-      attributes["TEXCOORD_0"] = add_attribute<float>(scene_.texture_coordinates);
+      attributes["TEXCOORD_0"] = buffer_.add_attribute<float>(scene_.texture_coordinates);
     }
-    if (scene_.colors.cols() > 0) attributes["COLOR_0"] = add_attribute<float>(scene_.colors);
-    if (scene_.sources.cols() > 0) attributes["_VERTEX"] = add_attribute<float>(scene_.sources);
+    if (scene_.colors.cols() > 0) {
+      attributes["COLOR_0"] = buffer_.add_attribute<float>(scene_.colors);
+    }
+    if (scene_.sources.cols() > 0) {
+      attributes["_VERTEX"] = buffer_.add_attribute<float>(scene_.sources);
+    }
     add_influences(attributes);
-    primitive.indices = add_triangles();
-    primitive.material = add_material();
 
     tinygltf::Mesh mesh;
     mesh.name = as_utf8(scene_.name);
-    mesh.primitives.push_back(primitive);
-    model_.meshes.push_back(mesh);
+    for (const auto& [material, triangles] : triangles_by_material()) {
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      primitive.attributes = attributes;
+      primitive.indices = buffer_.add_indices(FacetList<3>(scene_.triangles(Eigen::all, triangles)),
+                                              scene_.positions.cols());
+      primitive.material = material;
+      mesh.primitives.push_back(primitive);
+    }
+    add_skinned(mesh);
+  }
+
+  // A node with the mesh, which the joints move. \return its number
+  int add_skinned(const tinygltf::Mesh& mesh) {
     tinygltf::Node node;
     node.name = mesh.name;
-    node.mesh = 0;
+    node.mesh = static_cast<int>(model_.meshes.size());
     node.skin = 0;
+    model_.meshes.push_back(mesh);
     model_.nodes.push_back(node);
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+
+  // By numbers of glTF's materials.
+  std::map<int, std::vector<Index>> triangles_by_material() const {
+    std::map<int, std::vector<Index>> result;
+    const auto& materials = scene_.look.triangle_materials;
+    for (Index t = 0; t < static_cast<Index>(scene_.triangles.cols()); ++t) {
+      const Index material = materials.empty() ? -1 : materials[t];
+      result[material < 0 ? plain_material_ : material].push_back(t);
+    }
+    return result;
+  }
+
+  // The cage's edges, moved as its control points are, in a scene of their own: not shown unless
+  // that is asked for.
+  void add_wire() {
+    const auto count = scene_.joints.cols();
+    Eigen::MatrixXf joints = Eigen::MatrixXf::Zero(4, count);
+    Eigen::MatrixXf weights = joints;
+    for (Eigen::Index i = 0; i < count; ++i) joints(0, i) = static_cast<float>(i);
+    weights.row(0).setOnes();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_LINE;
+    primitive.attributes["POSITION"] = buffer_.add_attribute<float>(scene_.joints, true);
+    primitive.attributes["JOINTS_0"] = buffer_.add_attribute<std::uint16_t>(joints);
+    primitive.attributes["WEIGHTS_0"] = buffer_.add_attribute<float>(weights);
+    primitive.indices = buffer_.add_indices(scene_.wire, count);
+    tinygltf::Mesh mesh;
+    mesh.name = "cage_wire";
+    mesh.primitives.push_back(primitive);
+    tinygltf::Scene both;
+    both.name = "model and cage";
+    both.nodes = {kMeshNode, kCageNode, add_skinned(mesh)};
+    model_.scenes.push_back(both);
   }
 
   void add_influences(std::map<std::string, int>& attributes) {
@@ -158,40 +143,68 @@ class ModelBuilder {
       const auto numbers = weights.numbers.middleRows(4 * set, 4);
       const auto suffix = std::to_string(set);
       attributes["JOINTS_" + suffix] = scene_.joints.cols() <= 256
-                                           ? add_attribute<std::uint8_t>(joints)
-                                           : add_attribute<std::uint16_t>(joints);
+                                           ? buffer_.add_attribute<std::uint8_t>(joints)
+                                           : buffer_.add_attribute<std::uint16_t>(joints);
       attributes["WEIGHTS_" + suffix] = add_numbers(numbers);
     }
   }
 
   template <class Matrix>
   int add_numbers(const Matrix& numbers) {
-    if (scene_.weights.format == WeightFormat::kFloat) return add_attribute<float>(numbers);
+    if (scene_.weights.format == WeightFormat::kFloat) return buffer_.add_attribute<float>(numbers);
     const int accessor = scene_.weights.format == WeightFormat::kUnsignedShort
-                             ? add_attribute<std::uint16_t>(numbers)
-                             : add_attribute<std::uint8_t>(numbers);
+                             ? buffer_.add_attribute<std::uint16_t>(numbers)
+                             : buffer_.add_attribute<std::uint8_t>(numbers);
     model_.accessors[accessor].normalized = true;
     return accessor;
   }
 
-  // The largest number of each type is kept from being an index.
-  int add_triangles() {
-    const auto indices = scene_.triangles.reshaped(1, scene_.triangles.size());
-    constexpr int kTarget = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    const bool is_short = scene_.positions.cols() <= std::numeric_limits<std::uint16_t>::max();
-    return is_short ? add_accessor<std::uint16_t>(indices, kTarget)
-                    : add_accessor<std::uint32_t>(indices, kTarget);
-  }
-
   // Without one, viewers show polished metal. Models may be open, and flat ones are.
-  int add_material() {
+  static tinygltf::Material matt_material() {
     tinygltf::Material material;
     material.name = "model";
     material.doubleSided = true;
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.8;
-    model_.materials.push_back(material);
-    return 0;
+    return material;
+  }
+
+  // Those of the file, and one for triangles that have none there.
+  void add_materials() {
+    const auto& look = scene_.look;
+    for (const auto& picture : look.pictures) {
+      tinygltf::Image image;
+      image.mimeType = picture.media_type;
+      image.bufferView = buffer_.add_bytes(picture.bytes.data(), picture.bytes.size(), 0);
+      tinygltf::Texture texture;
+      texture.source = static_cast<int>(model_.images.size());
+      texture.sampler = 0;
+      model_.images.push_back(image);
+      model_.textures.push_back(texture);
+    }
+    if (!look.pictures.empty()) {
+      tinygltf::Sampler repeating;
+      repeating.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+      repeating.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+      model_.samplers.push_back(repeating);
+    }
+    for (const auto& [given, picture] : look.materials) {
+      auto material = matt_material();
+      material.name = as_utf8(given.name);
+      auto& surface = material.pbrMetallicRoughness;
+      // A picture takes the place of the colour, as programs that write both mean it.
+      const Vector<3> color = picture < 0 ? given.color : Vector<3>::Ones();
+      surface.baseColorFactor = {color[0], color[1], color[2], given.opacity};
+      surface.baseColorTexture.index = picture;
+      surface.roughnessFactor = given.roughness;
+      surface.metallicFactor = given.metallic;
+      if (given.opacity < 1) material.alphaMode = "BLEND";
+      model_.materials.push_back(material);
+    }
+    const auto& used = look.triangle_materials;
+    if (!used.empty() && std::find(used.begin(), used.end(), -1) == used.end()) return;
+    plain_material_ = static_cast<int>(model_.materials.size());
+    model_.materials.push_back(matt_material());
   }
 
   // Control points hang under one joint in the middle of the cage. Programs that draw joints as
@@ -236,7 +249,7 @@ class ModelBuilder {
       inverse_bind.col(3).head<3>() = -places_[joints[k] - kCageNode];
       inverse_binds.col(static_cast<Eigen::Index>(k)) = inverse_bind.reshaped();
     }
-    return add_accessor<float>(inverse_binds, 0);
+    return buffer_.add_accessor<float>(inverse_binds, 0);
   }
 
   static int joint_node(Eigen::Index joint) { return kFirstJoint + static_cast<int>(joint); }
@@ -247,11 +260,11 @@ class ModelBuilder {
     animation.name = "poses";
     const Eigen::Map<const Eigen::RowVectorXf> times(
         scene_.times.data(), static_cast<Eigen::Index>(scene_.times.size()));
-    const int input = add_accessor<float>(times, 0, true);
+    const int input = buffer_.add_accessor<float>(times, 0, true);
     for (const Channel& moving : scene_.channels) {
       tinygltf::AnimationSampler sampler;
       sampler.input = input;
-      sampler.output = add_accessor<float>(moving.translations.colwise() - centre_, 0);
+      sampler.output = buffer_.add_accessor<float>(moving.translations.colwise() - centre_, 0);
       sampler.interpolation = "LINEAR";
       tinygltf::AnimationChannel channel;
       channel.sampler = static_cast<int>(animation.samplers.size());
@@ -265,6 +278,8 @@ class ModelBuilder {
 
   const GlbScene& scene_;
   tinygltf::Model model_;
+  GlbBuffer buffer_;
+  int plain_material_ = -1;              // of triangles without one
   Eigen::Vector3f centre_;               // of the cage
   std::vector<Eigen::Vector3f> places_;  // of the nodes from kCageNode on, at rest
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/joint_weights.h"
+#include "gltf/look.h"
 
 namespace flbc::gltf {
 
@@ -27,14 +28,17 @@ struct GlbScene {
   Eigen::RowVectorXf sources{};            //!< S, written as _VERTEX, or none
   JointWeights weights{};                  //!< of the S vertices
   FacetList<3> triangles{};                //!< 3 x T
+  Look look{};                             //!< of the triangles
   Eigen::Matrix3Xf joints{};               //!< 3 x n, where they rest
+  FacetList<2> wire{};                     //!< 2 x E, edges between joints, or no column
   std::vector<float> times{};              //!< of the moments, in seconds
   std::vector<Channel> channels{};         //!< joints that move
 };
 
 //! The content of a .glb file. Two nodes are roots of the scene: that of the mesh, and the joint
 //! "cage" in the middle of the cage. Its children are the joints "control_point_0" and so on, and
-//! "cage_end", near it, which moves nothing but makes programs draw short bones.
+//! "cage_end", near it, which moves nothing but makes programs draw short bones. A second scene, which is not shown by
+//! default, has the cage's edges as well: the node "cage_wire", which the joints move.
 //! \throws InputError if it exceeds the 4 GB such a file can have
 std::string encode_glb(const GlbScene& scene);
 

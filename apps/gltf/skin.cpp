@@ -51,6 +51,9 @@ void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
       !is_of(surface.sources, points.cols())) {
     throw InputError("the surface of the skin is empty, or not one of these points");
   }
+  if (!is_of(options.cage_edges.reshaped(), control_points.cols())) {
+    throw InputError("an edge of the cage ends at no control point");
+  }
 }
 
 // In space, in single precision. \param owner  for messages
@@ -101,6 +104,7 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
   scene.texture_coordinates = surface.texture_coordinates.cast<float>();
   scene.colors = surface.colors.cast<float>();
   scene.triangles = surface.triangles;
+  scene.look = look_of(surface);
   if (!is_identity(sources, points.cols()) && points.cols() <= kMaxExactFloat) {
     const auto count = static_cast<Eigen::Index>(sources.size());
     scene.sources = Eigen::Map<const RowVector>(sources.data(), count).cast<float>();
@@ -165,6 +169,7 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   const auto stored = to_joint_weights(few, options.weight_format);
   auto scene = make_scene(control_points, points, stored, surface, animation);
   scene.name = options.name;
+  scene.wire = options.cage_edges;
 
   ExportedSkin result;
   result.content =
@@ -172,6 +177,7 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   result.vertices = static_cast<Index>(surface.sources.size());
   result.triangles = static_cast<Index>(surface.triangles.cols());
   result.joints = static_cast<Index>(control_points.cols());
+  result.left_out = scene.look.left_out;
   result.moving_joints = static_cast<Index>(scene.channels.size());
   measure(control_points, points, weights, stored, surface.sources, animation, result);
   return result;

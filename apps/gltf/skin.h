@@ -25,6 +25,7 @@ struct SkinOptions {
   WeightFormat weight_format = WeightFormat::kFloat;
   std::string name = "model";             //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
+  FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
 
 //! Poses of the cage, between which it moves along straight lines.
@@ -48,6 +49,7 @@ struct ExportedSkin {
   Index moving_joints = 0;     //!< those with a channel of the animation
   Index influences = 0;        //!< most per vertex
   Index given_influences = 0;  //!< most per vertex of the weights given
+  std::vector<std::string> left_out{};  //!< materials and pictures that could not be had, a phrase each
   double position_change = 0;  //!< largest distance by which rounding moves a vertex
   //! Distances between vertices moved by the weights given and by those in the file, over the poses
   //! of the animation or, without one, over random smooth ones (smooth_poses()).

@@ -143,13 +143,20 @@ void add_texture_and_colors(const io::SurfaceAttributes& attributes, const Corne
 
 template <int Dim>
 Surface surface_of_model(const io::Model& model) {
-  const auto& [soup, attributes, others, is_text] = model;
+  const auto& soup = model.soup;
+  const auto& attributes = model.attributes;
   // A plane has normals of its own.
   PointList<3> normals = unit(attributes.normals);
   if (Dim == 2) normals.setZero();
   const CornerTable table(attributes, normals);
   Corners corners;
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f) append_triangles(soup, f, table, corners);
+  std::vector<Index> triangle_materials;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    append_triangles(soup, f, table, corners);
+    if (!model.polygon_materials.empty()) {
+      triangle_materials.resize(corners.size() / 3, model.polygon_materials[f]);
+    }
+  }
   if (corners.empty()) {
     throw InputError("there is no triangle among its " + std::to_string(soup.polygons.size()) +
                      " polygons, but a skin needs a surface");
@@ -158,6 +165,9 @@ Surface surface_of_model(const io::Model& model) {
 
   Corners vertices;
   Surface surface = index_corners(corners, vertices);
+  surface.triangle_materials = std::move(triangle_materials);
+  surface.materials = model.materials;
+  surface.missing_files = model.missing_files;
   add_texture_and_colors(attributes, vertices, surface);
   if (Dim == 2) {
     surface.normals = Vector<3>::UnitZ().replicate(1, vertices.size());

@@ -18,6 +18,9 @@ struct Surface {
   PointList<3> normals{};              //!< 3 x S, of length 1
   PointList<2> texture_coordinates{};  //!< 2 x S, optional, from the picture's upper left corner
   PointList<3> colors{};               //!< 3 x S, optional, linear, in [0, 1]
+  std::vector<Index> triangle_materials{};   //!< by triangle, -1 = none; empty if all have none
+  std::vector<io::Material> materials{};
+  std::vector<std::string> missing_files{};  //!< of materials, that could not be read
 };
 
 //! The polygons of a model, cut into triangles. Normals the file does not have are the means of the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "flbc/edge_list.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/keyframes.h"
@@ -42,6 +43,22 @@ int dimension_of_cage(const std::string& path) {
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path) {
   return io::to_points<Dim>(io::read_polygons(path), path);
+}
+
+template <int Dim>
+FacetList<2> edges_of_cage(const io::PolygonSoup& soup) {
+  PointList<3> points(3, soup.points.size());
+  for (std::size_t i = 0; i < soup.points.size(); ++i) points.col(i) = soup.points[i];
+  auto polylines = soup.polylines;
+  if (Dim == 2 && polylines.empty() && soup.polygons.empty()) {
+    auto& loop = polylines.emplace_back(soup.points.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    loop.push_back(0);
+  }
+  const auto edges = edges_of_polygons<3>(points, soup.polygons, polylines).ends;
+  FacetList<2> result(2, edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) result.col(e) << edges[e][0], edges[e][1];
+  return result;
 }
 
 double frame_rate(std::size_t num_poses, double asked) {
@@ -93,6 +110,7 @@ std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<D
 
 #define FLBC_INSTANTIATE(Dim)                                                                \
   template PointList<Dim> load_control_points(const std::string&);                           \
+  template FacetList<2> edges_of_cage<Dim>(const io::PolygonSoup&);                          \
   template std::vector<Pose<Dim>> load_poses(const CageFiles&, double);                      \
   template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&); \
   template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&, Index);

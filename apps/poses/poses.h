@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/io/model.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
 
@@ -37,6 +38,11 @@ int dimension_of_cage(const std::string& path);
 //! The control points of a cage, which need not be a sound one: a pose may intersect itself.
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path);
+
+//! The edges of a cage as they stand in its file: of polygons and polylines, each once; in 2D, where
+//! there are none, between consecutive points. \return 2 x E
+template <int Dim>
+FacetList<2> edges_of_cage(const io::PolygonSoup& soup);
 
 //! Frames per second of a sequence: as asked, or, if that is 0, a single pose within a second and
 //! several as a video.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc export as its users and their scripts see it.
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -129,6 +130,97 @@ TEST_F(ExportCommand, QuadranglesWithATexture) {
   EXPECT_EQ(file.attribute("NORMAL"), Eigen::Vector3d(0, 0, 1).replicate(1, 4));
   EXPECT_FALSE(file.has("JOINTS_1"));
   EXPECT_EQ(expect_export(arguments + " -q -o " + path("s.glb"), 0, "").errors, "");
+}
+
+// What the smallest picture in the world is like; nobody decodes it here.
+constexpr char kPicture[] = "\x89PNG\r\n\x1a\nand so on";
+
+TEST_F(ExportCommand, MaterialsAndPicturesOfObj) {
+  file("look.mtl",
+       "newmtl red one\nKd 1 0.25 0\nd 0.5\nNs 250\n\nnewmtl photo\nKd 0.1 0.1 0.1\n"
+       "map_Kd -s 1 1 1 a photo.png\nnewmtl unused\nKd 0 0 1\n");
+  std::ofstream(path("a photo.png"), std::ios::binary) << kPicture;
+  const auto model =
+      file("m.obj",
+           "mtllib look.mtl\nv 0.1 0.1 0.1\nv 0.2 0.1 0.1\nv 0.2 0.2 0.1\nv 0.1 0.2 0.1\n"
+           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nusemtl photo\nf 1/1 3/3 4/4\n"
+           "usemtl red one\nf 4/4 3/3 2/2\nusemtl photo\nf 2/2 3/3 1/1\n");
+  const auto rest = " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron() +
+                    " -o " + path("s.glb");
+  EXPECT_EQ(expect_export(model + rest, 0, "4 triangles").errors.find("has not all"),
+            std::string::npos);
+  const auto skinned = skin("s.glb");
+  const auto& json = skinned.json;
+  const auto& primitives = json["meshes"][0]["primitives"];
+  ASSERT_EQ(json["materials"].size(), 3U);
+  std::map<std::string, std::size_t> corners;
+  for (const auto& primitive : primitives) {
+    EXPECT_EQ(primitive["attributes"], primitives[0]["attributes"]);
+    const std::string name = json["materials"][primitive["material"].get<std::size_t>()]["name"];
+    corners[name] = json["accessors"][primitive["indices"].get<std::size_t>()]["count"];
+  }
+  EXPECT_EQ(corners,
+            (std::map<std::string, std::size_t>{{"model", 3}, {"photo", 6}, {"red one", 3}}));
+  for (const auto& material : json["materials"]) {
+    const auto& look = material["pbrMetallicRoughness"];
+    if (material["name"] == "red one") {
+      EXPECT_EQ(look["baseColorFactor"], (std::vector<double>{1, 0.25, 0, 0.5}));
+      EXPECT_EQ(material["alphaMode"], "BLEND");
+      EXPECT_NEAR(look["roughnessFactor"], 0.5, 1e-12);
+    } else if (material["name"] == "photo") {
+      EXPECT_EQ(look["baseColorTexture"]["index"], 0);
+    }
+  }
+  ASSERT_EQ(json["images"].size(), 1U);
+  EXPECT_EQ(json["images"][0]["mimeType"], "image/png");
+  EXPECT_NE(slurp(path("s.glb")).find(std::string(kPicture)), std::string::npos);
+
+  std::filesystem::remove(path("a photo.png"));
+  expect_export(model + rest, 0, "has not all of");
+  file("a photo.png", "no picture");
+  expect_export(model + rest, 0, "glTF has .png and .jpg only");
+  std::filesystem::remove(path("look.mtl"));
+  expect_export(model + rest, 0, "look.mtl cannot be read");
+}
+
+TEST_F(ExportCommand, PictureOfPly) {
+  std::ofstream(path("t.jpg"), std::ios::binary) << "\xff\xd8\xff and so on";
+  const auto model =
+      file("m.ply",
+           "ply\nformat ascii 1.0\ncomment TextureFile t.jpg\nelement vertex 3\n"
+           "property float x\nproperty float y\nproperty float z\nproperty float s\n"
+           "property float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+           "end_header\n0.125 0.125 0.125 0 0\n0.25 0.125 0.125 1 0\n0.25 0.25 0.125 1 1\n"
+           "3 0 1 2\n");
+  expect_export(model + " --weights " + linear_weights(points_of(model)) + " --cage " +
+                    tetrahedron() + " -o " + path("s.glb"),
+                0, "1 triangles");
+  const auto skinned = skin("s.glb");
+  EXPECT_EQ(skinned.json["images"][0]["mimeType"], "image/jpeg");
+  EXPECT_EQ(skinned.json["materials"].size(), 1U);
+}
+
+TEST_F(ExportCommand, TheCagesWireIsInASceneThatIsNotShown) {
+  expect_export(square() + " -o " + path("s.glb"), 0, "");
+  const auto skinned = skin("s.glb");
+  const auto& json = skinned.json;
+  EXPECT_EQ(json["scene"], 0);
+  const auto& wire = json["meshes"][1];
+  EXPECT_EQ(wire["name"], "cage_wire");
+  const auto& lines = wire["primitives"][0];
+  EXPECT_EQ(lines["mode"], 1);
+  EXPECT_EQ(json["accessors"][lines["indices"].get<std::size_t>()]["count"], 12);  // 6 edges
+  const auto points = skinned.accessor(lines["attributes"]["POSITION"].get<std::size_t>());
+  EXPECT_EQ(points, points_of(path("cage.obj")));
+  std::size_t node = 0;
+  while (json["nodes"][node].value("mesh", 0) != 1) ++node;
+  EXPECT_EQ(json["nodes"][node]["skin"], 0);
+  const auto has_node = [&](std::size_t scene) {
+    const std::set<std::size_t> nodes = json["scenes"][scene]["nodes"];
+    return nodes.count(node) > 0;
+  };
+  EXPECT_FALSE(has_node(0));
+  EXPECT_TRUE(has_node(1));
 }
 
 TEST_F(ExportCommand, OtherFormatsOfModels) {

@@ -138,6 +138,18 @@ globe >globe.obj
 "$flbc" solve cube.obj --method harmonic --vertices 1000 -q -o globe.npy --model globe.obj
 check_model globe globe.obj cube.obj cube_pose.obj 8 --texture
 
+# ---- 3D: two materials and a picture -------------------------------------------------------------
+base64 -d >dot.png <<<"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+printf 'newmtl green\nKd 0 1 0\nd 0.5\nnewmtl dot\nmap_Kd dot.png\n' >look.mtl
+{
+  echo "mtllib look.mtl"
+  grep -v '^f' globe.obj
+  grep '^f' globe.obj | awk 'NR == 1 { print "usemtl green" } NR == 60 { print "usemtl dot" } { print }'
+} >painted.obj
+# With eight slots: outside browsers three.js, which checks those of four, decodes no pictures.
+export_skin globe painted.obj cube.obj painted.glb -k 8 --cages cube.obj cube_pose.obj --fps 2
+check painted.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture
+
 # ---- 2D: a sample, a mesh, and more joints than a byte can count ---------------------------------
 cage=$meshes/2d/figure_cage.obj
 pose=$meshes/2d/figure_cage_pose.obj

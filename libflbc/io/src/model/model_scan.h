@@ -90,6 +90,15 @@ void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
 void read_om(const std::string& path, Extent extent, ModelScan& scan);
 
+//! Reads what a .mtl file says of these materials. \return false if it cannot be read
+bool read_mtl(const std::string& path, std::vector<Material>& materials);
+
+//! A file that is named in another one, relative to that one's folder.
+std::string beside(const std::string& path, const std::string& name);
+
+//! The words that are left on a line: a name that may have blanks.
+std::string rest_of_line(TextReader& reader);
+
 //! Write a model.
 void write_obj(std::ostream& out, const Model& model);
 void write_off(std::ostream& out, const Model& model);

@@ -85,7 +85,8 @@ PointList<Dim> to_matrix(const std::vector<Vector<Dim>>& columns) {
 class ObjReader {
  public:
   ObjReader(const std::string& path, Extent extent, ModelScan& scan)
-      : scan_(scan),
+      : path_(path),
+        scan_(scan),
         model_(scan.model),
         reads_attributes_(extent == Extent::kEverything),
         reader_(path, scan.text, {'#', true}) {}
@@ -102,6 +103,7 @@ class ObjReader {
     model_.attributes.texture_coordinates = to_matrix<2>(texture_coordinates_);
     model_.attributes.normals = to_matrix<3>(normals_);
     finish_colors();
+    finish_materials();
     if (scan_.text.find('#') != std::string::npos) add_other(model_, "comments");
   }
 
@@ -125,6 +127,26 @@ class ObjReader {
           "be on one");
     } else {
       add_other(model_, "lines with " + in_quotes(keyword));
+      if (keyword == "mtllib") material_files_.push_back(rest_of_line(reader_));
+      if (keyword == "usemtl") use_material(rest_of_line(reader_));
+    }
+  }
+
+  void use_material(const std::string& name) {
+    auto& materials = model_.materials;
+    const auto found = std::find_if(materials.begin(), materials.end(),
+                                    [&](const auto& known) { return known.name == name; });
+    material_ = static_cast<Index>(found - materials.begin());
+    if (found == materials.end()) materials.emplace_back().name = name;
+  }
+
+  void finish_materials() {
+    if (model_.materials.empty()) return;
+    polygon_materials_.resize(model_.soup.polygons.size(), material_);
+    model_.polygon_materials = std::move(polygon_materials_);
+    for (const auto& name : material_files_) {
+      const auto file = beside(path_, name);
+      if (!read_mtl(file, model_.materials)) model_.missing_files.push_back(file);
     }
   }
 
@@ -164,7 +186,9 @@ class ObjReader {
       reader_.fail_at(line, std::string(element) + " needs at least " + std::to_string(at_least) +
                                 " vertices, found " + std::to_string(vertices.size()));
     }
-    if (reads_attributes_ && is_face) model_.attributes.corners.push_back(std::move(references));
+    if (!reads_attributes_ || !is_face) return;
+    model_.attributes.corners.push_back(std::move(references));
+    polygon_materials_.push_back(material_);
   }
 
   CornerReferences resolve(const Corner& corner) {
@@ -203,6 +227,7 @@ class ObjReader {
     }
   }
 
+  const std::string& path_;
   ModelScan& scan_;
   Model& model_;
   bool reads_attributes_;
@@ -211,6 +236,9 @@ class ObjReader {
   std::vector<Vector<2>> texture_coordinates_;
   std::vector<Vector<3>> normals_;
   std::vector<Vector<3>> colors_;
+  std::vector<std::string> material_files_;
+  std::vector<Index> polygon_materials_;
+  Index material_ = -1;  // of the polygons to come
   References vertices_{"vertices"};
   References to_texture_coordinates_{"texture coordinates"};
   References to_normals_{"normals"};

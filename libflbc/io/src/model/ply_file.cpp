@@ -66,6 +66,12 @@ class PlyScanner {
       return a.place.begin < b.place.begin;  // coordinates may stand in any order
     });
     if (reader_.has_comments()) add_other(model_, "comments");
+    if (!reader_.texture_file().empty()) {
+      auto& material = model_.materials.emplace_back();
+      material.name = "texture";
+      material.texture = beside(path_, reader_.texture_file());
+      model_.polygon_materials.assign(model_.soup.polygons.size(), 0);
+    }
   }
 
  private:

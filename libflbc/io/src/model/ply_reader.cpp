@@ -88,6 +88,12 @@ void PlyReader::read_header() {
       is_big_endian_ = word == "binary_big_endian";
     } else if (word == "comment" || word == "obj_info") {
       has_comments_ = true;
+      std::string name;
+      if (word == "comment" && line >> word && word == "TextureFile" &&
+          std::getline(line >> std::ws, name)) {
+        texture_file_ = name.substr(0, name.find_last_not_of(" \r") + 1);
+      }
+      word = "comment";
     } else if (word == "element") {
       PlyElement element;
       if (!(line >> element.name >> element.count) || element.count < 0) {

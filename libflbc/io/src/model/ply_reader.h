@@ -46,6 +46,8 @@ class PlyReader {
   const std::vector<PlyElement>& elements() const { return elements_; }
   bool is_text() const { return !is_binary_; }
   bool has_comments() const { return has_comments_; }
+  //! Of a comment "TextureFile NAME"; empty if there is none.
+  const std::string& texture_file() const { return texture_file_; }
 
   //! An error unless the rest of the file could hold so many of these elements.
   void check_count(const PlyElement& element) const;
@@ -80,6 +82,7 @@ class PlyReader {
   bool is_binary_ = false;
   bool is_big_endian_ = false;
   bool has_comments_ = false;
+  std::string texture_file_;
   std::vector<PlyElement> elements_;
 };
 

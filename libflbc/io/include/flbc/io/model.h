@@ -34,6 +34,16 @@ struct SurfaceAttributes {
   std::vector<std::vector<CornerReferences>> corners{};  //!< by polygon and corner
 };
 
+//! How polygons look, as far as files say it.
+struct Material {
+  std::string name{};
+  Vector<3> color = Vector<3>::Constant(0.8);  //!< red, green, blue in [0, 1], linear
+  double opacity = 1;                          //!< in [0, 1]
+  double roughness = 0.8;                      //!< in [0, 1]
+  double metallic = 0;                         //!< in [0, 1]
+  std::string texture{};  //!< path of the picture of its colours; empty for none
+};
+
 //! Polygons with what their vertices and corners carry.
 struct Model {
   PolygonSoup soup{};
@@ -41,6 +51,10 @@ struct Model {
   SurfaceAttributes attributes{};
   std::vector<std::string> others{};  //!< what else is in the file, as phrases for messages
   bool is_text = true;  //!< whether the file is text, where its format leaves a choice
+  //! Of .obj with their .mtl files, and of .ply with a comment "TextureFile".
+  std::vector<Material> materials{};
+  std::vector<Index> polygon_materials{};    //!< by polygon, -1 = none; empty if all have none
+  std::vector<std::string> missing_files{};  //!< of materials, that could not be read
 };
 
 //! Texture coordinates as an attribute of vertices.
