@@ -53,7 +53,8 @@ RunHistory parse(const Json& solve) {
 HistoryRecorder::HistoryRecorder(const SolverOptions& options)
     : start_(std::chrono::steady_clock::now()) {
   const auto resolved = resolve(options);
-  if (resolved.method == Method::kValue) tolerance_ = resolved.tolerance;
+  const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
+  if (estimates) tolerance_ = resolved.tolerance;
 }
 
 void HistoryRecorder::note(const Progress& progress) {

@@ -47,6 +47,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"certify", options.certify},
           {"phi", name_of(options.phi)},
           {"distances", name_of(options.distances)},
+          {"linear_solver", name_of(options.linear_solver)},
           {"recovery", name_of(options.recovery)},
           {"precision", name_of(options.precision)},
           {"tolerance", options.tolerance},

@@ -39,7 +39,8 @@ double share_before(int finer_levels, int levels) {
 
 ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
   const auto resolved = resolve(options);
-  if (resolved.method == Method::kValue) tolerance_ = resolved.tolerance;
+  const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
+  if (estimates) tolerance_ = resolved.tolerance;
 }
 
 void ProgressEstimate::update(const Progress& progress, double seconds) {

@@ -59,12 +59,14 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--phi", options.phi, "growth of the distance weights (square)");
   add_choice(command, "--distances", options.distances,
              "where distances are computed: on the mesh, or on a coarser one of the cage (auto)");
+  add_choice(command, "--linear-solver", options.linear_solver,
+             "how global systems are solved; none: gradient and paper do without (auto)");
   add_choice(command, "--recovery", options.recovery, "how weights follow from gradients (auto)");
   add_choice(command, "--precision", options.precision,
              "numbers of the iteration (auto: half where the tolerance allows)");
   command.add_option(
       "--tolerance", options.tolerance,
-      "accuracy wanted (by method: gradient 2.5e-5, others 1e-7)");
+      "accuracy wanted (by method: gradient 1e-6, others 1e-7)");
   command.add_option("--gap", options.gap,
                      "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
                      "the methods' own tolerances)");

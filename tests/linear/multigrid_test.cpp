@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/multigrid.h"
+#include "linear/multigrid_cg.h"
 
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/parallel.h"
 #include "flbc/solver.h"
 #include "problem/laplacian.h"
 #include "support/judge.h"
@@ -138,6 +140,30 @@ TYPED_TEST(MultigridTest, EverySliceGivesTheSameBits) {
   for (const auto& pieces : {run({0, 8, kStride}), run({0, 16, kStride}), run({0, 8, 16, 24})}) {
     EXPECT_EQ(std::memcmp(whole.data(), pieces.data(), whole.size() * sizeof(float)), 0);
   }
+}
+
+// As accurate as it says, for right-hand sides of any size, and the same bits for any number of threads.
+TYPED_TEST(MultigridTest, PreconditionsConjugateGradients) {
+  constexpr int kDim = TypeParam::value;
+  const auto matrix = interior_matrix<kDim>(Shape::kCorner, kDim == 2 ? 50 : 12, 0.2);
+  const MultigridCg solver{Eigen::SparseMatrix<double>(matrix)};
+  RowMajor<double> exact = random_rows(matrix.rows(), 6);
+  exact.col(1) *= 1e-20;
+  exact.col(2).setZero();
+  const RowMajor<double> right_side = matrix * exact;
+  const auto run = [&](int count) {
+    const ThreadScope threads(count);
+    AlignedArray<double> rows(static_cast<std::size_t>(right_side.size()));
+    std::copy_n(right_side.data(), right_side.size(), rows.data());
+    solver.solve(rows.data(), kStride);
+    return RowMajor<double>(Eigen::Map<RowMajor<double>>(rows.data(), matrix.rows(), kStride));
+  };
+  const auto solution = run(1);
+  const RowMajor<double> error = solution - exact;
+  const Eigen::ArrayXd size = exact.cwiseProduct(matrix * exact).colwise().sum();
+  const Eigen::ArrayXd left = error.cwiseProduct(matrix * error).colwise().sum();
+  EXPECT_TRUE((left <= 1e-12 * size).all()) << (left / size).maxCoeff();
+  EXPECT_EQ((run(2) - solution).cwiseAbs().maxCoeff(), 0);
 }
 
 // The optimum does not depend on how the linear systems are solved.

@@ -41,6 +41,60 @@ TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
   }
 }
 
+// It ends by the error of its weights: about as near the optimum as it was told, and not long after.
+TYPED_TEST(SolverTest, GradientEndsByTheErrorOfItsWeights) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto sample = make_sample<kDim>(shape, kDim == 2 ? 12 : 5, 0.2);
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    SolverOptions options;
+    options.non_negative = NonNegative::kOff;
+    options.precision = Precision::kDouble;
+    options.tolerance = 1e-14;
+    options.max_iterations = 5000;
+    const auto optimum = solve(problem, options).weights;
+    options = {};
+    options.method = Method::kGradient;
+    options.non_negative = NonNegative::kOff;
+    for (const double tolerance : {1e-4, 1e-5}) {
+      options.tolerance = tolerance;
+      for (const auto solver :
+           {LinearSolver::kDirect, LinearSolver::kMultigrid, LinearSolver::kNone}) {
+        SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(static_cast<int>(solver)));
+        options.linear_solver = solver;
+        const auto [weights, report] = solve(problem, options);
+        EXPECT_EQ(report.criterion, Criterion::kTolerance);
+        EXPECT_LT(mean_squared_difference(problem.mesh, weights, optimum), 3 * tolerance);
+        EXPECT_LE(report.primal_residual, 1);
+        EXPECT_EQ(report.dual_residual, 0);
+      }
+    }
+  }
+}
+
+// Without a global system it is the paper's iteration from the paper's start to its recovery, with
+// another penalty and relaxation.
+TYPED_TEST(SolverTest, GradientWithoutALinearSolverIsThePapers) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto run = [&](Method method) {
+      SolverOptions options;
+      options.method = method;
+      options.non_negative = NonNegative::kOff;
+      options.linear_solver = LinearSolver::kNone;
+      options.penalty = 0.001;
+      options.relaxation = 1;
+      options.max_iterations = 30;
+      options.tolerance = 1e-30;
+      return solve(problem, options).weights;
+    };
+    EXPECT_EQ((run(Method::kGradient) - run(Method::kPaper)).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
 // Gradients with local constraints only, and weights with a global linear system: two iterations
 // with nothing in common but the problem, of which the optimum may not differ. Its value is a lower
 // bound for every feasible function.
@@ -186,6 +240,7 @@ TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
   refused("relaxation", [](auto& o) { o.relaxation = 2; });
   refused("check_interval", [](auto& o) { o.check_interval = 0; });
   refused("threads", [](auto& o) { o.threads = -1; });
+  refused("linear_solver", [](auto& o) { o.linear_solver = LinearSolver::kNone; });
   refused("coarse_levels.coarsest", [](auto& o) { o.coarse_levels.coarsest = -1; });
   refused("coarse_levels.factor", [](auto& o) { o.coarse_levels.factor = 1.5; });
   refused("coarse_levels.factor", [](auto& o) { o.coarse_levels.factor = std::nan(""); });

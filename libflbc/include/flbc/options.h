@@ -89,7 +89,9 @@ struct SolverOptions {
   //! Treatment of w >= 0. Read by all methods; kConstraint is one of kValue and kLbc2014 only.
   NonNegative non_negative = NonNegative::kAuto;
 
-  //! For the linear system of each iteration. Read by kValue and kLbc2014.
+  //! For the linear system of each iteration (kValue, kLbc2014) or of start and recovery (kGradient).
+  //! Read by these and, as for kNone, by kPaper, which has no such system unless the recovery is
+  //! kLeastSquares.
   LinearSolver linear_solver = LinearSolver::kAuto;
 
   //! Whether to start from coarser meshes, for which solve() takes a mesher. Read by kValue,
@@ -102,8 +104,8 @@ struct SolverOptions {
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
   //!   iteration changes them; 1e-7 by default.
-  //! - kGradient: root mean square of the primal residual's components (the dual's: 10 times as
-  //!   much); 2.5e-5 by default.
+  //! - kGradient: the same, of the optimum without non-negativity, as estimated from weights that are
+  //!   recovered every 40 iterations or so; 1e-6 by default.
   //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
   //!   tolerance; by default the paper's 1e-7.
   //! - kHarmonic, kMeanValue do not read it.

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/harmonic.h"
 
+#include "coordinates/poisson_weights.h"
 #include "coordinates/project_interior.h"
-#include "problem/laplacian.h"
 
 namespace flbc {
 
 template <int Dim>
-WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
-  auto weights = DirichletProblem<Dim>(problem.mesh, problem.boundary)
-                     .solve(boundary_matrix(problem.boundary, problem.num_control_points()));
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem,
+                                  const DirichletProblem<Dim>& poisson) {
+  auto weights = poisson.solve(boundary_matrix(problem.boundary, problem.num_control_points()));
   project_interior(problem, weights);
   return weights;
 }
 
-template WeightMatrix harmonic_coordinates(const LbcProblem<2>&);
-template WeightMatrix harmonic_coordinates(const LbcProblem<3>&);
+template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
+  return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                  \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&);          \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&,           \
+                                             const DirichletProblem<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "coordinates/poisson_weights.h"
 #include "coordinates/project_interior.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
-#include "problem/laplacian.h"
 
 namespace flbc {
 namespace {
@@ -72,7 +72,8 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
 
 template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
-                                     const CellFieldView<Scalar, Dim>& gradients) {
+                                     const CellFieldView<Scalar, Dim>& gradients,
+                                     const DirichletProblem<Dim>& poisson) {
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
@@ -87,17 +88,26 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
           gradients.cell(s).transpose() * (geometry.measure * geometry.hat_gradients.col(corner));
     }
   }
-  auto weights = DirichletProblem<Dim>(mesh, problem.boundary)
-                     .solve(boundary_matrix(problem.boundary, gradients.n), divergence);
+  auto weights = poisson.solve(boundary_matrix(problem.boundary, gradients.n), divergence);
   project_interior(problem, weights);
   return weights;
+}
+
+template <class Scalar, int Dim>
+WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
+                                     const CellFieldView<Scalar, Dim>& gradients) {
+  return integrate_least_squares(problem, gradients,
+                                 DirichletProblem<Dim>(problem.mesh, problem.boundary));
 }
 
 #define FLBC_INSTANTIATE(Scalar, Dim)                                               \
   template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&); \
   template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
-                                                const CellFieldView<Scalar, Dim>&);
+                                                const CellFieldView<Scalar, Dim>&); \
+  template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
+                                                const CellFieldView<Scalar, Dim>&,  \
+                                                const DirichletProblem<Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

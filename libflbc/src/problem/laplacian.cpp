@@ -45,7 +45,8 @@ Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n) {
 
 template <int Dim>
 DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
-                                        const BoundaryValues<Dim>& boundary)
+                                        const BoundaryValues<Dim>& boundary,
+                                        LinearSolver solver)
     : interior_(boundary.interior_vertices()), boundary_(boundary.vertices) {
   std::vector<Index> place = boundary.boundary_index;  // among the interior or boundary vertices
   for (std::size_t i = 0; i < interior_.size(); ++i) place[interior_[i]] = static_cast<Index>(i);
@@ -68,7 +69,11 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
   matrix.setFromTriplets(inner.begin(), inner.end());
   coupling_.resize(interior_.size(), boundary_.size());
   coupling_.setFromTriplets(outer.begin(), outer.end());
-  interior_solver_.emplace(matrix);
+  if (solver == LinearSolver::kDirect) {
+    interior_solver_.emplace(PanelCholesky<double>(matrix));
+  } else {
+    interior_solver_.emplace(MultigridCg(matrix));
+  }
 }
 
 template <int Dim>
@@ -77,8 +82,10 @@ WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values
   const Eigen::Index k = boundary_values.rows();
   const std::size_t stride = padded(k);
   AlignedArray<double> rows(interior_.size() * stride);
+  const auto& position =
+      std::visit([](const auto& solver) -> auto& { return solver.position(); }, *interior_solver_);
   const auto row_of = [&](std::size_t i) {
-    return Eigen::Map<Eigen::VectorXd>(rows.data() + interior_solver_->position()[i] * stride, k);
+    return Eigen::Map<Eigen::VectorXd>(rows.data() + position[i] * stride, k);
   };
 
 #pragma omp parallel for schedule(static)
@@ -89,7 +96,7 @@ WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values
       row -= it.value() * boundary_values.col(it.col());
     }
   }
-  interior_solver_->solve(rows.data(), stride);
+  std::visit([&](const auto& solver) { solver.solve(rows.data(), stride); }, *interior_solver_);
 
   WeightMatrix weights(k, interior_.size() + boundary_.size());
   for (std::size_t b = 0; b < boundary_.size(); ++b) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -11,6 +12,8 @@
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
+#include "flbc/linear_solver.h"
+#include "linear/multigrid_cg.h"
 #include "linear/panel_cholesky.h"
 
 namespace flbc {
@@ -28,11 +31,13 @@ template <int Dim>
 Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n);
 
 //! The Poisson problem on the interior vertices for many functions at once, each with its values on
-//! the boundary. Factored once.
+//! the boundary. Factored once, or solved by multigrid in time and memory linear in V.
 template <int Dim>
 class DirichletProblem {
  public:
-  DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary);
+  //! \param solver  kDirect, or any other for multigrid
+  DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary,
+                   LinearSolver solver = LinearSolver::kDirect);
 
   //! Minimises sum_s A_s |grad w_i - g_i|^2 for every i.
   //! \param boundary_values  k x B, the values known, a row per function
@@ -46,7 +51,8 @@ class DirichletProblem {
   std::vector<Index> interior_;                            // interior vertices, ascending
   std::vector<Index> boundary_;                            // boundary vertices, ascending
   Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_;  // interior x boundary part of K
-  std::optional<PanelCholesky<double>> interior_solver_;   // interior x interior part
+  using InteriorSolver = std::variant<PanelCholesky<double>, MultigridCg>;
+  std::optional<InteriorSolver> interior_solver_;  // interior x interior part
 };
 
 }  // namespace flbc

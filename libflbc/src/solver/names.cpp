@@ -41,7 +41,8 @@ constexpr Named<CoarseToFine> kCoarseToFineNames[]{
     {CoarseToFine::kAuto, "auto"}, {CoarseToFine::kOn, "on"}, {CoarseToFine::kOff, "off"}};
 constexpr Named<LinearSolver> kLinearSolverNames[]{{LinearSolver::kAuto, "auto"},
                                                    {LinearSolver::kDirect, "direct"},
-                                                   {LinearSolver::kMultigrid, "multigrid"}};
+                                                   {LinearSolver::kMultigrid, "multigrid"},
+                                                   {LinearSolver::kNone, "none"}};
 constexpr Named<SolveStatus> kSolveStatusNames[]{{SolveStatus::kConverged, "converged"},
                                                  {SolveStatus::kIterationLimit, "iteration limit"},
                                                  {SolveStatus::kStopped, "stopped"}};

@@ -85,6 +85,10 @@ void validate(const SolverOptions& options) {
   if (options.precision == Precision::kHalf && !value) {
     throw OptionError("precision half is for the method value only; choose single or double");
   }
+  const bool gradients = options.method == Method::kGradient || options.method == Method::kPaper;
+  if (options.linear_solver == LinearSolver::kNone && !gradients) {
+    throw OptionError("linear_solver none is for the methods gradient and paper only");
+  }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
   validate(options.coarse_levels);
@@ -97,7 +101,8 @@ SolverOptions resolve(SolverOptions options) {
   const bool value = options.method == Method::kValue;
   const bool lbc2014 = options.method == Method::kLbc2014;
   if (options.recovery == Recovery::kAuto) {
-    options.recovery = paper ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
+    const bool local = paper || (gradient && options.linear_solver == LinearSolver::kNone);
+    options.recovery = local ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
   }
   options.non_negative = resolved_non_negative(options);
   options.gap = resolved_gap(options);
@@ -106,7 +111,7 @@ SolverOptions resolve(SolverOptions options) {
     options.coarse_levels.coarsest = kCoarsest;
   }
   if (options.tolerance == 0)
-    options.tolerance = gradient ? 2.5e-5 : 1e-7;
+    options.tolerance = gradient ? 1e-6 : 1e-7;
   // Radii in half precision are phi rounded by 1.4e-4 on average. That moves weights by as much on
   // meshes of some dozen cells, squared 1e-8, and by a few 1e-11 squared on models.
   constexpr double kHalfIsEnough = 1e-7;

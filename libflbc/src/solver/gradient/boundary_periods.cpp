@@ -62,7 +62,7 @@ Period<Dim> make_period(const LbcProblem<Dim>& problem, const Eigen::RowVectorXd
 }  // namespace
 
 template <int Dim>
-std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem) {
+std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem, LinearSolver solver) {
   Index count = 0;
   const auto component = number_components(problem, count);
   if (count == 1) return {};
@@ -70,13 +70,13 @@ std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem) {
   for (std::size_t b = 0; b < component.size(); ++b) {
     if (component[b] > 0) indicator(component[b] - 1, b) = 1;
   }
-  const auto psi = DirichletProblem<Dim>(problem.mesh, problem.boundary).solve(indicator);
+  const auto psi = DirichletProblem<Dim>(problem.mesh, problem.boundary, solver).solve(indicator);
   std::vector<Period<Dim>> periods;
   for (Index p = 0; p < count - 1; ++p) periods.push_back(make_period(problem, psi.row(p)));
   return periods;
 }
 
-template std::vector<Period<2>> boundary_periods(const LbcProblem<2>&);
-template std::vector<Period<3>> boundary_periods(const LbcProblem<3>&);
+template std::vector<Period<2>> boundary_periods(const LbcProblem<2>&, LinearSolver);
+template std::vector<Period<3>> boundary_periods(const LbcProblem<3>&, LinearSolver);
 
 }  // namespace flbc::gradient

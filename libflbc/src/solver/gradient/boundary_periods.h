@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flbc/lbc_problem.h"
+#include "flbc/linear_solver.h"
 
 namespace flbc::gradient {
 
@@ -24,7 +25,9 @@ struct Period {
 };
 
 //! One period for each boundary component after the first; none for a connected boundary.
+//! \param solver  for psi: kDirect, or any other for multigrid
 template <int Dim>
-std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem);
+std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem,
+                                          LinearSolver solver = LinearSolver::kDirect);
 
 }  // namespace flbc::gradient

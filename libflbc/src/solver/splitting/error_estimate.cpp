@@ -12,16 +12,9 @@ namespace flbc::splitting {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kSpan = WeightHistory<float>::kSpan;
 
 double square(double x) {
   return x * x;
-}
-
-// Sum of the differences to come, in lengths of the last one, if they go on to shrink at this rate
-// per iteration.
-double spans_left(double rate) {
-  return rate > 0 ? 1 / std::expm1(rate * kSpan) : kInfinity;
 }
 
 template <class Scalar>
@@ -64,6 +57,12 @@ double WeightHistory<Scalar>::operator()(int iteration, const ReadRow& read) {
   return full ? sum / std::max<Index>(1, count) : -1;
 }
 
+// Sum of the differences to come, in lengths of the last one, if they go on to shrink at this rate
+// per iteration.
+double ErrorEstimate::spans_left(double rate) const {
+  return rate > 0 ? 1 / std::expm1(rate * span_) : kInfinity;
+}
+
 // Decay of the differences' length per iteration, by regression over iterations first .. last.
 // Infinite with less than two of them.
 double ErrorEstimate::rate(double first, double last) const {
@@ -96,14 +95,13 @@ double ErrorEstimate::rest() const {
   constexpr double kSafety = 1.25;
   constexpr double kPowerSafety = 0.4;  // the promise allows an error of 3 tolerances
   constexpr double kFarthest = 1.5;     // looked ahead, relative to the iterations so far
-  constexpr double kShortest = 32;      // iterations that a rate is measured over
   constexpr double kPart = 0.2;         // of the iterations so far
   constexpr double kFall = 0.5;         // least rate to come, relative to the present one, squared
   const double now = entries_.back().iteration;
-  const double window = std::max(kShortest, kPart * now);
+  const double window = std::max<double>(span_, kPart * now);
   const double present = rate(now - window, now);
   if (present == kInfinity) return kLeast;
-  const double farthest = square(kFarthest * now / kSpan);
+  const double farthest = square(kFarthest * now / span_);
   double rate_to_come = present;
   const double before = rate(now - 2 * window, now - window);
   if (present > 0 && present < before && before < kInfinity) {

@@ -56,14 +56,16 @@ class ErrorEstimate {
  public:
   //! \param warm  started from duals: what is wrong with these first shows after a while
   //! \param tolerance  mean squared error that the run is to end at
-  ErrorEstimate(bool warm, double tolerance) : warm_(warm), tolerance_(tolerance) {}
+  //! \param span  iterations that differences are taken over
+  ErrorEstimate(bool warm, double tolerance, int span = WeightHistory<float>::kSpan)
+      : warm_(warm), tolerance_(tolerance), span_(span) {}
 
   //! Whether the next iteration should measure its residual.
   bool wants_residual() const { return wants_residual_; }
 
   //! Estimates of one run, iteration by iteration.
   //! \param change  mean squared change of a weight in this iteration
-  //! \param difference  mean squared difference to the weights WeightHistory::kSpan iterations ago;
+  //! \param difference  mean squared difference to the weights of `span` iterations ago;
   //! below 0 where it is not known
   //! \param residual  mean squared difference of z and grad w per control point, times the squared
   //! size of the cage; below 0 where it was not measured
@@ -77,11 +79,13 @@ class ErrorEstimate {
     double log_difference;
   };
   double rate(double first, double last) const;
+  double spans_left(double rate) const;
   double rest() const;
   double confirmed(int iteration, double residual);
 
   bool warm_;
   double tolerance_;
+  int span_;
   double shown_ = 0;    // by the weights
   double hidden_ = -1;  // from them, when last measured
   int next_measured_ = 0;
