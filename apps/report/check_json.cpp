@@ -60,11 +60,14 @@ Json cage_json(const CheckReport<Dim>& report) {
 
 template <int Dim>
 Json model_json(const CheckReport<Dim>& report) {
-  const auto& [points, outside] = *report.model;
+  const auto& [points, outside, farthest] = *report.model;
   Json json{{"file", report.model_file}, {"points", points.cols()}, {"outside", outside.size()}};
   if (outside.empty()) return json;
   json["first_outside"] = {{"point", outside.front()},
                            {"place", list(points.col(outside.front()))}};
+  json["farthest_outside"] = {{"point", farthest.point},
+                              {"place", list(points.col(farthest.point))},
+                              {"distance", farthest.distance}};
   return json;
 }
 

@@ -12,6 +12,7 @@
 
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
+#include "flbc/placement.h"
 
 namespace flbc::app {
 
@@ -23,6 +24,7 @@ template <int Dim>
 struct ModelCheck {
   PointList<Dim> points;
   std::vector<Index> outside;  //!< their indices
+  PointBeside<Dim> farthest;   //!< of those outside
 };
 
 //! Everything found out. What was not asked for, or could not be looked at because the cage is

@@ -113,16 +113,17 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
 
 template <int Dim>
 void print_model(std::ostream& out, const CheckReport<Dim>& report) {
-  const auto& [points, outside] = *report.model;
+  const auto& [points, outside, farthest] = *report.model;
   out << report.model_file << ": ";
   if (outside.empty()) {
     out << count(points.cols(), "point") << ", none outside the cage\n";
     return;
   }
-  const Index first = outside.front();
   out << outside.size() << " of " << count(points.cols(), "point")
-      << " lie outside the cage, the first is vertex " << first << " at "
-      << position<Dim>(points.col(first)) << '\n';
+      << " lie outside the cage, the farthest is vertex " << farthest.point << " at "
+      << position<Dim>(points.col(farthest.point)) << ", " << number(farthest.distance)
+      << " from it, " << number(100 * farthest.distance / report.facts->size)
+      << " % of its size; see --outside of flbc solve, or make a cage round it with flbc cage\n";
 }
 
 template <int Dim>

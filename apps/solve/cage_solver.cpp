@@ -92,7 +92,7 @@ bool CageSolver<Dim>::find_in_cache() {
   if (!cache_) return false;
   const bool has_domain = !settings_.domain.empty();
   key_ = key_of<Dim>({cage_, has_domain ? &solved_.domain : nullptr,
-                      settings_.embed ? &model_ : nullptr, settings_.vertices,
+                      settings_.embed ? &embedded_.points : nullptr, settings_.vertices,
                       bool(coarse_mesher<Dim>(settings_.meshing.mesher)), settings_.penalty,
                       settings_.options, settings_.meshing.mesher});
   auto answer = cache_->find<Dim>(key_);
@@ -109,6 +109,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   const auto start = std::chrono::steady_clock::now();
   const bool has_domain = !settings_.domain.empty();
   if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
+  if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
   is_cached_ = find_in_cache();
   if (!is_cached_) {
     std::string note;
@@ -116,7 +117,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
       const ProgressBar bar(quiet, "meshing the cage");
       auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
                                          settings_.meshing, settings_.embed ? settings_.model : "",
-                                         settings_.embed ? model_ : PointList<Dim>()});
+                                         embedded_.points});
       solved_.domain = std::move(made.mesh);
       solved_.mesher = made.mesher;
       note = std::move(made.note);
@@ -125,7 +126,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     solved_.mesh_seconds = seconds.count();
   }
-  if (settings_.model.empty() || settings_.embed) return;
+  if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
   placement_ = naming(settings_.model, [&] {
     return place_points(cage_, solved_.domain, model_, settings_.outside);
@@ -155,15 +156,19 @@ void CageSolver<Dim>::solve(bool quiet) {
 template <int Dim>
 const PointList<Dim>& CageSolver<Dim>::points() const {
   if (settings_.model.empty()) return solved_.domain.points;
-  return settings_.embed ? model_ : placement_.points;
+  return placement_.points;
 }
 
 template <int Dim>
 WeightMatrix CageSolver<Dim>::rows() const {
   const auto& weights = solved_.solution.weights;
   if (settings_.model.empty()) return weights;
-  if (settings_.embed) return weights.middleCols(cage_.size(), model_.cols());
-  return weights_at(cage_, solved_.domain, weights, placement_);
+  WeightMatrix rows = weights_at(cage_, solved_.domain, weights, placement_);
+  for (std::size_t p = 0; p < embedded_.number.size(); ++p) {  // exactly those of the vertex
+    if (embedded_.number[p] < 0) continue;
+    rows.col(static_cast<Index>(p)) = weights.col(cage_.size() + embedded_.number[p]);
+  }
+  return rows;
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/coordinates.h"
+#include "flbc/embeddable_points.h"
 #include "flbc/placement.h"
 #include "report/history.h"
 #include "solve/solve_settings.h"
@@ -49,7 +50,7 @@ class CageSolver {
   //! Their weights.
   WeightMatrix rows() const;
 
-  //! Where the model's vertices are; empty for embedded ones and without a model.
+  //! Where the model's vertices are; empty without a model.
   const Placement<Dim>& placement() const { return placement_; }
 
   //! The report of the whole. \param delivered  quality of rows()
@@ -67,6 +68,7 @@ class CageSolver {
   bool is_cached_ = false;
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
+  EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
 };
 
 //! How many vertices lie beside the cage, and what became of them; empty for none.

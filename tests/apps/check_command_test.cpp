@@ -82,7 +82,7 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
   const auto result = expect_check(cage + " --model " + model + " --json " + path("r.json"), 0,
-                                   "2 of 4 points lie outside the cage, the first is vertex 1 at "
+                                   "2 of 4 points lie outside the cage, the farthest is vertex 1 at "
                                    "(5, 1)");
   const auto json = Json::parse(slurp(path("r.json")))["model"];
   EXPECT_EQ(json["outside"], 2);

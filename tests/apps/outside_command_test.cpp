@@ -63,6 +63,46 @@ TEST_F(OutsideCommand, AHairHasOneAnswer) {
   }
 }
 
+// Vertices on the cage, beside it by a hair, and twice: all that real models have.
+TEST_F(OutsideCommand, EmbeddingTakesModelsAsTheyAre) {
+  const auto of = file("model.obj",
+                       "v 0.5 0.5 0\nv 0.3 -0.0000001 0\nv 0.5 0.5 0\nv 1 1 0\nv 0.25 0.75 0\n"
+                       "v 0 0.4 0\nv 0.25 0.75000000000001 0\nf 1 2 5\nf 3 4 6\n");
+  const auto solved = run(solve("--embed --save-domain " + path("domain.obj")));
+  ASSERT_EQ(solved.status, 0) << solved.errors;
+  EXPECT_NE(solved.errors.find("1 vertices beside the cage by a hair"), std::string::npos)
+      << solved.errors;
+  const auto weights = io::read_weights(path("w.npy"));
+  ASSERT_EQ(weights.cols(), 7);
+  EXPECT_EQ(weights.col(0), weights.col(2));
+  EXPECT_EQ(weights.col(4), weights.col(6));
+  EXPECT_NEAR(weights(0, 1), 0.7, 1e-12);
+  EXPECT_NEAR(weights(2, 3), 1, 1e-12);
+  EXPECT_NEAR(weights(3, 5), 0.4, 1e-12);
+  EXPECT_GE(weights.minCoeff(), 0);
+  const auto domain = slurp(path("domain.obj"));
+  EXPECT_NE(domain.find("v 0.5 0.5"), std::string::npos);
+  EXPECT_NE(domain.find("v 0.25 0.75"), std::string::npos);
+  model("0.01");
+  const auto refused = run(solve("--embed"));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("2 of 3 points lie outside the cage, the farthest is vertex"),
+            std::string::npos)
+      << refused.errors;
+}
+
+TEST_F(OutsideCommand, CheckNamesTheFarthest) {
+  const auto of = file("model.obj", "v 0.5 -0.1 0\nv 0.5 1.4 0\nv 0.5 0.5 0\nf 1 2 3\n");
+  const auto checked =
+      run("check " + square() + " --model " + of + " --json " + path("check.json"));
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_NE(checked.output.find("2 of 3 points lie outside the cage, the farthest is vertex 1 at"),
+            std::string::npos)
+      << checked.output;
+  const auto json = nlohmann::json::parse(slurp(path("check.json")));
+  EXPECT_NEAR(json["model"]["farthest_outside"]["distance"], 0.4, 1e-12);
+}
+
 TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
   const auto of = model("0.25");
   EXPECT_EQ(run(solve("--outside fail")).status, 2);

@@ -52,6 +52,15 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
+//! The places on a cage that are nearest to points.
+//! \param cage  has passed validate()
+//! \param points  Dim x P, finite, in the units of the cage
+//! \param which  of them, in [0, P)
+//! \return one for each of `which`
+template <int Dim>
+std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                              const std::vector<Index>& which);
+
 //! Weights at placed points: linear in the cells and facets, and beyond by the policy. Not negative
 //! where the mesh's are not, except for OutsidePoints::kExtend.
 //! \param cage, mesh  as for place_points()

@@ -145,6 +145,17 @@ void extend(const Cage<Dim>& cage, const Placement<Dim>& placement, WeightMatrix
 }  // namespace
 
 template <int Dim>
+std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                              const std::vector<Index>& which) {
+  std::vector<PointBeside<Dim>> result(which.size());
+  const NearestOnCage<Dim> nearest(cage);
+  const auto count = static_cast<Index>(which.size());
+#pragma omp parallel for schedule(static)
+  for (Index k = 0; k < count; ++k) result[k] = nearest(which[k], points.col(which[k]));
+  return result;
+}
+
+template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points, OutsidePoints policy) {
   const double size = bounding_box_diagonal(cage.points);
@@ -158,17 +169,11 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   for (Index p = 0; p < num_points; ++p) {
     placement.places[p] = locate<Dim>(locator, mesh, points.col(p), size);
   }
-  std::vector<PointBeside<Dim>> beside;
+  std::vector<Index> beside;
   for (Index p = 0; p < num_points; ++p) {
-    if (placement.places[p].cell < 0) beside.push_back({p});
+    if (placement.places[p].cell < 0) beside.push_back(p);
   }
-  const NearestOnCage<Dim> nearest(cage);
-  const auto num_beside = static_cast<Index>(beside.size());
-#pragma omp parallel for schedule(static)
-  for (Index b = 0; b < num_beside; ++b) {
-    beside[b] = nearest(beside[b].point, points.col(beside[b].point));
-  }
-  for (const auto& point : beside) {
+  for (const auto& point : nearest_on_cage(cage, points, beside)) {
     const bool is_near = point.distance <= kBoundaryTolerance * size;
     (is_near ? placement.on_cage : placement.outside).push_back(point);
     if (is_near || policy == OutsidePoints::kNearest) {
@@ -202,6 +207,8 @@ WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                              \
+  template std::vector<PointBeside<Dim>> nearest_on_cage(                                  \
+      const Cage<Dim>&, const PointList<Dim>&, const std::vector<Index>&);                 \
   template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,           \
                                        const PointList<Dim>&, OutsidePoints);              \
   template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,               \

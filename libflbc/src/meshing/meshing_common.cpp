@@ -14,9 +14,6 @@ namespace flbc {
 
 namespace {
 
-// Points closer than this part of the cage's size are one point for TetGen too.
-constexpr double kRelativeTolerance = 1e-8;
-
 // Numbers of facets in 3D, about twelve per vertex and two slots each, must fit an Index.
 constexpr Index kMostVertices = 50000000;
 
@@ -78,7 +75,7 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
   for (Index i = 0; i < embedded.cols(); ++i) {
     if (!embedded.col(i).allFinite()) refuse_point<Dim>(embedded, i, "it is not finite");
   }
-  const double tolerance = kRelativeTolerance * bounding_box_diagonal<Dim>(cage.points);
+  const double tolerance = kPointTolerance * bounding_box_diagonal<Dim>(cage.points);
   check_distinctness<Dim>(cage, input, tolerance);
   check_location<Dim>(cage, embedded, tolerance);
   return input;

@@ -7,6 +7,9 @@
 
 namespace flbc {
 
+//! Points closer than this part of the cage's size are one point for TetGen too.
+constexpr double kPointTolerance = 1e-8;
+
 //! The control points followed by the points to embed.
 //! \throws OptionError if an option is out of range, InputError if a point to embed is not finite,
 //! not strictly inside the cage, or coincides with another one or with a control point
