@@ -163,9 +163,10 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   }
   const double change = skin.position_change / size;
   if (change > kWorthATell) {
-    std::cerr << "flbc: " << arguments.output << ": single precision, which glTF has, moves "
-              << "vertices by up to " << change << " of the model's size; move cage and model "
-              << "closer to the origin\n";
+    const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;
+    std::cerr << "flbc: " << arguments.output << ": single precision, which "
+              << (is_usd ? "USD" : "glTF") << " has, moves vertices by up to " << change
+              << " of the model's size; move cage and model closer to the origin\n";
   }
 }
 

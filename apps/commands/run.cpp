@@ -185,10 +185,11 @@ void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
 }
 
 // \return the exit status
-int run_as_told(const CLI::Option& auto_cage, RunArguments& arguments) {
+int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArguments& arguments) {
   check_arguments(arguments);
   read_auto_cage(auto_cage, arguments);
   if (arguments.makes_cage) return run_model(arguments);
+  refuse_unread_options(command, arguments.settings);
   if (arguments.settings.embed && arguments.settings.model.empty()) {
     throw OptionError("--embed requires MODEL");
   }
@@ -257,7 +258,9 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->callback(
-      [arguments, auto_cage, &exit_status] { exit_status = run_as_told(*auto_cage, *arguments); });
+      [arguments, command, auto_cage, &exit_status] {
+        exit_status = run_as_told(*command, *auto_cage, *arguments);
+      });
 }
 
 }  // namespace flbc::app

@@ -105,8 +105,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   add_solver_options(*command, settings);
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->add_flag("-v,--verbose", a.verbose, "print the report");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);
+    refuse_unread_options(*command, arguments->settings);
     check_outputs(*arguments);
     const auto cage = load_cage(arguments->settings.cage);
     exit_status = std::visit([&](const auto& any) { return solve_cage(any, *arguments); }, cage);

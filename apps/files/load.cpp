@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -25,6 +26,8 @@ void check_cage(const Cage<Dim>& cage, const std::string& path) {
   if (!defects.empty()) {
     throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
   }
+  const auto parts = find_separate_parts(cage);
+  if (!parts.empty()) throw InputError(path + ": " + parts.front().message);
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

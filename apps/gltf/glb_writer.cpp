@@ -218,6 +218,8 @@ class ModelBuilder {
     skin.name = "cage";
     skin.skeleton = kCageNode;
     add_joint("cage", centre_, Eigen::Vector3f::Zero());
+    const Eigen::Vector3d place = scene_.origin + centre_.cast<double>();
+    model_.nodes[kCageNode].translation = {place.x(), place.y(), place.z()};
     for (Eigen::Index i = 0; i < num_points; ++i) {
       add_joint("control_point_" + std::to_string(i), scene_.joints.col(i) - centre_, centre_);
       skin.joints.push_back(joint_node(i));

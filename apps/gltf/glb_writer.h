@@ -21,6 +21,9 @@ struct Channel {
 //! A skinned mesh, in the numbers that are stored: S vertices, T triangles, n joints.
 struct GlbScene {
   std::string name{};                      //!< of the mesh
+  //! Of the numbers that follow, in the cage's coordinates: far from the origin single precision
+  //! would be too coarse.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3Xf positions{};            //!< 3 x S
   Eigen::Matrix3Xf normals{};              //!< 3 x S
   Eigen::Matrix2Xf texture_coordinates{};  //!< 2 x S, or no column
@@ -36,7 +39,7 @@ struct GlbScene {
 };
 
 //! The content of a .glb file. Two nodes are roots of the scene: that of the mesh, and the joint
-//! "cage" in the middle of the cage. Its children are the joints "control_point_0" and so on, and
+//! "cage" in the middle of the cage, which alone knows how far that is from the origin. Its children are the joints "control_point_0" and so on, and
 //! "cage_end", near it, which moves nothing but makes programs draw short bones. A second scene, which is not shown by
 //! default, has the cage's edges as well: the node "cage_wire", which the joints move.
 //! \throws InputError if it exceeds the 4 GB such a file can have

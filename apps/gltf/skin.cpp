@@ -71,10 +71,11 @@ Eigen::Matrix3Xf to_floats(const PointList<Dim>& points, const std::string& owne
 
 // A channel for every joint that is elsewhere in some pose.
 template <int Dim>
-std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::Matrix3Xf& rest) {
+std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::Matrix3Xf& rest,
+                                 const Vector<Dim>& origin) {
   std::vector<Eigen::Matrix3Xf> poses;
   for (const auto& pose : animation.poses) {
-    poses.push_back(to_floats<Dim>(pose, "the cage in pose " + std::to_string(poses.size())));
+    poses.push_back(to_floats<Dim>(pose.colwise() - origin, "the cage in pose " + std::to_string(poses.size())));
   }
   std::vector<Channel> channels;
   for (Index i = 0; i < static_cast<Index>(rest.cols()); ++i) {
@@ -93,13 +94,25 @@ bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
   return static_cast<Eigen::Index>(sources.size()) == num_points;
 }
 
+// The middle of a cage that is so far from the origin that floats there are coarser than a millionth
+// of its size; else zero.
+template <int Dim>
+Vector<Dim> origin_of(const PointList<Dim>& control_points, SkinFormat format) {
+  const Vector<Dim> low = control_points.rowwise().minCoeff();
+  const Vector<Dim> high = control_points.rowwise().maxCoeff();
+  const bool is_far = (low + high).norm() / 2 > 16 * (high - low).norm();
+  if (format != SkinFormat::kGlb || !is_far) return Vector<Dim>::Zero();
+  return (low + high) / 2;
+}
+
 template <int Dim>
 GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& points,
                     const JointWeights& stored, const Surface& surface,
-                    const Animation<Dim>& animation) {
+                    const Animation<Dim>& animation, const Vector<Dim>& origin) {
   const auto& sources = surface.sources;
   GlbScene scene;
-  scene.positions = to_floats<Dim>(points, "the model")(Eigen::all, sources);
+  scene.origin.head<Dim>() = origin;
+  scene.positions = to_floats<Dim>(points.colwise() - origin, "the model")(Eigen::all, sources);
   scene.normals = surface.normals.cast<float>();
   scene.texture_coordinates = surface.texture_coordinates.cast<float>();
   scene.colors = surface.colors.cast<float>();
@@ -111,9 +124,9 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
   }
   scene.weights = {stored.format, stored.joints(Eigen::all, sources),
                    stored.numbers(Eigen::all, sources)};
-  scene.joints = to_floats<Dim>(control_points, "the cage");
+  scene.joints = to_floats<Dim>(control_points.colwise() - origin, "the cage");
   scene.times.assign(animation.times.begin(), animation.times.end());
-  scene.channels = channels_of(animation, scene.joints);
+  scene.channels = channels_of(animation, scene.joints, origin);
   return scene;
 }
 
@@ -122,10 +135,10 @@ template <int Dim>
 void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
              const WeightMatrix& weights, const JointWeights& stored,
              const std::vector<Index>& sources, const Animation<Dim>& animation,
-             ExportedSkin& result) {
+             const Vector<Dim>& origin, ExportedSkin& result) {
   auto used = sources;
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  const PointList<Dim> exact = points(Eigen::all, used);
+  const PointList<Dim> exact = points(Eigen::all, used).colwise() - origin;
   const PointList<Dim> rounded = exact.template cast<float>().template cast<double>();
   result.position_change = (rounded - exact).colwise().norm().maxCoeff();
 
@@ -167,7 +180,8 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   validate(animation, control_points.cols());
   const auto few = sparsify(control_points, points, weights, {options.max_influences});
   const auto stored = to_joint_weights(few, options.weight_format);
-  auto scene = make_scene(control_points, points, stored, surface, animation);
+  const Vector<Dim> origin = origin_of(control_points, options.format);
+  auto scene = make_scene(control_points, points, stored, surface, animation, origin);
   scene.name = options.name;
   scene.wire = options.cage_edges;
 
@@ -179,7 +193,7 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   result.joints = static_cast<Index>(control_points.cols());
   result.left_out = scene.look.left_out;
   result.moving_joints = static_cast<Index>(scene.channels.size());
-  measure(control_points, points, weights, stored, surface.sources, animation, result);
+  measure(control_points, points, weights, stored, surface.sources, animation, origin, result);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/solve_settings.h"
 
+#include "flbc/errors.h"
 #include "flbc/names.h"
 
 namespace flbc::app {
@@ -46,6 +47,29 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings) {
       .add_option("--mesh-timeout", settings.timeout,
                   "seconds after which a run of the mesher in 3D is stopped (60)")
       ->check(CLI::PositiveNumber);
+}
+
+void refuse_unread_options(const CLI::App& command, const SolveSettings& settings) {
+  const auto refuse = [&](const std::string& option, const std::string& reason) {
+    if (command.count(option) > 0) throw OptionError(option + ": " + reason + "; leave it out");
+  };
+  const Method method = settings.options.method;
+  const bool gradients = method == Method::kGradient || method == Method::kPaper;
+  const std::string name = std::string("the method ") + name_of(method);
+  if (method == Method::kHarmonic || method == Method::kMeanValue) {
+    for (const char* option : {"--phi", "--distances", "--precision", "--coarse-to-fine",
+                               "--tolerance", "--gap", "--max-iterations", "--penalty",
+                               "--relaxation"}) {
+      refuse(option, name + " does not read it");
+    }
+  }
+  if (!gradients) refuse("--recovery", name + " does not read it");
+  if (method == Method::kPaper) refuse("--coarse-to-fine", name + " does not read it");
+  if (settings.model.empty()) refuse("--outside", "there is no model");
+  if (!settings.domain.empty()) {
+    refuse("--mesher", "with --domain nothing is meshed");
+    refuse("--mesh-timeout", "with --domain nothing is meshed");
+  }
 }
 
 void add_solver_options(CLI::App& command, SolveSettings& settings) {

@@ -30,6 +30,12 @@ struct SolveSettings {
 //! Adds --mesher and --mesh-timeout to a command. \param settings  outlives it
 void add_mesher_options(CLI::App& command, MesherSettings& settings);
 
+//! Refuses options that were given to a command and that change nothing, because the method does
+//! not read them, or there is no model, or no mesh to be made.
+//! \param command  with the options of add_solver_options(), parsed
+//! \throws OptionError naming the option
+void refuse_unread_options(const CLI::App& command, const SolveSettings& settings);
+
 //! Adds all options about the solver, and --cache, to a command. \param settings  outlives it
 void add_solver_options(CLI::App& command, SolveSettings& settings);
 

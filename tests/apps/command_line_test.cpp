@@ -225,6 +225,29 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("mesh '' -o " + path("d.obj"), 1, "CAGE: the value is empty");
 }
 
+TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
+  const auto cage = sample("2d/letter_cage.obj");
+  const auto solve = "solve " + cage + " --vertices 300 -q -o " + path("w.npy") + ' ';
+  for (const std::string method : {"harmonic", "meanvalue"}) {
+    for (const std::string option :
+         {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
+          "--precision single", "--max-iterations 9", "--distances exact",
+          "--coarse-to-fine off"}) {
+      const auto name = option.substr(0, option.find(' '));
+      expect_failure(solve + "--method " + method + ' ' + option, 1,
+                     name + ": the method " + method + " does not read it");
+    }
+  }
+  expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
+  expect_failure(solve + "--outside nearest", 1, "--outside: there is no model");
+  expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,
+                 "--tolerance: the method harmonic");
+  ASSERT_EQ(run("mesh " + cage + " --vertices 300 -q -o " + path("d.obj")).status, 0);
+  expect_failure("solve " + cage + " --domain " + path("d.obj") + " --mesher cgal -q -o " +
+                     path("w.npy"),
+                 1, "--mesher: with --domain nothing is meshed");
+}
+
 TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {
   const std::string content = slurp(sample("2d/letter_cage.obj"));
   const auto cage = file("cage.obj", content);
@@ -277,7 +300,7 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   refused(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\n"
       "l 1 2 3 4 1\nl 5 6 7 8 5\n",
-      "not connected");
+      "interior is not connected: it has 2 parts, one with control point 0 at");
   // A tetrahedron without one side.
   refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
   // A cube of quadrangles without lid.

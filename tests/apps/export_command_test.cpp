@@ -332,9 +332,16 @@ TEST_F(ExportCommand, FarFromTheOriginSinglePrecisionIsTold) {
   offsets.row(0).array() -= 999999;
   const auto weights = linear_weights(offsets / 10);
   const auto result =
-      expect_export(model + " --weights " + weights + " --cage " + cage + " -q -o " + path("s.glb"),
-                    0, "single precision, which glTF has, moves vertices by up to 0.02");
+      expect_export(model + " --weights " + weights + " --cage " + cage + " -q -o " +
+                        path("s.usda"),
+                    0, "single precision, which USD has, moves vertices by up to 0.02");
   EXPECT_NE(result.errors.find("closer to the origin"), std::string::npos);
+  // In .glb the root joint has the distance.
+  EXPECT_EQ(expect_export(model + " --weights " + weights + " --cage " + cage + " -q -o " +
+                              path("s.glb"),
+                          0, "")
+                .errors,
+            "");
 }
 
 TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {

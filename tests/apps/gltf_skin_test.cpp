@@ -375,9 +375,24 @@ TYPED_TEST(GltfSkinTest, SinglePrecisionIsMeasured) {
   // Floats near 2^20 are 1/16 to 1/8 apart.
   example.sample.cage.points.array() += 1048576;
   example.sample.mesh.points.array() += 1048576;
-  const double change = example.skin().position_change;
+  gltf::SkinOptions usd;
+  usd.format = gltf::SkinFormat::kUsda;
+  const double change = example.skin(usd).position_change;
   EXPECT_GT(change, 0.01);
   EXPECT_LT(change, 0.0625 * std::sqrt(Dim));
+  // In glTF the root joint says where the model is.
+  const auto& cage = example.sample.cage.points;
+  const auto pose = independent_poses<Dim>(cage, 1)[0];
+  const auto skin = example.skin({}, {{0.0}, {pose}});
+  EXPECT_LT(skin.position_change, 1e-6);
+  const GlbFile file(skin.content);
+  // Seen from there: far away the sums of the weights, which are floats, would count.
+  const Vector<Dim> root = file.root().head<Dim>();
+  const PointList<Dim> near_cage = cage.colwise() - root;
+  const PointList<Dim> near_points = example.sample.mesh.points.colwise() - root;
+  EXPECT_LT(distance<Dim>(file, in_space<Dim>(near_cage), near_points), 1e-6);
+  EXPECT_LT((file.joints() - in_space<Dim>(cage)).norm(), 1e-5);
+  EXPECT_LT((file.joints(0) - in_space<Dim>(pose)).norm(), 1e-5);
 
   Segments<Dim> segments(5);
   segments.control_points *= 1e39;
