@@ -79,8 +79,9 @@ void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
 }
 
 template <int Dim>
-int check(const Cage<Dim>& cage, const CheckArguments& arguments) {
+int check(const Cage<Dim>& cage, const io::PolygonSoup& soup, const CheckArguments& arguments) {
   auto report = check_cage(cage, arguments.cage);
+  if (Dim == 3) name_faces(report.defects, soup);
   report.model_file = arguments.model;
   report.domain_file = arguments.domain;
   report.weights_file = arguments.weights;
@@ -117,8 +118,9 @@ void add_check_command(CLI::App& app, int& exit_status) {
   command->add_option("--json", a.json, "write the same as JSON, '-' to print that instead");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);
-    const auto cage = io::to_cage(io::read_polygons(arguments->cage), arguments->cage);
-    exit_status = std::visit([&](const auto& any) { return check(any, *arguments); }, cage);
+    const auto soup = io::read_polygons(arguments->cage);
+    const auto cage = io::to_cage(soup, arguments->cage);
+    exit_status = std::visit([&](const auto& any) { return check(any, soup, *arguments); }, cage);
   });
 }
 

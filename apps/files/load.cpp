@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
@@ -18,12 +19,13 @@ namespace flbc::app {
 namespace {
 
 template <int Dim>
-void check_cage(const Cage<Dim>& cage, const std::string& path) {
+void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
   auto defects = find_defects(cage, 1);
 #ifdef FLBC_WITH_CGAL
   if (defects.empty()) defects = find_self_intersections(cage, 1);
 #endif
   if (!defects.empty()) {
+    if (Dim == 3) name_faces(defects, soup);
     throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
   }
   const auto parts = find_separate_parts(cage);
@@ -60,8 +62,29 @@ io::AnyCage load_cage(const std::string& path) {
 
 io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path) {
   auto cage = io::to_cage(soup, path);
-  std::visit([&](const auto& any) { check_cage(any, path); }, cage);
+  std::visit([&](const auto& any) { check_cage(any, soup, path); }, cage);
   return cage;
+}
+
+void name_faces(std::vector<Defect>& defects, const io::PolygonSoup& soup) {
+  std::vector<Index> face_of_triangle;
+  for (std::size_t face = 0; face < soup.polygons.size(); ++face) {
+    const auto count = soup.polygons[face].size();
+    face_of_triangle.insert(face_of_triangle.end(), count > 2 ? count - 2 : 0, Index(face));
+  }
+  if (face_of_triangle.size() == soup.polygons.size()) return;  // all are triangles
+  for (auto& defect : defects) {
+    std::set<Index> faces;
+    for (const Index triangle : defect.facets) faces.insert(face_of_triangle[triangle]);
+    if (faces.empty()) continue;
+    std::string text;
+    std::size_t left = faces.size();
+    for (const Index face : faces) {
+      text += std::to_string(face) + (left > 2 ? ", " : left == 2 ? " and " : "");
+      --left;
+    }
+    defect.message += (faces.size() > 1 ? " (faces " : " (face ") + text + " of the file)";
+  }
 }
 
 template <int Dim>

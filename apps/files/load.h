@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
@@ -28,6 +29,10 @@ io::AnyCage load_cage(const std::string& path);
 
 //! The same of a file that has been read. \param path  for messages
 io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path);
+
+//! Has the messages of defects name faces of the file as well, where triangles were cut from
+//! polygons with more corners: " (faces 3 and 7 of the file)", numbered from 0.
+void name_faces(std::vector<Defect>& defects, const io::PolygonSoup& soup);
 
 //! The vertices of a model. \throws InputError if it has none
 template <int Dim>
