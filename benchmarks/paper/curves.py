@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 3, 5 and 6: curves."""
 
-import math
-
 import matplotlib.ticker
 
 import results
@@ -28,16 +26,6 @@ def style(plt):
         "grid.color": "#e4e4e4", "grid.linewidth": 0.7, "axes.axisbelow": True,
         "lines.linewidth": 1.6, "lines.markersize": 5, "legend.frameon": False,
         "legend.fontsize": 8.5})
-
-
-def exponent(x, y):
-    """Slope of the least-squares line through the logarithms; None for fewer than two points."""
-    points = [(math.log(a), math.log(b)) for a, b in zip(x, y) if a > 0 and b > 0]
-    if len(points) < 2:
-        return None
-    mean_x, mean_y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
-    return (sum((a - mean_x) * (b - mean_y) for a, b in points) /
-            sum((a - mean_x) ** 2 for a, _ in points))
 
 
 def footer(figure, comments):
@@ -81,7 +69,7 @@ def scaling(plt, rows, comments, path):
 
 
 def plot_power(axis, x, y, label, **look):
-    slope = exponent(x, y)
+    slope = results.exponent(x, y)
     axis.loglog(x, y, label=label + (f" ~ V$^{{{slope:.2f}}}$" if slope is not None else ""),
                 **look)
 

@@ -38,6 +38,7 @@ class ResultTable {
   //! Writes OUT/NAME.csv. \param about  a comment line \return whether all rows are there
   bool write(const std::string& about) const {
     std::vector<std::string> comments{about, describe_machine(context_.threads) + "; single runs"};
+    if (!context_.commit.empty()) comments.push_back("commit " + context_.commit);
     if (context_.quick) comments.push_back("quick run: small meshes, few iterations");
     if (!complete_) comments.push_back("incomplete: some cases failed");
     write_csv(context_.out + "/" + name_ + ".csv", comments, columns_, lines_);

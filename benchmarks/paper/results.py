@@ -10,6 +10,7 @@ METHODS = [
     ("lbc2014-tuned", "LBC 2014, tuned penalty", "#3b3b3b", "D"),
     ("paper", "paper (FLBC)", "#e08214", "^"),
     ("gradient", "gradient", "#2c7fb8", "v"),
+    ("gradient-local", "gradient, no linear system", "#8856a7", "P"),
     ("value", "value", "#1b9e4b", "o"),
 ]
 
@@ -37,3 +38,13 @@ def in_order(names):
 
 def thousands(number):
     return f"{int(number):,}"
+
+
+def exponent(x, y):
+    """Slope of the least-squares line through the logarithms; None for fewer than two points."""
+    points = [(math.log(a), math.log(b)) for a, b in zip(x, y) if a > 0 and b > 0]
+    if len(points) < 2:
+        return None
+    mean_x, mean_y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
+    return (sum((a - mean_x) * (b - mean_y) for a, b in points) /
+            sum((a - mean_x) ** 2 for a, _ in points))

@@ -18,7 +18,8 @@ cmake --build --preset release --target flbc_bench_paper flbc_app
 
 # A case that failed must not keep the others from being drawn.
 status=0
-build/release/benchmarks/flbc_bench_paper "$models" "$out" "$@" || status=$?
+commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
+build/release/benchmarks/flbc_bench_paper "$models" "$out" --commit "$commit" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
 /usr/bin/python3 -B benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
 exit "$status"

@@ -10,7 +10,8 @@ THRESHOLDS = (1e-4, 1e-5, 1e-6)
 
 def write(out):
     """Makes OUT/tables.md of what there is; returns its path, or None if there is no table."""
-    parts = [part for part in (table1(out), table2(out), time_to_error(out)) if part]
+    parts = [part for part in (table1(out), table2(out), growth(out),
+                             time_to_error(out)) if part]
     if not parts:
         return None
     path = out / "tables.md"
@@ -34,6 +35,11 @@ def table1(out):
     rows, comments = results.read(out, "table1")
     if not rows:
         return None
+    return markdown("Table 1: with and without non-negativity", comments, *table1_rows(rows))
+
+
+def table1_rows(rows):
+    """Header and body."""
     header = ["model", "n", "V", "with, s", "without, s", "squared distance", "(paper)",
               "largest difference", "min w without", "gap with", "gap without, made non-negative"]
     form = {"seconds_with": ".2f", "seconds_without": ".2f"}
@@ -42,7 +48,7 @@ def table1(out):
                "relative_gap_without"]
     body = [[row["model"], row["control_points"], results.thousands(row["vertices"])] +
             [text(results.value(row, c), form.get(c, ".1e")) for c in columns] for row in rows]
-    return markdown("Table 1: with and without non-negativity", comments, header, body)
+    return header, body
 
 
 def table2(out):
@@ -64,6 +70,36 @@ def table2(out):
                     [text(results.value(row, c), ".1e") for c in
                      ("min_weight", "relative_gap", "reference_gap")])
     return markdown("Table 2: methods at the paper's sizes", comments, header, body)
+
+
+def growth(out):
+    """Figure 3 in numbers: seconds against V, and recovery in iterations."""
+    rows, comments = results.read(out, "figure3")
+    if not rows:
+        return None
+    return markdown("Figure 3 in numbers", comments, *growth_rows(rows))
+
+
+def growth_rows(rows):
+    """Header and body."""
+    header = ["model", "method", "V", "iterations", "solve, s", "recover, s",
+              "recovery in iterations", "total, s", "grows as V to the power"]
+    body = []
+    for model in results.in_order(row["model"] for row in rows):
+        for name, label, _, _ in results.METHODS:
+            curve = [r for r in rows if r["model"] == model and r["method"] == name]
+            for row in curve:
+                solve, recover, total = (results.value(row, c) for c in
+                                         ("solve_seconds", "recover_seconds", "total_seconds"))
+                per_iteration = solve / max(1, int(row["iterations"]))
+                last = row is curve[-1] and len(curve) > 1
+                body.append([model, label, results.thousands(row["vertices"]), row["iterations"],
+                             text(solve, ".3f"), text(recover, ".3f"),
+                             text(recover / per_iteration, ".1f"), text(total, ".3f"),
+                             text(results.exponent([results.value(r, "vertices") for r in curve],
+                                                   [results.value(r, "total_seconds")
+                                                    for r in curve]), ".2f") if last else ""])
+    return header, body
 
 
 def papers_numbers(row):

@@ -23,9 +23,9 @@ struct Certificate {
 //!
 //! in which boundary vertices contribute what they do and every interior vertex at least the value
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
-//! Valid whatever the arguments are, with the rounding of the flux, of the sums at a vertex and of
-//! the programs counted in; not that of the hat gradients, of the sum over vertices and of the units,
-//! some 1e-15 relative (docs/method.md). Good if the flux is the dual of a solver that has nearly
+//! Valid whatever the arguments are, with the rounding of the flux, of all sums and of the programs
+//! counted in; not that of the hat gradients and measures, some 1e-16 to 1e-15 relative
+//! (docs/method.md). Good if the flux is the dual of a solver that has nearly
 //! converged.
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, a vector per cell and control point, shortened to phi A where it is longer;

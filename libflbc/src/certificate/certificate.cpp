@@ -28,6 +28,27 @@ struct Rounded {
   double magnitude = 0;  // sum of the absolute values of all terms
 };
 
+// The same over all vertices.
+struct LongRounded {
+  long double value = 0;
+  long double magnitude = 0;
+
+  void add(double term) {
+    value += term;
+    magnitude += std::abs(term);
+  }
+  LongRounded& operator+=(const LongRounded& other) {
+    value += other.value;
+    magnitude += other.magnitude;
+    return *this;
+  }
+  // However the terms were grouped, each took part in less than `count` additions.
+  long double rounded_down(Index count) const {
+    constexpr auto kLongEpsilon = std::numeric_limits<long double>::epsilon();
+    return value - 2 * static_cast<long double>(count) * kLongEpsilon * magnitude;
+  }
+};
+
 // The flux in double precision, shortened so that it obeys |p| <= phi A whatever it was.
 template <class Scalar, int Dim>
 class AdmissibleFlux {
@@ -141,25 +162,25 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
                    const WeightMatrix& weights) {
   check_flux_and_weights(problem, flux, weights);
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
-  // In long double, so that the sum over vertices adds no error that counts.
+  // In long double, so that the sum over vertices has next to no error.
   const auto sum = parallel_sum(
-      problem.mesh.num_vertices(), static_cast<long double>(0), [&](Index begin, Index end) {
+      problem.mesh.num_vertices(), LongRounded{}, [&](Index begin, Index end) {
         VertexLinearProgram<Dim> program(problem.cage.points);
         std::vector<Rounded> sums(flux.n);
         Eigen::VectorXd costs(flux.n), start;
-        long double block = 0;
+        LongRounded block;
         for (Index v = begin; v < end; ++v) {
           if (!problem.boundary.is_interior(v)) {
-            block += boundary_share(problem, admissible, v);
+            block.add(boundary_share(problem, admissible, v));
             continue;
           }
           vertex_costs(admissible, v, sums, costs);
           start = weights.col(v);
-          block += program.lower_bound(problem.mesh.points.col(v), costs, start);
+          block.add(program.lower_bound(problem.mesh.points.col(v), costs, start));
         }
         return block;
       });
-  const auto bound = static_cast<double>(sum);
+  const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()));
   // Every objective is at least 0, and numbers without meaning prove nothing more.
   if (!(bound > 0) || !std::isfinite(bound)) return 0;
   return std::nextafter(bound, 0);

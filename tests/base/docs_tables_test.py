@@ -1,0 +1,59 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of docs/results.md equal their stored results, and docs.py would notice if one did not."""
+
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper"))
+import docs  # noqa: E402
+
+CSV = """# a race
+# a machine; single runs
+# commit 0123abc
+model,control_points,vertices,cells,method,converged,iterations,total_seconds,coarse_levels,error
+logo,6,1000,1900,paper,0,10000,1.25,0,2e-05
+logo,6,1000,1900,value,1,20,0.125,1,9e-06
+"""
+PAGE = "before\n<!-- results: race -->\n| by hand |\n<!-- end of results -->\nafter\n"
+
+
+def quietly(action):
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        return action()
+
+
+def notices_changes():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        docs.STORED, docs.PAGE = folder / "stored", folder / "page.md"
+        docs.PAGE.write_text(PAGE)
+        assert quietly(docs.check) == 0, "nothing is stored, so nothing can differ"
+        (folder / "race.csv").write_text(CSV)
+        assert quietly(lambda: docs.take_over(folder)) == 0
+        page = docs.PAGE.read_text()
+        for part in ("before", "after", "1.25 (not within 10,000)", "0.12 (20)", "commit 0123abc"):
+            assert part in page, part
+        for old, new in (("1.25", "1.24"), ("(20)", "(19)"), ("0123abc", "0123abd")):
+            docs.PAGE.write_text(page.replace(old, new))
+            assert quietly(docs.check) == 1, f"{new} for {old} went unnoticed"
+        docs.PAGE.write_text(page)
+        assert quietly(docs.check) == 0
+        (docs.STORED / "table9.csv").write_text(CSV)
+        assert quietly(docs.check) == 1, "a result without a table went unnoticed"
+        (folder / "race.csv").write_text("# quick run: small\n" + CSV)
+        try:
+            quietly(lambda: docs.take_over(folder))
+        except SystemExit:
+            return
+        raise AssertionError("a quick run was taken over")
+
+
+if __name__ == "__main__":
+    result = docs.check()
+    notices_changes()
+    sys.exit(result)
