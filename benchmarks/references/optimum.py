@@ -138,4 +138,6 @@ def sign_rows(vertices, basis, non_negative):
     """w as matrix * y + start, all interior vertices in turn; without rows if w is free."""
     if not non_negative:
         return spmatrix([], [], [], (0, vertices * basis.shape[1]))
-    return cvxopt.sparse(matrix(np.kron(np.eye(vertices), basis)))
+    rows, columns = basis.shape
+    v, i, k = np.indices((vertices, rows, columns)).reshape(3, -1)
+    return spmatrix(basis[i, k], v * rows + i, v * columns + k, (vertices * rows, vertices * columns))
