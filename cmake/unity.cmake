@@ -15,7 +15,7 @@ function(flbc_compile_rooms_together target most)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
     cmake_path(GET source PARENT_PATH room)
-    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${folder})
+    cmake_path(GET room FILENAME room)  # what CGAL has to be compiled for is one unit: `cgal`
     string(MAKE_C_IDENTIFIER "${room}" room)
     if(NOT DEFINED files_in_${room})
       set(files_in_${room} 0)

@@ -10,14 +10,8 @@
 
 #include "flbc/version.h"
 
-// The library's images and files are not needed: no other library is, then.
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_NO_FS
+#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
-#undef TINYGLTF_IMPLEMENTATION
 
 #include "gltf/glb_buffer.h"
 

@@ -6,8 +6,6 @@
 #include <set>
 #include <stdexcept>
 
-#include <Eigen/QR>
-
 #include "flbc/quality.h"
 #include "support/simplex.h"
 
@@ -86,7 +84,7 @@ FacetFit<Dim> fit_to_facet(const PointList<Dim>& corners, const Vector<Dim>& poi
   const Eigen::Matrix<double, Dim, Dim - 1> edges = edges_of<Dim>(corners);
   const Vector<Dim> offset = point - corners.col(0);
   FacetFit<Dim> fit;
-  fit.coordinates.template tail<Dim - 1>() = edges.colPivHouseholderQr().solve(offset);
+  fit.coordinates.template tail<Dim - 1>() = least_squares(edges, offset);
   fit.coordinates[0] = 1 - fit.coordinates.template tail<Dim - 1>().sum();
   fit.misfit = (corners * fit.coordinates - point).norm() +
                std::max(0.0, -fit.coordinates.minCoeff()) * diagonal<Dim>(corners);

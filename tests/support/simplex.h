@@ -9,11 +9,14 @@
 #include <map>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "flbc/domain_mesh.h"
 
 namespace flbc::testing {
+
+//! The x of least norm that minimises |a x - b|, for each column of b.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 //! Columns of `points` at the given vertices, in this order.
 template <int Dim, class Vertices>
@@ -57,7 +60,7 @@ PointList<Dim> linear_gradients(const PointList<Dim>& corners, const Eigen::Matr
   const Eigen::MatrixXd edges = edges_of<Dim>(corners);
   const Eigen::MatrixXd rises =
       values.rightCols(values.cols() - 1).colwise() - Eigen::VectorXd(values.col(0));
-  return edges.transpose().completeOrthogonalDecomposition().solve(rises.transpose());
+  return least_squares(edges.transpose(), rises.transpose());
 }
 
 //! Columns of an n x V matrix at the given vertices, n x #vertices.

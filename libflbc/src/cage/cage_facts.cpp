@@ -7,42 +7,13 @@
 #include <string>
 
 #include "base/messages.h"
+#include "cage/facet_distance.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 #include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
-
-namespace {
-
-template <int Dim>
-double distance_to_segment(const Vector<Dim>& point, const Vector<Dim>& from,
-                           const Vector<Dim>& to) {
-  const Vector<Dim> along = to - from;
-  const double t = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (from + t * along - point).norm();
-}
-
-double distance_to_facet(const Vector<2>& point, const Eigen::Matrix2d& corners) {
-  return distance_to_segment<2>(point, corners.col(0), corners.col(1));
-}
-
-double distance_to_facet(const Vector<3>& point, const Eigen::Matrix3d& corners) {
-  const Vector<3> normal =
-      (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
-  bool is_above = true;
-  double distance = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const Vector<3> from = corners.col(k);
-    const Vector<3> to = corners.col((k + 1) % 3);
-    is_above = is_above && normal.cross(to - from).dot(point - from) >= 0;
-    distance = std::min(distance, distance_to_segment<3>(point, from, to));
-  }
-  return is_above ? std::abs(normal.dot(point - corners.col(0))) : distance;
-}
-
-}  // namespace
 
 template <int Dim>
 std::vector<Defect> find_separate_parts(const Cage<Dim>& cage) {
@@ -77,7 +48,7 @@ ThinPlace thinnest_place(const Cage<Dim>& cage) {
       const Vector<Dim> point = cage.points.col(i);
       const Vector<Dim> beside = (low - point).cwiseMax(point - high).cwiseMax(0);
       if (beside.norm() >= thinnest.distance) continue;
-      const double distance = distance_to_facet(point, corners);
+      const double distance = distance_to_facet<Dim>(point, corners);
       if (distance < thinnest.distance) thinnest = {distance, i, f};
     }
   }

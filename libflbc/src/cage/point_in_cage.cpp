@@ -7,31 +7,12 @@
 #include <Eigen/Geometry>
 
 #include "base/union_find.h"
+#include "cage/facet_distance.h"
 
 namespace flbc {
-
 namespace {
 
 constexpr double kFullSolidAngle = 12.566370614359172;  // 4 pi
-
-template <int Dim>
-double distance_to_segment(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b) {
-  const Vector<Dim> along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
-
-double distance_to_triangle(const Vector<3>& p, const Vector<3>& a, const Vector<3>& b,
-                            const Vector<3>& c) {
-  const Vector<3> normal = (b - a).cross(c - a);
-  const bool is_above_triangle = (b - a).cross(p - a).dot(normal) >= 0 &&
-                                 (c - b).cross(p - b).dot(normal) >= 0 &&
-                                 (a - c).cross(p - c).dot(normal) >= 0;
-  if (is_above_triangle && normal.norm() > 0) return std::abs((p - a).dot(normal.normalized()));
-  return std::min({distance_to_segment<3>(p, a, b), distance_to_segment<3>(p, b, c),
-                   distance_to_segment<3>(p, c, a)});
-}
 
 // Does the ray from p in the direction of the first axis cross the segment? Half-open in the second
 // coordinate, so that a ray through a corner counts the corner's two edges consistently.
@@ -85,14 +66,9 @@ Containment CageLocator<Dim>::locate(const Vector<Dim>& point) const {
 template <int Dim>
 bool CageLocator<Dim>::is_on_cage(const Vector<Dim>& point) const {
   for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
-    const Vector<Dim> a = cage_.points.col(cage_.facets(0, facet));
-    const Vector<Dim> b = cage_.points.col(cage_.facets(1, facet));
-    if constexpr (Dim == 2) {
-      if (distance_to_segment<2>(point, a, b) <= tolerance_) return true;
-    } else {
-      const Vector<3> c = cage_.points.col(cage_.facets(2, facet));
-      if (distance_to_triangle(point, a, b, c) <= tolerance_) return true;
-    }
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage_.points.col(cage_.facets(k, facet));
+    if (distance_to_facet<Dim>(point, corners) <= tolerance_) return true;
   }
   return false;
 }

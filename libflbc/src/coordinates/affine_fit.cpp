@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -22,9 +24,9 @@ PointList<Dim> centered(const PointList<Dim>& points, const std::vector<Index>& 
 template <int Dim>
 bool surrounds(const PointList<Dim>& offsets) {
   const Eigen::Matrix<double, Dim, Dim> moments = offsets * offsets.transpose();
-  const Vector<Dim> extents =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>(moments).eigenvalues();
-  return extents[0] > kLeastExtent * extents[Dim - 1];
+  const Eigen::Matrix<double, Dim, Dim> axes = dense::principal_axes<Dim>(moments);
+  const Vector<Dim> extents = (axes.transpose() * moments * axes).diagonal();
+  return extents.minCoeff() > kLeastExtent * extents.maxCoeff();
 }
 
 }  // namespace

@@ -14,10 +14,16 @@ namespace flbc::dense {
 
 using PivotedQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 
+// One instantiation for all sizes, without memory from the heap.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
+
 template <int N>
 Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
                                             const Eigen::Matrix<double, N, 1>& right_side) {
-  return matrix.ldlt().solve(right_side);
+  const Eigen::LDLT<SmallMatrix> factor{SmallMatrix(matrix)};
+  const SmallVector solution = factor.solve(SmallVector(right_side));
+  return solution;
 }
 
 template Eigen::Vector3d solve_symmetric(const Eigen::Matrix3d&, const Eigen::Vector3d&);

@@ -19,7 +19,7 @@ namespace flbc {
 namespace {
 
 template <class Scalar, class Stored, int Dim>
-using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
+using ValueSplitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
 // The penalty grows to no more than this: what is balanced are lengths of all that moves, and where
 // the start is nearly right everywhere, as on round cages, that takes the penalty out of the range
@@ -40,8 +40,9 @@ class Run {
         options_(options),
         adaptive_(adaptive),
         report_(report),
-        num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
-                     problem.num_control_points()),
+        num_weights_(
+            std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
+            problem.num_control_points()),
         residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
                         (problem.num_control_points() * measure)),
         estimate_(warm, options.tolerance),
@@ -50,11 +51,10 @@ class Run {
   //! \param certify_weights  by the duals of the splitting
   //! \return whether the run has ended; otherwise it is to go on in single precision
   template <class Stored>
-  bool iterate(Splitting<Scalar, Stored, Dim>& splitting,
+  bool iterate(ValueSplitting<Scalar, Stored, Dim>& splitting,
                const std::function<Certificate(const WeightMatrix&)>& certify_weights) {
     constexpr int kFewest = 8;
-    const auto options =
-        with_objective(problem_, options_, [&] { return splitting.weights(); });
+    const auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
     certificate_ = [&] { return certify_weights(splitting.weights()); };
     const auto read = [&](Index row, Scalar* weights) { splitting.read_row(row, weights); };
     if (!history_) {
@@ -80,10 +80,11 @@ class Run {
   static double square(double x) { return x * x; }
 
   template <class Stored>
-  compact::Step step_at(int iteration, Splitting<Scalar, Stored, Dim>& splitting) const {
+  compact::Step step_at(int iteration, ValueSplitting<Scalar, Stored, Dim>& splitting) const {
     constexpr double kBalance = 0.3;
     const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
-    if (adaptive_ && adapts) return splitting.iterate_and_adapt(kBalance, largest_penalty(problem_));
+    if (adaptive_ && adapts)
+      return splitting.iterate_and_adapt(kBalance, largest_penalty(problem_));
     return estimate_.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
   }
 
@@ -138,7 +139,7 @@ double choose_penalty(const LbcProblem<Dim>& problem, const SolverOptions& optio
 }
 
 template <class Scalar, class Stored, int Dim>
-void choose_start(Splitting<Scalar, Stored, Dim>& splitting, const StateStorage* storage,
+void choose_start(ValueSplitting<Scalar, Stored, Dim>& splitting, const StateStorage* storage,
                   const WarmStart<Dim>& warm_start) {
   constexpr int kRichardsonSteps = 8;
   if (resumes(storage)) {
@@ -153,7 +154,7 @@ void choose_start(Splitting<Scalar, Stored, Dim>& splitting, const StateStorage*
 }
 
 template <class Scalar, class Stored, int Dim>
-MeshState<Dim> keep_state(Splitting<Scalar, Stored, Dim>& splitting,
+MeshState<Dim> keep_state(ValueSplitting<Scalar, Stored, Dim>& splitting,
                           const LbcProblem<Dim>& problem) {
   MeshState<Dim> state;
   state.penalty = splitting.penalty();
@@ -165,7 +166,7 @@ MeshState<Dim> keep_state(Splitting<Scalar, Stored, Dim>& splitting,
 
 // Leaves everything where it is wanted.
 template <class Scalar, class Stored, int Dim>
-MethodResult end(Splitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& problem,
+MethodResult end(ValueSplitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& problem,
                  std::function<Certificate(const WeightMatrix&)> certify_weights,
                  StateStorage* storage, MeshState<Dim>* final_state, SolveReport& report) {
   splitting.finish();
@@ -182,7 +183,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   Stopwatch watch;
   const auto metric =
       splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
-  auto splitting = std::make_shared<Splitting<Scalar, Stored, Dim>>(
+  auto splitting = std::make_shared<ValueSplitting<Scalar, Stored, Dim>>(
       problem, metric, choose_penalty(problem, options, storage, warm_start), options.relaxation,
       linear_solver_for(problem, options), storage);
   choose_start(*splitting, storage, warm_start);
@@ -204,7 +205,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   if constexpr (std::is_same_v<Stored, compact::Half>) {
     if (!has_ended) {
       const auto single =
-          std::make_shared<Splitting<Scalar, Scalar, Dim>>(std::move(*splitting), storage);
+          std::make_shared<ValueSplitting<Scalar, Scalar, Dim>>(std::move(*splitting), storage);
       splitting.reset();
       run.iterate(*single, certify_by(single));
       return end_with(single);

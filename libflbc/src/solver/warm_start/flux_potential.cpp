@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/warm_start/flux_potential.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "mesh/cell_geometry.h"
 
@@ -59,7 +59,8 @@ void complete_normals(const LbcProblem<3>& problem, Eigen::MatrixXd& potential) 
       matrix += Eigen::Matrix3d::Identity() - normal * normal.transpose();
       sum += potential.middleCols<3>(3 * f);
     }
-    const Vectors<3> constant = matrix.ldlt().solve(sum.transpose()).transpose();
+    // The four normals of a cell span space: the matrix is far from singular.
+    const Vectors<3> constant = sum * matrix.inverse();
     for (int k = 0; k <= 3; ++k) {
       const Index f = topology.cell_facets(k, s);
       const double share = topology.is_boundary(f) ? 1 : 0.5;
