@@ -24,7 +24,7 @@ template <int Dim>
 json key_of(const Setting<Dim>& setting, const SolverOptions& options) {
   const auto& problem = setting.problem;
   const auto hash = content_hash(problem.cage.points, problem.cage.facets, problem.mesh.points,
-                                 problem.mesh.cells, problem.phi);
+                                 problem.mesh.cells, problem.phi.dense());
   return {{"format", 1},
           {"model", setting.model.name},
           {"control_points", problem.num_control_points()},
@@ -43,7 +43,8 @@ std::optional<Reference> load(const std::string& path, const json& key) {
     const auto entry = json::parse(io::read_file(path + ".json"));
     if (entry.at("key") != key) return std::nullopt;
     auto weights = io::read_weights(path + ".npy");
-    if (content_hash(weights).text() != entry.at("weights_hash").get<std::string>()) return std::nullopt;
+    if (content_hash(weights).text() != entry.at("weights_hash").get<std::string>())
+      return std::nullopt;
     return Reference{std::move(weights), entry.at("relative_gap").get<double>()};
   } catch (const std::exception&) {  // damaged: as if it were not there
     return std::nullopt;

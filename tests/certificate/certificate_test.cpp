@@ -160,7 +160,7 @@ TYPED_TEST(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
     }
     double least = std::numeric_limits<double>::infinity();
     for (const auto& weights : others) {
-      least = std::min(least, testing::objective(problem.mesh, weights, problem.phi));
+      least = std::min(least, testing::objective(problem.mesh, weights, problem.phi.dense()));
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Field<double, kDim> field(problem);
@@ -187,12 +187,13 @@ TYPED_TEST(CertificateTest, BoundIsTheOptimumInASimplex) {
   Numbers numbers(9);
   const auto sample = make_sample<kDim>(Shape::kSimplex, 5, 0.2);
   auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  problem.phi = numbers.matrix(kDim + 1, problem.mesh.num_cells(), 0, 1);
-  problem.phi.col(0).setZero();
-  problem.phi.col(1).setConstant(1e-300);
+  Eigen::MatrixXd phi = numbers.matrix(kDim + 1, problem.mesh.num_cells(), 0, 1);
+  phi.col(0).setZero();
+  phi.col(1).setConstant(1e-300);
+  problem.phi = phi;
   ASSERT_FALSE(interior_of(problem).empty());
   const auto weights = harmonic_coordinates(problem);
-  const double optimum = testing::objective(problem.mesh, weights, problem.phi);
+  const double optimum = testing::objective(problem.mesh, weights, problem.phi.dense());
   auto field = aligned_flux<double>(problem, weights);
   double bound = lower_bound(problem, field.view, weights);
   EXPECT_LE(bound, optimum);
@@ -264,7 +265,7 @@ TYPED_TEST(CertificateTest, CertifyMakesWeightsFeasible) {
   const auto field = aligned_flux<double>(problem, harmonic);
   const auto weights = feasible(problem, harmonic);
   const auto sound = certify(problem, field.view, weights);
-  EXPECT_NEAR(sound.objective, testing::objective(problem.mesh, weights, problem.phi),
+  EXPECT_NEAR(sound.objective, testing::objective(problem.mesh, weights, problem.phi.dense()),
               1e-12 * sound.objective);
   EXPECT_NEAR(sound.relative_gap, 1 - sound.lower_bound / sound.objective, 1e-14);
   EXPECT_GT(sound.relative_gap, 0);
@@ -273,9 +274,10 @@ TYPED_TEST(CertificateTest, CertifyMakesWeightsFeasible) {
   const WeightMatrix spoilt =
       harmonic + numbers.matrix(harmonic.rows(), harmonic.cols(), -0.5, 0.5);
   const auto mended = certify(problem, field.view, spoilt);
-  EXPECT_NEAR(mended.objective,
-              testing::objective(problem.mesh, feasible<kDim>(problem, spoilt), problem.phi),
-              1e-12 * mended.objective);
+  EXPECT_NEAR(
+      mended.objective,
+      testing::objective(problem.mesh, feasible<kDim>(problem, spoilt), problem.phi.dense()),
+      1e-12 * mended.objective);
   EXPECT_GT(mended.objective, sound.objective);
   // The linear programs end at the same minimum, wherever they start.
   EXPECT_NEAR(mended.lower_bound, sound.lower_bound, 1e-10 * sound.objective);

@@ -238,10 +238,10 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   const auto& mesh = sample.mesh;
   const auto n = sample.cage.size();
   const Eigen::MatrixXd distances = Eigen::MatrixXd::Random(n, mesh.num_vertices()).cwiseAbs();
-  const auto square = distance_weights(DistanceScheme::kSquare, distances, mesh, n);
-  const auto linear = distance_weights(DistanceScheme::kLinear, distances, mesh, n);
-  const auto root = distance_weights(DistanceScheme::kSquareRoot, distances, mesh, n);
-  const auto constant = distance_weights(DistanceScheme::kConstant, {}, mesh, n);
+  const auto square = WeightFunctions(DistanceScheme::kSquare, distances, mesh, n).dense();
+  const auto linear = WeightFunctions(DistanceScheme::kLinear, distances, mesh, n).dense();
+  const auto root = WeightFunctions(DistanceScheme::kSquareRoot, distances, mesh, n).dense();
+  const auto constant = WeightFunctions(DistanceScheme::kConstant, {}, mesh, n).dense();
   EXPECT_TRUE((constant.array() == 1).all());
   EXPECT_GE(square.minCoeff(), 0);
   EXPECT_LE(root.maxCoeff(), 1);
@@ -253,6 +253,20 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
                       distances(0, mesh.cells(2, 0)) +
                       (kDim == 3 ? distances(0, mesh.cells(kDim, 0)) : 0);
   EXPECT_NEAR(linear(0, 0), mean / (kDim + 1) / distances.maxCoeff(), 1e-14);
+}
+
+TYPED_TEST(DistanceWeightsTest, WeightFunctionsThatAreGivenAreKept) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  const Eigen::MatrixXd values =
+      Eigen::MatrixXd::Random(sample.cage.size(), sample.mesh.num_cells()).cwiseAbs();
+  const WeightFunctions given(values);
+  EXPECT_EQ(given.rows(), values.rows());
+  EXPECT_EQ(given.cols(), values.cols());
+  EXPECT_EQ(given.dense(), values);
+  EXPECT_EQ(given.col(1), values.col(1));
+  EXPECT_EQ(given(2, 1), values(2, 1));
+  EXPECT_EQ(WeightFunctions().size(), 0);
 }
 
 }  // namespace

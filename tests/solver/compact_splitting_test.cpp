@@ -172,7 +172,7 @@ TYPED_TEST(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
     }
     aligned += p.cwiseProduct(gradient).sum();
   }
-  const double objective = testing::objective(c.problem.mesh, weights, c.problem.phi);
+  const double objective = testing::objective(c.problem.mesh, weights, c.problem.phi.dense());
   EXPECT_NEAR(aligned, objective, 1e-3 * objective);
 }
 
@@ -212,8 +212,8 @@ TYPED_TEST(CompactSplittingTest, GoesOnInSinglePrecision) {
   exact.start_from_harmonic(8);
   iterate(exact, 500);
   KeptState kept;
-  for (StateStorage* storage : {static_cast<StateStorage*>(nullptr),
-                                static_cast<StateStorage*>(&kept)}) {
+  for (StateStorage* storage :
+       {static_cast<StateStorage*>(nullptr), static_cast<StateStorage*>(&kept)}) {
     CompactSplitting<float, Half, kDim> half(c.problem, c.metric, c.penalty, 1.9,
                                              LinearSolver::kDirect, storage);
     half.start_from_harmonic(8);

@@ -36,7 +36,7 @@ TextbookAdmm<Dim> textbook_for(const LbcProblem<Dim>& problem,
   TextbookInput<Dim> input;
   input.control_points = problem.cage.points;
   input.mesh = problem.mesh;
-  input.phi = problem.phi;
+  input.phi = problem.phi.dense();
   input.boundary_weights = demanded_boundary_weights(problem.cage, problem.mesh);
   input.penalty = kPenalty<Dim>;
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {

@@ -80,7 +80,7 @@ void expect_tighter_is_better(const Model& model) {
   EXPECT_GT(tighter.report.iterations, by_default.report.iterations);
   EXPECT_LT(mean_squared_difference(mesh, by_default.weights, tighter.weights), 2 * tolerance);
   const auto objective = [&](const Solution& solution) {
-    return testing::objective(problem.mesh, solution.weights, problem.phi);
+    return testing::objective(problem.mesh, solution.weights, problem.phi.dense());
   };
   EXPECT_LT(objective(tighter), objective(by_default));
   EXPECT_LT(tighter.report.certificate.relative_gap,

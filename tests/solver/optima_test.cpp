@@ -59,8 +59,8 @@ SolverOptions accurate(const LbcProblem<Dim>& problem, Method method, NonNegativ
 template <int Dim, class Variant>
 void expect_optimal(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
                     const Variant& reference) {
-  const double objective =
-      testing::objective(problem.mesh, weights, problem.phi) / std::pow(problem.scale, Dim - 1);
+  const double objective = testing::objective(problem.mesh, weights, problem.phi.dense()) /
+                           std::pow(problem.scale, Dim - 1);
   EXPECT_NEAR(objective, reference.objective, 1e-6 * reference.objective);
   EXPECT_LT((weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
 }

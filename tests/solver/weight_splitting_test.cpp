@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "flbc/errors.h"
 #include "flbc/bounding_box.h"
+#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/published_penalty.h"
@@ -60,8 +60,8 @@ TYPED_TEST(WeightSplittingTest, EqualsTheTextbookIterateByIterate) {
   }
 }
 
-// kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh their
-// squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
+// kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh
+// their squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
 TYPED_TEST(WeightSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
@@ -238,7 +238,7 @@ TYPED_TEST(WeightSplittingTest, FluxIsTheDualOfTheTotalVariation) {
       }
       aligned += p.cwiseProduct(gradient).sum();
     }
-    const double objective = testing::objective(problem.mesh, weights, problem.phi);
+    const double objective = testing::objective(problem.mesh, weights, problem.phi.dense());
     EXPECT_NEAR(aligned, objective, 1e-3 * objective);
   }
 }

@@ -44,7 +44,7 @@ TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splittin
   Lbc2014Input<Dim> input;
   input.control_points = problem.cage.points;
   input.mesh = problem.mesh;
-  input.phi = problem.phi;
+  input.phi = problem.phi.dense();
   input.initial_weights = start;
   input.interior = problem.boundary.interior_vertices();
   input.cell_metric = metric.cell;

@@ -4,6 +4,9 @@
 //! farther it is from its control point, which keeps w_i local.
 #pragma once
 
+#include <algorithm>
+#include <utility>
+
 #include "flbc/domain_mesh.h"
 #include "flbc/geodesic_distances.h"
 
@@ -17,15 +20,54 @@ enum class DistanceScheme {
   kConstant     //!< 1, plain total variation
 };
 
-//! Divides by the largest distance over all control points, averages over each cell's vertices and
-//! applies the scheme.
-//! \param scheme  growth with the distance
-//! \param distances  n x V in any unit, or empty for kConstant
-//! \param mesh  F cells, V vertices
-//! \param num_control_points  n
-//! \return n x F, phi_i on each cell, in [0, 1]
-template <int Dim>
-Eigen::MatrixXd distance_weights(DistanceScheme scheme, const Eigen::MatrixXd& distances,
-                                 const DomainMesh<Dim>& mesh, Index num_control_points);
+//! phi_i on each cell of a mesh, n x F. Made from distances it keeps these, which are a number per
+//! vertex instead of some six.
+class WeightFunctions {
+ public:
+  //! None.
+  WeightFunctions() = default;
+
+  //! Given one by one. \param values  n x F, >= 0 and finite
+  WeightFunctions(Eigen::MatrixXd values) : values_(std::move(values)) {}
+
+  //! Divides by the largest distance over all control points, averages over each cell's vertices
+  //! and applies the scheme.
+  //! \param scheme  growth with the distance
+  //! \param distances  n x V in any unit, or empty for kConstant
+  //! \param mesh  F cells, V vertices
+  //! \param num_control_points  n
+  template <int Dim>
+  WeightFunctions(DistanceScheme scheme, Eigen::MatrixXd distances, const DomainMesh<Dim>& mesh,
+                  Index num_control_points);
+
+  //! n, 0 if there are none.
+  Eigen::Index rows() const { return cells_.cols() > 0 ? num_control_points_ : values_.rows(); }
+
+  //! F, 0 if there are none.
+  Eigen::Index cols() const { return std::max(cells_.cols(), values_.cols()); }
+
+  //! n F.
+  Eigen::Index size() const { return rows() * cols(); }
+
+  //! phi_i on one cell, in [0, 1] if made from distances. \param i  control point \param s  cell
+  double operator()(Eigen::Index i, Eigen::Index s) const {
+    return cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);
+  }
+
+  //! Of all control points on one cell, n numbers. \param s  cell
+  Eigen::VectorXd col(Eigen::Index s) const;
+
+  //! All of them, n x F.
+  Eigen::MatrixXd dense() const;
+
+ private:
+  double from_distances(Eigen::Index i, Eigen::Index s) const;
+
+  Eigen::MatrixXd values_;  // n x F if given, else the distances n x V
+  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
+  DistanceScheme scheme_ = DistanceScheme::kConstant;
+  double scale_ = 1;
+  Eigen::Index num_control_points_ = 0;
+};
 
 }  // namespace flbc

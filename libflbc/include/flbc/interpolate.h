@@ -20,4 +20,9 @@ template <int Dim>
 WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
                          const std::vector<Location<Dim>>& places);
 
+//! The same at one place, n numbers.
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
+                            const Location<Dim>& place);
+
 }  // namespace flbc

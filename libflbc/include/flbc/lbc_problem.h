@@ -19,7 +19,7 @@ struct LbcProblem {
   DomainMesh<Dim> mesh;          //!< scaled, V vertices and F cells
   MeshTopology<Dim> topology;    //!< of the mesh
   BoundaryValues<Dim> boundary;  //!< the weights that are known (properties 4 and 5 of the paper)
-  Eigen::MatrixXd phi;           //!< n x F, in [0, 1]: the weight functions of total variation
+  WeightFunctions phi;           //!< n x F: the weight functions of total variation
   double scale = 1;              //!< scaled length / original length
 
   //! n.

@@ -34,7 +34,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 //! \param weights  n x V
 //! \return in units of phi times the mesh^(Dim - 1)
 template <int Dim>
-double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
+double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const WeightMatrix& weights);
 
 //! The total variation sum_s sum_i A_s |grad w_i|_s.

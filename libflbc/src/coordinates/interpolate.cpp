@@ -9,11 +9,16 @@ WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weight
   const auto num_points = static_cast<Index>(places.size());
   WeightMatrix result(weights.rows(), num_points);
 #pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
-    result.col(p).setZero();
-    for (int k = 0; k <= Dim; ++k) {
-      result.col(p) += places[p].coordinates[k] * weights.col(mesh.cells(k, places[p].cell));
-    }
+  for (Index p = 0; p < num_points; ++p) result.col(p) = interpolate(mesh, weights, places[p]);
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
+                            const Location<Dim>& place) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.rows());
+  for (int k = 0; k <= Dim; ++k) {
+    result += place.coordinates[k] * weights.col(mesh.cells(k, place.cell));
   }
   return result;
 }
@@ -22,5 +27,7 @@ template WeightMatrix interpolate(const DomainMesh<2>&, const WeightMatrix&,
                                   const std::vector<Location<2>>&);
 template WeightMatrix interpolate(const DomainMesh<3>&, const WeightMatrix&,
                                   const std::vector<Location<3>>&);
+template Eigen::VectorXd interpolate(const DomainMesh<2>&, const WeightMatrix&, const Location<2>&);
+template Eigen::VectorXd interpolate(const DomainMesh<3>&, const WeightMatrix&, const Location<3>&);
 
 }  // namespace flbc

@@ -50,7 +50,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 }
 
 template <int Dim>
-double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& phi,
+double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const WeightMatrix& weights) {
   return integrate_gradient_lengths(
       mesh, weights, [&](Index s, const auto& lengths) { return phi.col(s).dot(lengths); });
@@ -76,7 +76,7 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
 #define FLBC_INSTANTIATE(Dim)                                                                     \
   template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
                                    const WeightMatrix&);                                          \
-  template double objective(const DomainMesh<Dim>&, const Eigen::MatrixXd&, const WeightMatrix&); \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&); \
   template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);                   \
   template double squared_error(const LbcProblem<Dim>&, const WeightMatrix&, const WeightMatrix&);
 FLBC_INSTANTIATE(2)

@@ -23,27 +23,37 @@ double relative_to_weight(DistanceScheme scheme, double distance) {
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd distance_weights(DistanceScheme scheme, const Eigen::MatrixXd& distances,
-                                 const DomainMesh<Dim>& mesh, Index num_control_points) {
-  if (scheme == DistanceScheme::kConstant) {
-    return Eigen::MatrixXd::Ones(num_control_points, mesh.num_cells());
-  }
-  const double scale = 1 / ((Dim + 1) * distances.maxCoeff());
-  Eigen::MatrixXd weights(num_control_points, mesh.num_cells());
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    weights.col(s).setZero();
-    for (int k = 0; k <= Dim; ++k) weights.col(s) += distances.col(mesh.cells(k, s));
-    for (Index i = 0; i < num_control_points; ++i) {
-      weights(i, s) = relative_to_weight(scheme, scale * weights(i, s));
-    }
-  }
-  return weights;
+WeightFunctions::WeightFunctions(DistanceScheme scheme, Eigen::MatrixXd distances,
+                                 const DomainMesh<Dim>& mesh, Index num_control_points)
+    : values_(std::move(distances)),
+      cells_(mesh.cells),
+      scheme_(scheme),
+      num_control_points_(num_control_points) {
+  if (scheme != DistanceScheme::kConstant) scale_ = 1 / ((Dim + 1) * values_.maxCoeff());
 }
 
-template Eigen::MatrixXd distance_weights(DistanceScheme, const Eigen::MatrixXd&,
-                                          const DomainMesh<2>&, Index);
-template Eigen::MatrixXd distance_weights(DistanceScheme, const Eigen::MatrixXd&,
-                                          const DomainMesh<3>&, Index);
+double WeightFunctions::from_distances(Eigen::Index i, Eigen::Index s) const {
+  if (scheme_ == DistanceScheme::kConstant) return 1;
+  double sum = 0;
+  for (Eigen::Index k = 0; k < cells_.rows(); ++k) sum += values_(i, cells_(k, s));
+  return relative_to_weight(scheme_, scale_ * sum);
+}
+
+Eigen::VectorXd WeightFunctions::col(Eigen::Index s) const {
+  Eigen::VectorXd column(rows());
+  for (Eigen::Index i = 0; i < column.size(); ++i) column[i] = (*this)(i, s);
+  return column;
+}
+
+Eigen::MatrixXd WeightFunctions::dense() const {
+  Eigen::MatrixXd matrix(rows(), cols());
+  for (Eigen::Index s = 0; s < matrix.cols(); ++s) matrix.col(s) = col(s);
+  return matrix;
+}
+
+template WeightFunctions::WeightFunctions(DistanceScheme, Eigen::MatrixXd, const DomainMesh<2>&,
+                                          Index);
+template WeightFunctions::WeightFunctions(DistanceScheme, Eigen::MatrixXd, const DomainMesh<3>&,
+                                          Index);
 
 }  // namespace flbc

@@ -10,8 +10,8 @@ namespace {
 
 template <int Dim>
 LbcProblem<Dim> with_phi(LbcProblem<Dim> problem, DistanceScheme scheme) {
-  problem.phi = distance_weights(scheme, distances_for(scheme, problem), problem.mesh,
-                                 problem.num_control_points());
+  problem.phi = {scheme, distances_for(scheme, problem), problem.mesh,
+                 problem.num_control_points()};
   return problem;
 }
 
@@ -31,9 +31,9 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              BoundaryValues<Dim> boundary, DistanceScheme scheme) {
-  return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology),
-                                std::move(boundary)),
-                  scheme);
+  return with_phi(
+      make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary)),
+      scheme);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                          \

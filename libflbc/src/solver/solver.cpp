@@ -64,8 +64,9 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
 template <int Dim>
 void require_phi(const LbcProblem<Dim>& problem, const SolverOptions& options) {
   if (!minimises(options.method) || problem.phi.cols() == problem.mesh.num_cells()) return;
-  throw InputError("the problem has no weight functions phi for the cells of its mesh; make_problem() "
-                   "computes them");
+  throw InputError(
+      "the problem has no weight functions phi for the cells of its mesh; make_problem() "
+      "computes them");
 }
 
 void add_set_up(double seconds, const DistanceReport& distances, SolveReport& report) {
@@ -142,8 +143,8 @@ class LbcSolver<Dim>::State {
     if (problem.phi.size() > 0 || !minimises(resolve(options_).method)) return;
     const ThreadScope threads(options_.threads);
     Stopwatch watch;
-    problem.phi = distance_weights(options_.phi, distances_for(options_.phi, problem), problem.mesh,
-                                   problem.num_control_points());
+    problem.phi = {options_.phi, distances_for(options_.phi, problem), problem.mesh,
+                   problem.num_control_points()};
     ready_.seconds += watch.lap();
   }
 

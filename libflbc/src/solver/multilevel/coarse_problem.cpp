@@ -46,7 +46,7 @@ std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& prob
     report.mesh_seconds = watch.lap();
     auto geometry = make_geometry(problem.cage, std::move(*mesh));
     auto distances = distances_for(scheme, geometry);
-    geometry.phi = distance_weights(scheme, distances, geometry.mesh, problem.num_control_points());
+    geometry.phi = {scheme, distances, geometry.mesh, problem.num_control_points()};
     report.setup_seconds = watch.lap();
     coarse.push_back({std::move(geometry), std::move(distances), {}, report});
   }

@@ -16,8 +16,8 @@
 namespace flbc {
 namespace {
 
-// The largest change that interpolated distances made to the weights of any model, mean squared, was
-// 9e-8, and it is not foreseen everywhere: smaller tolerances want exact ones.
+// The largest change that interpolated distances made to the weights of any model, mean squared,
+// was 9e-8, and it is not foreseen everywhere: smaller tolerances want exact ones.
 constexpr double kLeastTolerance = 1e-7;
 
 // Whether distances are to be interpolated if they turn out to be good enough.
@@ -42,16 +42,15 @@ Index size_for_distances(Index finest, double tolerance) {
 template <int Dim>
 Eigen::MatrixXd interpolate_from(CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem) {
   const auto points = points_in_coarse(coarse.problem, problem, problem.mesh.points);
-  coarse.finest_vertices =
-      walk_to_points(coarse.problem.mesh, coarse.problem.topology, points);
+  coarse.finest_vertices = walk_to_points(coarse.problem.mesh, coarse.problem.topology, points);
   return enlargement(coarse.problem, problem) *
          interpolated_distances<Dim>(
              {coarse.problem.mesh, coarse.problem.cage.points, coarse.distances}, points,
              coarse.finest_vertices);
 }
 
-// Some control points: from the one that is the farthest from a part of the domain, in even steps to
-// the one that is the nearest to all of it.
+// Some control points: from the one that is the farthest from a part of the domain, in even steps
+// to the one that is the nearest to all of it.
 std::vector<Index> choose_control_points(const Eigen::MatrixXd& distances) {
   constexpr Index kOneIn = 32;
   const auto n = static_cast<Index>(distances.rows());
@@ -80,12 +79,18 @@ double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
   }
   both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
   for (Index k = 0; k < count; ++k) distances.row(chosen[k]) = both.row(count + k);
-  const Eigen::MatrixXd phi = distance_weights(scheme, both, problem.mesh, 2 * count);
-  return (phi.topRows(count) - phi.bottomRows(count)).norm() / phi.bottomRows(count).norm();
+  const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
+  double difference2 = 0, length2 = 0;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const Eigen::VectorXd on_cell = phi.col(s);
+    difference2 += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
+    length2 += on_cell.tail(count).squaredNorm();
+  }
+  return std::sqrt(difference2 / length2);
 }
 
-// The mean squared change of weights by a relative error of phi: four times what it was on any model
-// where the error was 0.4 % and more (docs/results.md).
+// The mean squared change of weights by a relative error of phi: four times what it was on any
+// model where the error was 0.4 % and more (docs/results.md).
 double weight_error(double phi_error) {
   constexpr double kInfluence = 3e-4;
   return kInfluence * phi_error * phi_error;
@@ -114,8 +119,8 @@ std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMeshe
   }
   // A penalty of the metric A^2 belongs to one mesh, and who gives it wants the iteration as it is.
   if (options.method == Method::kLbc2014 && options.penalty > 0) return {};
-  return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(),
-                          options.method, options.coarse_levels);
+  return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(), options.method,
+                          options.coarse_levels);
 }
 
 template <int Dim>
@@ -135,11 +140,9 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
     sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
   }
   result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
-  const auto distances = interpolates && !result.coarse.empty()
-                             ? choose_distances(result, options)
-                             : distances_for(options.phi, problem);
-  problem.phi =
-      distance_weights(options.phi, distances, problem.mesh, problem.num_control_points());
+  auto distances = interpolates && !result.coarse.empty() ? choose_distances(result, options)
+                                                          : distances_for(options.phi, problem);
+  problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
   if (!starts_coarse) result.coarse.clear();
   result.seconds = watch.lap();
   for (const auto& level : result.coarse) {
@@ -148,10 +151,10 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                     \
-  template std::vector<Index> start_sizes(const LbcProblem<Dim>&, const CoarseMesher<Dim>&,       \
-                                          const SolverOptions&);                                  \
-  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,                    \
+#define FLBC_INSTANTIATE(Dim)                                                               \
+  template std::vector<Index> start_sizes(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
+                                          const SolverOptions&);                            \
+  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,              \
                              const CoarseMesher<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -90,8 +90,9 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
       const Index s = data.cell_index[k];
       const double scale =
           unit * cell_geometry(problem.mesh, s).measure / std::sqrt(metric.cell[s]);
+      const Eigen::VectorXd phi = problem.phi.col(s);
       for (Index i = 0; i < n; ++i) {
-        row[i] = static_cast<Scalar>(scale * std::max(problem.phi(i, s), kSmallestPhi));
+        row[i] = static_cast<Scalar>(scale * std::max(phi[i], kSmallestPhi));
       }
       kernel.encode(row.data(), data.radius.data() + k * stride, stride);
     }

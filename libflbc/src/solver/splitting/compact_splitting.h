@@ -74,11 +74,11 @@ class CompactSplitting {
   void start_from_harmonic(int steps);
 
   //! Starts from weights and duals that were found elsewhere.
-  //! \param weights  n x V, feasible
+  //! \param weights  of an interior vertex, n numbers, feasible
   //! \param flux_density  p / A of a cell, n x Dim, at most phi long
-  //! \param vertex_dual  q - w, n x V; empty for none
-  void start_from_duals(const WeightMatrix& weights, const VectorsAt<Dim>& flux_density,
-                        const WeightMatrix& vertex_dual);
+  //! \param vertex_dual  q - w of an interior vertex, n numbers; null for none
+  void start_from_duals(const VectorsAt<1>& weights, const VectorsAt<Dim>& flux_density,
+                        const VectorsAt<1>& vertex_dual);
 
   Step iterate();
 
@@ -124,7 +124,7 @@ class CompactSplitting {
 
   double sigma() const { return penalty_ * unit_; }
   State arrays();
-  void set_weights(const WeightMatrix& weights);
+  void set_weights(const VectorsAt<1>& weights);
   void set_boundary_rows();
   void begin_from_weights();
   void for_slices(const std::function<void(const State&, Columns)>& body);

@@ -45,13 +45,14 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
 
 // a and W, both sigma w.
 template <class Scalar, class Stored, int Dim>
-void CompactSplitting<Scalar, Stored, Dim>::set_weights(const WeightMatrix& weights) {
+void CompactSplitting<Scalar, Stored, Dim>::set_weights(const VectorsAt<1>& weights) {
 #pragma omp parallel for schedule(static)
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     const Index v = data_.vertices[row];
+    const Eigen::VectorXd at_vertex = weights(v);
     for (Index i = 0; i < n_; ++i) {
       extrapolated_[row * stride_ + i] = relaxed_[v * stride_ + i] =
-          static_cast<Scalar>(sigma() * weights(i, v));
+          static_cast<Scalar>(sigma() * at_vertex[i]);
     }
   }
   set_boundary_rows();
@@ -70,7 +71,7 @@ void CompactSplitting<Scalar, Stored, Dim>::set_boundary_rows() {
 
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::start_from_weights(const WeightMatrix& weights) {
-  set_weights(weights);
+  set_weights([&](Index v) -> Eigen::VectorXd { return weights.col(v); });
   begin_from_weights();
 }
 
@@ -107,9 +108,9 @@ void CompactSplitting<Scalar, Stored, Dim>::begin_from_weights() {
 // Every iteration leaves w and W such that w = W + the solution, projected. Duals from elsewhere
 // would move the weights; so what they would do is taken from W instead, at the price of one solve.
 template <class Scalar, class Stored, int Dim>
-void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const WeightMatrix& weights,
+void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const VectorsAt<1>& weights,
                                                              const VectorsAt<Dim>& flux_density,
-                                                             const WeightMatrix& vertex_dual) {
+                                                             const VectorsAt<1>& vertex_dual) {
   set_weights(weights);
 #pragma omp parallel
   {
@@ -130,12 +131,14 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const WeightMatrix&
     }
   }
   std::fill_n(vertex_dual_.data(), vertex_dual_.size(), Scalar(0));
-  const bool has_dual = vertex_dual_.size() > 0 && vertex_dual.size() > 0;
+  const std::size_t rows_with_dual =
+      vertex_dual_.size() > 0 && vertex_dual ? data_.vertices.size() : 0;
 #pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+  for (std::size_t row = 0; row < rows_with_dual; ++row) {
     const Index v = data_.vertices[row];
-    for (Index i = 0; i < n_ && has_dual; ++i) {
-      vertex_dual_[v * stride_ + i] = static_cast<Scalar>(sigma() * vertex_dual(i, v));
+    const Eigen::VectorXd at_vertex = vertex_dual(v);
+    for (Index i = 0; i < n_; ++i) {
+      vertex_dual_[v * stride_ + i] = static_cast<Scalar>(sigma() * at_vertex[i]);
     }
   }
   set_residual();
@@ -189,7 +192,7 @@ void CompactSplitting<Scalar, Stored, Dim>::finish() {
   template void CompactSplitting<Scalar, Stored, Dim>::start_from_weights(const WeightMatrix&); \
   template void CompactSplitting<Scalar, Stored, Dim>::start_from_harmonic(int);                \
   template void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(                        \
-      const WeightMatrix&, const VectorsAt<Dim>&, const WeightMatrix&);                         \
+      const VectorsAt<1>&, const VectorsAt<Dim>&, const VectorsAt<1>&);                         \
   template void CompactSplitting<Scalar, Stored, Dim>::resume();                                \
   template void CompactSplitting<Scalar, Stored, Dim>::finish();
 FLBC_INSTANTIATE(float, Half, 2)

@@ -145,9 +145,9 @@ void choose_start(ValueSplitting<Scalar, Stored, Dim>& splitting, const StateSto
   if (resumes(storage)) {
     splitting.resume();
   } else if (warm_start.from) {
-    splitting.start_from_duals(
-        warm_start.from->weights(), [&](Index s) { return warm_start.from->flux_density(s); },
-        warm_start.from->vertex_dual(splitting.penalty()));
+    splitting.start_from_duals([&](Index v) { return warm_start.from->weights_at(v); },
+                               [&](Index s) { return warm_start.from->flux_density(s); },
+                               warm_start.from->vertex_dual_at(splitting.penalty()));
   } else {
     splitting.start_from_harmonic(kRichardsonSteps);
   }

@@ -42,9 +42,12 @@ template <int Dim>
 Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
                         const LbcProblem<Dim>& fine, std::vector<Location<Dim>> vertices)
     : Transfer(Unlocated{}, coarse, state, fine) {
-  vertices_ = vertices.empty() ? places_in_coarse(coarse, fine, fine.mesh.points)
-                               : std::move(vertices);
-  cells_ = places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.mesh.cells));
+  vertices_ =
+      vertices.empty() ? places_in_coarse(coarse, fine, fine.mesh.points) : std::move(vertices);
+  for (const auto& place :
+       places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.mesh.cells))) {
+    cells_.push_back(place.cell);
+  }
   if (state.potential.size() > 0) {
     facets_ = places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.topology.facets));
   }
@@ -62,7 +65,7 @@ Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
   transfer.cells_.resize(mesh.num_cells());
   if (state.potential.size() > 0) transfer.facets_.resize(topology.num_facets());
   for (Index s = 0; s < mesh.num_cells(); ++s) {
-    transfer.cells_[s] = {s, Coordinates::Constant(1.0 / (Dim + 1))};
+    transfer.cells_[s] = s;
     for (int k = 0; k <= Dim; ++k) {
       transfer.vertices_[mesh.cells(k, s)] = {s, Coordinates::Unit(k)};
       if (transfer.facets_.empty()) continue;
@@ -82,9 +85,14 @@ WeightMatrix Transfer<Dim>::weights() const {
 }
 
 template <int Dim>
+Eigen::VectorXd Transfer<Dim>::weights_at(Index vertex) const {
+  return interpolate(coarse_.mesh, state_.weights, vertices_[vertex]);
+}
+
+template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cell) const {
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
-      state_.flux_density.template middleCols<Dim>(Dim * cells_[cell].cell);
+      state_.flux_density.template middleCols<Dim>(Dim * cells_[cell]);
   const Eigen::ArrayXd length =
       density.rowwise().norm().array().max(std::numeric_limits<double>::min());
   density.array().colwise() *= (fine_.phi.col(cell).array() / length).min(1);
@@ -98,17 +106,25 @@ WeightMatrix Transfer<Dim>::vertex_dual(double penalty) const {
 }
 
 template <int Dim>
+VectorsAt<1> Transfer<Dim>::vertex_dual_at(double penalty) const {
+  if (state_.vertex_dual.size() == 0) return {};
+  return [this, factor = this->penalty() / penalty](Index vertex) -> Eigen::VectorXd {
+    return factor * interpolate(coarse_.mesh, state_.vertex_dual, vertices_[vertex]);
+  };
+}
+
+template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::facet_multiplier(Index facet) const {
   return flbc::facet_multiplier<Dim>(
       fine_, facet, enlargement_ * evaluate_potential(coarse_, state_.potential, facets_[facet]));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                             \
-  template double enlargement(const LbcProblem<Dim>&, const LbcProblem<Dim>&);            \
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template double enlargement(const LbcProblem<Dim>&, const LbcProblem<Dim>&);             \
   template PointList<Dim> points_in_coarse(const LbcProblem<Dim>&, const LbcProblem<Dim>&, \
-                                           const PointList<Dim>&);                        \
-  template std::vector<Location<Dim>> places_in_coarse(                                   \
-      const LbcProblem<Dim>&, const LbcProblem<Dim>&, const PointList<Dim>&);             \
+                                           const PointList<Dim>&);                         \
+  template std::vector<Location<Dim>> places_in_coarse(                                    \
+      const LbcProblem<Dim>&, const LbcProblem<Dim>&, const PointList<Dim>&);              \
   template class Transfer<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

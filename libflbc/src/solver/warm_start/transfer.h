@@ -50,11 +50,17 @@ class Transfer {
   //! Interpolated, but exact on the boundary, n x V.
   WeightMatrix weights() const;
 
+  //! The same at one interior vertex, n numbers.
+  Eigen::VectorXd weights_at(Index vertex) const;
+
   //! In a fine cell: that of the coarse cell which contains its middle, no longer than phi. n x Dim
   Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 
   //! Interpolated, n x V; empty if the coarse one is. \param penalty  of the fine iteration
   WeightMatrix vertex_dual(double penalty) const;
+
+  //! The same on demand, one vertex at a time; null if the coarse one is empty.
+  VectorsAt<1> vertex_dual_at(double penalty) const;
 
   //! mu u on a fine facet's first side, n x Dim.
   Eigen::Matrix<double, Eigen::Dynamic, Dim> facet_multiplier(Index facet) const;
@@ -72,7 +78,7 @@ class Transfer {
   const LbcProblem<Dim>& fine_;
   double enlargement_;
   std::vector<Location<Dim>> vertices_;
-  std::vector<Location<Dim>> cells_;
+  std::vector<Index> cells_;           // the coarse ones that contain the middles of the fine ones
   std::vector<Location<Dim>> facets_;  // empty without potential
 };
 

@@ -53,8 +53,8 @@ struct MeshSolveReport : SolveReport {
 
 namespace internal {
 
-//! How far, relative to the cage's size, a boundary vertex may be beside it: OpenMesh's text formats
-//! and its default points keep single precision.
+//! How far, relative to the cage's size, a boundary vertex may be beside it: OpenMesh's text
+//! formats and its default points keep single precision.
 constexpr double kSinglePrecision = 1e-6;
 
 //! phi as it stands on the mesh. \return n x F; empty if there is no such property
@@ -69,7 +69,7 @@ Eigen::MatrixXd phi_of(const Mesh& mesh, const std::string& name, Index control_
 }
 
 template <class Mesh>
-void leave_phi(Mesh& mesh, const Eigen::MatrixXd& phi, const PropertyOptions& properties) {
+void leave_phi(Mesh& mesh, const WeightFunctions& phi, const PropertyOptions& properties) {
   if (properties.phi.empty()) return;
   typename PropertyHandles<Mesh>::template Cell<Wide<double>> handle;
   if (!mesh.get_property_handle(handle, properties.phi)) {
@@ -142,9 +142,9 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
   snap_to_cage(cage, domain.topology, internal::kSinglePrecision, domain.mesh);
   auto problem = make_problem(cage, std::move(domain.mesh), std::move(domain.topology),
                               phi.size() > 0 ? DistanceScheme::kConstant : options.phi);
-  if (phi.size() > 0) problem.phi = std::move(phi);
+  if (phi.size() > 0) problem.phi = WeightFunctions(std::move(phi));
   internal::leave_phi(mesh, problem.phi, properties);
-  if (!properties.phi.empty()) record.phi = content_hash(problem.phi).text();
+  if (!properties.phi.empty()) record.phi = content_hash(problem.phi.dense()).text();
 
   // Until it is through, what is on the mesh is no state to go on from.
   mesh.property(handle) = to_json(record);
