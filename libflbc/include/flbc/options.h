@@ -141,7 +141,8 @@ struct SolverOptions {
   //! kGradient and kPaper; refused for the others.
   bool certify = false;
 
-  //! Number of threads, at most 1024; 0 = as many as OpenMP offers. Read by all methods.
+  //! Number of threads, at most 1024; 0 = as many as OpenMP offers, but one where n V is below
+  //! 100,000. Read by all methods.
   int threads = 0;
 
   //! Called whenever residuals are evaluated; returning false stops the run. Read by kValue,

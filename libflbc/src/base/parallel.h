@@ -12,6 +12,15 @@
 
 namespace flbc {
 
+//! How many threads share so many numbers, which an iteration passes over a few times. Threads that
+//! wait for each other every few microseconds gain little, and lose much where other programs keep
+//! the cores busy. \param wanted  by the user; 0 = by this rule
+inline int threads_for(int wanted, Index rows, Index columns) {
+  constexpr double kFewest = 1e5;
+  if (wanted > 0) return wanted;
+  return static_cast<double>(rows) * columns < kFewest ? 1 : 0;
+}
+
 //! Sets the number of threads for parallel regions entered by this thread, until it goes out of
 //! scope.
 class ThreadScope {

@@ -93,7 +93,7 @@ class EditableCoordinates<Dim>::State {
  public:
   State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
       : options_(resolve(options)) {
-    const ThreadScope threads(options_.threads);
+    const ThreadScope threads(threads_for(options_.threads, cage.size(), mesh.num_vertices()));
     normalize_and_validate(mesh);
     Stopwatch watch;
     auto problem = make_problem(cage, mesh, options_.phi);
@@ -106,7 +106,7 @@ class EditableCoordinates<Dim>::State {
   }
 
   void move(const PointList<Dim>& control_points, const EditBudget& budget) {
-    const ThreadScope threads(options_.threads);
+    const ThreadScope threads(num_threads());
     Stopwatch watch;
     Deadline deadline(budget.seconds);
     auto shape = moved(control_points);
@@ -120,7 +120,7 @@ class EditableCoordinates<Dim>::State {
   }
 
   void refine(const EditBudget& budget) {
-    const ThreadScope threads(options_.threads);
+    const ThreadScope threads(num_threads());
     Deadline deadline(budget.seconds);
     // After a solve that failed the kept state is of no use.
     const auto transfer =
@@ -136,6 +136,11 @@ class EditableCoordinates<Dim>::State {
   const Shape& present() const { return present_; }
 
  private:
+  int num_threads() const {
+    return threads_for(options_.threads, present_.problem.num_control_points(),
+                       present_.mesh.num_vertices());
+  }
+
   // The mesh where the control points take it, not solved yet.
   Shape moved(const PointList<Dim>& control_points) const {
     require_points_for(present_.cage, control_points);

@@ -51,7 +51,8 @@ template <int Dim>
 Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
                      const CoarseMesher<Dim>& mesher, StateStorage* storage) {
   const auto options = resolve(user_options);
-  const ThreadScope threads(options.threads);
+  const ThreadScope threads(
+      threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices()));
   std::vector<CoarseProblem<Dim>> coarse;
   if (!resumes(storage)) {
     const auto sizes = start_sizes(problem, mesher, options);
@@ -88,7 +89,7 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
   require_valid_set_up(options, bool(mesher));
-  const ThreadScope threads(options.threads);
+  const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
   auto ready = set_up(cage, mesh, resolved, mesher);
   auto solution = solve_from(ready.problem, std::move(ready.coarse), resolved, nullptr);
@@ -102,7 +103,7 @@ class LbcSolver<Dim>::State {
   State(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
         const CoarseMesher<Dim>& mesher)
       : options_(options), mesher_(mesher) {
-    const ThreadScope threads(options.threads);
+    const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
     ready_ = set_up(cage, mesh, resolve(options), mesher);
   }
 
@@ -141,7 +142,8 @@ class LbcSolver<Dim>::State {
   void complete() {
     auto& problem = ready_.problem;
     if (problem.phi.size() > 0 || !minimises(resolve(options_).method)) return;
-    const ThreadScope threads(options_.threads);
+    const ThreadScope threads(
+        threads_for(options_.threads, problem.num_control_points(), problem.mesh.num_vertices()));
     Stopwatch watch;
     problem.phi = {options_.phi, distances_for(options_.phi, problem), problem.mesh,
                    problem.num_control_points()};
@@ -152,7 +154,9 @@ class LbcSolver<Dim>::State {
   Solution solve_next() {
     auto coarse = std::exchange(ready_.coarse, {});
     if (coarse.empty()) return solve_valid(ready_.problem, options_, mesher_, &kept_);
-    const ThreadScope threads(options_.threads);
+    const ThreadScope threads(threads_for(options_.threads,
+                                          ready_.problem.num_control_points(),
+                                          ready_.problem.mesh.num_vertices()));
     return solve_from(ready_.problem, std::move(coarse), resolve(options_), &kept_);
   }
 
