@@ -124,7 +124,7 @@ void add_cage_command(CLI::App& app, int&) {
       ->add_option("--symmetric", a.options.symmetry,
                    "the cage is its own mirror image across the model's middle; auto: where the "
                    "model is (auto)")
-      ->transform(CLI::CheckedTransformer(symmetries))
+      ->transform(CLI::CheckedTransformer(symmetries).description(""))
       ->type_name("none|x|y|z|auto")
       ->needs(model);
   command->add_option("--repair", a.defective,
