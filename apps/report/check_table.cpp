@@ -89,7 +89,10 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
       << (report.intersections_checked ? "" : " (self-intersections were not looked for)") << '\n';
   print_fact(out, "control points", std::to_string(cage.size()));
   print_fact(out, Dim == 2 ? "edges" : "triangles", std::to_string(cage.facets.cols()));
-  print_fact(out, Dim == 2 ? "outer loops" : "outer shells", std::to_string(facts.parts));
+  print_fact(out, Dim == 2 ? "outer loops" : "outer shells",
+             std::to_string(facts.parts) +
+                 (facts.parts > 1 ? ": not connected; give each part a file of its own to solve it"
+                                  : ""));
   print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
   print_fact(out, "bounding box",
              "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +

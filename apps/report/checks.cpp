@@ -17,7 +17,6 @@ CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file) {
     report.intersections_checked = true;
   }
 #endif
-  if (report.defects.empty()) report.defects = find_separate_parts(cage);
   if (report.defects.empty()) {
     report.facts = measure_cage(cage);
     report.thinnest = thinnest_place(cage);
