@@ -232,7 +232,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
           "--precision single", "--max-iterations 9", "--distances exact",
-          "--coarse-to-fine off"}) {
+          "--coarse-to-fine off", "--linear-solver direct"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_failure(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not read it");
