@@ -112,11 +112,15 @@ template <int Dim>
 WeightMatrix make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
                          const WeightMatrix& weights, const std::vector<PointList<Dim>>& poses,
                          const SparsifyArguments& arguments) {
+  const std::string stage = "reducing influences";
+  ProgressBar bar(arguments.quiet, stage);
+  auto options = arguments.options;
+  options.progress = [&](double done) { bar.show(stage, done); };
   if (arguments.method == kPoisson) {
     return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
-                                  arguments.options);
+                                  options);
   }
-  return sparsify<Dim>(control_points, model.points, weights, arguments.options);
+  return sparsify<Dim>(control_points, model.points, weights, options);
 }
 
 template <int Dim>
@@ -132,7 +136,6 @@ int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) 
   const auto poses = load_poses<Dim>(arguments, cage.points.cols());
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    const ProgressBar bar(arguments.quiet, "reducing influences");
     return make_sparse<Dim>(cage.points, model, before, poses, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -147,8 +150,11 @@ int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) 
   }
   report["before"] = weights_json(arguments.weights, size_of_file(arguments.weights), before,
                                   cage.points, model.points);
-  report["error"] = errors_json<Dim>(
-      {cage.points, model.points, model.edges, before, after, poses, arguments.poses});
+  {
+    const ProgressBar bar(arguments.quiet, "measuring the errors");
+    report["error"] = errors_json<Dim>(
+        {cage.points, model.points, model.edges, before, after, poses, arguments.poses});
+  }
   report["version"] = FLBC_VERSION;
   {
     const HeldSignals held;

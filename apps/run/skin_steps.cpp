@@ -39,8 +39,10 @@ bool uses_poisson(const Run<Dim>& run) {
 
 template <int Dim>
 WeightMatrix reduce(const Run<Dim>& run, const std::vector<PointList<Dim>>& poses) {
-  const ProgressBar bar(run.arguments.quiet, "reducing influences");
-  const SparsifyOptions options{run.arguments.max_influences};
+  const std::string stage = "reducing influences";
+  ProgressBar bar(run.arguments.quiet, stage);
+  SparsifyOptions options{run.arguments.max_influences};
+  options.progress = [&](double done) { bar.show(stage, done); };
   const auto& shape = run.shape();
   if (!uses_poisson(run)) {
     return sparsify<Dim>(run.cage.points, shape.points, run.dense, options);

@@ -16,7 +16,7 @@ void add_options(std::ostream& key, const SolverOptions& options) {
   [[maybe_unused]] const auto& [method, phi, distances, precision, recovery, non_negative,
                                 linear_solver, coarse_to_fine, coarse_levels, tolerance, gap,
                                 max_iterations, penalty, relaxation, check_interval, certify,
-                                threads, progress] = options;
+                                threads, progress, stage_progress] = options;
   const auto& [coarsest, factor, looseness] = coarse_levels;
   key << "method " << name_of(method) << '\n'
       << "phi " << name_of(phi) << '\n'

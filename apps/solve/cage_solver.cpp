@@ -114,7 +114,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   if (!is_cached_) {
     std::string note;
     if (!has_domain) {
-      const ProgressBar bar(quiet, "meshing the cage");
+      const ProgressBar bar(quiet, meshing_stage(Dim, settings_.meshing.timeout));
       auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
                                          settings_.meshing, settings_.embed ? settings_.model : "",
                                          embedded_.points});
@@ -144,6 +144,9 @@ void CageSolver<Dim>::solve(bool quiet) {
       bar.show(progress);
       if (settings_.history) recorder.note(progress);
       return true;
+    };
+    options.stage_progress = [&](Stage stage, double done) {
+      bar.show(stage == Stage::kDistances ? "measuring distances" : "proving the gap", done);
     };
     solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
       return solve_domain(cage_, solved_.domain, options, settings_.penalty, solved_.mesher);

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <sstream>
 #include <utility>
 
 namespace flbc::app {
@@ -14,6 +15,13 @@ void write_to_terminal(const std::string& text) {
 }
 
 }  // namespace
+
+std::string meshing_stage(int dim, double limit) {
+  if (dim == 2) return "meshing the cage";
+  std::ostringstream text;
+  text << "meshing the cage (at most " << limit << " s a run)";
+  return text.str();
+}
 
 ProgressBar::ProgressBar(bool quiet, std::string stage, const SolverOptions& options)
     : stage_(std::move(stage)), estimate_(options) {
@@ -36,6 +44,13 @@ void ProgressBar::show(const Progress& progress) {
   if (!drawer_.joinable()) return;
   const std::lock_guard lock(mutex_);
   estimate_.update(progress, std::chrono::duration<double>(Clock::now() - start_).count());
+}
+
+void ProgressBar::show(const std::string& stage, double done) {
+  if (!drawer_.joinable()) return;
+  const std::lock_guard lock(mutex_);
+  estimate_.update_stage(stage, done,
+                         std::chrono::duration<double>(Clock::now() - start_).count());
 }
 
 void ProgressBar::draw_until_ended() {

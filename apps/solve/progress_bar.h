@@ -15,6 +15,10 @@
 
 namespace flbc::app {
 
+//! The stage of meshing, which tells no more than how long it may take.
+//! \param limit  seconds of a run of TetGen, which meshes in 3D
+std::string meshing_stage(int dim, double limit);
+
 //! Draws only if standard error is a terminal and `quiet` is false, and only what takes longer than
 //! a second; removes its line when destroyed. A thread of its own keeps the line alive where
 //! nothing tells of progress.
@@ -28,6 +32,9 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
+
+  //! Of a stage besides the iteration. \param done  the part of it, in [0, 1]
+  void show(const std::string& stage, double done);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -23,6 +23,17 @@ std::string number(double value) {
   return text;
 }
 
+// "[########............] 40 %, 8 s left". \param seconds  that the part done took
+std::string bar(double done, double seconds) {
+  constexpr int kWidth = 20;
+  const int filled = std::min(kWidth, static_cast<int>(done * kWidth));
+  std::string text = "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] " +
+                     std::to_string(static_cast<int>(100 * done)) + " %";
+  constexpr double kEnough = 0.03;
+  if (done > kEnough && seconds > 0) text += ", " + duration(seconds / done * (1 - done)) + " left";
+  return text;
+}
+
 // The part of all work that the meshes before this one make up: each has about a third of the
 // unknowns of the next.
 double share_before(int finer_levels, int levels) {
@@ -44,6 +55,7 @@ ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
 }
 
 void ProgressEstimate::update(const Progress& progress, double seconds) {
+  stage_.clear();
   const double excess = std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
   const bool is_new = !started_ || progress.finer_levels != last_.finer_levels;
   if (is_new) first_excess_ = std::max(excess, 1e-9);
@@ -63,21 +75,28 @@ void ProgressEstimate::update(const Progress& progress, double seconds) {
   done_ = std::max(done_, done);
 }
 
+void ProgressEstimate::update_stage(const std::string& name, double done, double seconds) {
+  if (name != stage_) {
+    stage_ = name;
+    stage_begin_ = seconds;
+    stage_done_ = 0;
+  }
+  stage_done_ = std::max(stage_done_, std::clamp(done, 0.0, 1.0));
+}
+
+std::string ProgressEstimate::stage_line(double seconds) const {
+  if (stage_done_ == 1) return (stage_ + ", " + duration(seconds)).substr(0, kColumns);
+  return (stage_ + " " + bar(stage_done_, seconds - stage_begin_)).substr(0, kColumns);
+}
+
 std::string ProgressEstimate::line(const std::string& stage, double seconds) const {
+  if (!stage_.empty()) return stage_line(seconds);
   if (!started_) return (stage + ", " + duration(seconds)).substr(0, kColumns);
   // No callback tells of the end: projection and certificate follow.
   if (seconds - last_seconds_ > 1 + 4 * interval_) {
     return "finishing (non-negative weights, certificate, quality), " + duration(seconds);
   }
-  constexpr int kWidth = 20;
-  const int filled = std::min(kWidth, static_cast<int>(done_ * kWidth));
-  const double iterating = last_seconds_ - first_seconds_;
-  std::string text = "solving [" + std::string(filled, '#') + std::string(kWidth - filled, '.') +
-                     "] " + std::to_string(static_cast<int>(100 * done_)) + " %";
-  constexpr double kEnough = 0.03;
-  if (done_ > kEnough && iterating > 0) {
-    text += ", " + duration(iterating / done_ * (1 - done_)) + " left";
-  }
+  std::string text = "solving " + bar(done_, last_seconds_ - first_seconds_);
   text += ", iteration " + std::to_string(last_.iteration);
   const double residual = std::max(last_.primal_residual, last_.dual_residual);
   text += tolerance_ > 0 ? ", error " + number(last_.primal_residual * tolerance_)

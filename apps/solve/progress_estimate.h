@@ -19,15 +19,20 @@ class ProgressEstimate {
   //! \param seconds  since the start
   void update(const Progress& progress, double seconds);
 
+  //! The same of a stage besides the iteration. \param name  for the line \param done  in [0, 1]
+  void update_stage(const std::string& name, double done, double seconds);
+
   //! The part of the way that is done, in [0, 1].
   double done() const { return done_; }
 
   //! A line of at most 79 characters, ASCII only: the stage until the first update, then a bar,
-  //! the time left, and the estimated error or the residual.
+  //! the time left and, of an iteration, the estimated error or the residual.
   //! \param seconds  since the start
   std::string line(const std::string& stage, double seconds) const;
 
  private:
+  std::string stage_line(double seconds) const;
+
   double tolerance_ = 0;  // of the estimated error; 0 for methods without one
   bool started_ = false;
   Progress last_{};
@@ -37,6 +42,9 @@ class ProgressEstimate {
   double first_seconds_ = 0;  // when the iteration began
   double last_seconds_ = 0;   // at the last update
   double interval_ = 0;       // the longest between two updates
+  std::string stage_{};       // the one besides the iteration that goes on
+  double stage_begin_ = 0;    // in seconds
+  double stage_done_ = 0;
 };
 
 }  // namespace flbc::app

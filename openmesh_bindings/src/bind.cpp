@@ -29,20 +29,6 @@ DomainMesh<Dim> make_interior(const BindInput<Dim>& input, const BindOptions& op
   }
 }
 
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher(const Mesher<Dim>& mesher) {
-  if (!mesher) return {};
-  // A mesher that fails on so few vertices must not keep the solve waiting.
-  constexpr double kTimeLimit = 60;
-  return [&mesher](const Cage<Dim>& cage, Index vertices) {
-    MeshingOptions<Dim> meshing;
-    meshing.vertices = vertices;
-    meshing.roughly = true;
-    meshing.time_limit = kTimeLimit;
-    return mesher(cage, meshing);
-  };
-}
-
 //! The points as their weights are to place them: those outside are on the cage.
 template <int Dim>
 struct Evaluation {

@@ -37,6 +37,20 @@ TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
   }
 }
 
+TEST(ProgressEstimate, StagesTellTheTimeThatIsLeft) {
+  ProgressEstimate estimate(SolverOptions{});
+  estimate.update_stage("measuring distances", 0, 10);
+  estimate.update_stage("measuring distances", 0.25, 13);
+  EXPECT_EQ(estimate.line("setting up", 13),
+            "measuring distances [#####...............] 25 %, 9 s left");
+  estimate.update_stage("measuring distances", 0.2, 14);  // nothing is taken back
+  EXPECT_NE(estimate.line("setting up", 14).find("25 %"), std::string::npos);
+  estimate.update({1, 100, 0, 0, {}}, 20);
+  EXPECT_EQ(estimate.line("", 20).substr(0, 7), "solving");
+  estimate.update_stage("proving the gap", 0.5, 30);
+  EXPECT_EQ(estimate.line("", 32), "proving the gap [##########..........] 50 %, 2 s left");
+}
+
 TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
   ProgressEstimate estimate(SolverOptions{});
   for (int k = 0; k <= 50; ++k) {

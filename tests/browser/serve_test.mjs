@@ -96,11 +96,22 @@ function statusOf(address, headers, method = "GET") {
   });
 }
 
+// What is compressed for a page on the same machine takes longer than all the rest.
+function encodingOf(address) {
+  return new Promise((done, fail) => {
+    request(address, { headers: { "Accept-Encoding": "gzip, br" } }, (reply) => {
+      reply.resume();
+      done(reply.headers["content-encoding"]);
+    }).on("error", fail).end();
+  });
+}
+
 async function testRefusals(served) {
   const url = new URL(served.address);
   assert.equal(url.hostname, "127.0.0.1");
   assert.match(url.pathname, /^\/[0-9a-f]{32}\/$/);
   assert.equal(await statusOf(served.address, {}), 200);
+  assert.equal(await encodingOf(served.address), undefined);
   assert.equal(await statusOf(served.address, { Host: "evil.example" }), 403);
   assert.equal(await statusOf(served.address, { Host: `evil.example:${url.port}` }), 403);
   assert.equal(await statusOf(`${served.address}reshape`, { Origin: "http://evil.example" }, "POST"), 403);
@@ -170,6 +181,39 @@ async function testReshaping(folder, name, dim) {
   assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
 }
 
+// Cancelled while it is solved, a new shape leaves no trace.
+async function testCancel() {
+  const cage = join(meshes, "3d", "limb_cage.obj");
+  const model = join(meshes, "3d", "limb_model.obj");
+  const served = await Served.start([cage, model, "--vertices", "6000"]);
+  await served.open();
+  const rest = vertices(readFileSync(model, "utf8"), 3);
+  const size = Math.max(...rest) - Math.min(...rest);
+  const i = await grabbable(served, vertices(readFileSync(cage, "utf8"), 3).length / 3);
+  const kept = await served.ask("controlPoint", i);
+  const step = 0.1 * size;
+  const posed = async () => {
+    await served.ask("move", i, kept.map((value) => value + step));
+    const points = await served.points();
+    await served.ask("undo");
+    return points;
+  };
+  const before = await posed();
+
+  await served.tab.click("#reshape");
+  await served.drag(i, 40, -30, 1);
+  assert.ok((await served.ask("reshapes")).isBusy, "there is nothing to cancel");
+  await served.tab.click("#stop");
+  await served.idle();
+  assert.deepEqual(await served.ask("controlPoint", i), kept);
+  assert.ok(largestDifference(await served.points(), rest) < 1e-5 * size, "the model moved");
+  await served.tab.click("#reshape");
+  assert.ok(largestDifference(await posed(), before) < 0.02 * step, "weights of another shape");
+  assert.deepEqual(served.failures, []);
+  await served.tab.close();
+  assert.equal(await served.ended, 0);
+}
+
 async function testInterrupt() {
   const served = await Served.start([join(meshes, "2d", "letter_cage.obj"), "--vertices", "300"]);
   served.process.kill("SIGINT");
@@ -211,6 +255,7 @@ try {
     await testInterrupt();
     await testReshaping("2d", "figure", 2);
     await testReshaping("3d", "limb", 3);
+    await testCancel();
     console.log("resting cages are reshaped");
   }
 } finally {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/solver.h"
 
+#include <algorithm>
+#include <map>
+#include <thread>
 #include <type_traits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -178,6 +182,32 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.iterations, 30);
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
+}
+
+TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 6, 0.2);
+  SolverOptions options;
+  options.certify = true;
+  const auto without = solve(sample.cage, sample.mesh, options).weights;
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    std::map<Stage, std::vector<double>> told;
+    const auto caller = std::this_thread::get_id();
+    options.stage_progress = [&](Stage stage, double done) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      told[stage].push_back(done);
+    };
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, without);
+    for (const auto stage : {Stage::kDistances, Stage::kCertificate}) {
+      const auto& parts = told[stage];
+      ASSERT_FALSE(parts.empty());
+      EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+      EXPECT_GT(parts.front(), 0);
+      EXPECT_LE(parts.back(), 1);
+      if (threads == 1) EXPECT_EQ(parts.back(), 1);
+    }
+  }
 }
 
 // Numbers out of the range of single or double precision must not pass for a result.

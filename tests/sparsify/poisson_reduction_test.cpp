@@ -226,6 +226,22 @@ TYPED_TEST(PoissonReductionTest, TheThreadsDoNotMatter) {
   EXPECT_TRUE(bit_equal(on_threads(5), alone));
 }
 
+TYPED_TEST(PoissonReductionTest, TellsHowFarItIs) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(26);
+  const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 20, -1, 1), 500, 0.1);
+  std::vector<double> told;
+  auto options = at_most(Dim + 2);
+  options.progress = [&](double done) { told.push_back(done); };
+  const ThreadScope scope(1);
+  EXPECT_EQ(problem.reduce(options), problem.reduce(at_most(Dim + 2)));
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LT(told.front(), 0.01);
+  EXPECT_GT(told.back(), 0.7);
+  EXPECT_LE(told.back(), 1);
+}
+
 TYPED_TEST(PoissonReductionTest, RefusesWhatCannotBe) {
   constexpr int Dim = TypeParam::value;
   Numbers numbers(27);

@@ -249,6 +249,27 @@ TYPED_TEST(SparsifyTest, TheThreadsDoNotMatter) {
   EXPECT_EQ(on_threads(1), on_threads(2));
 }
 
+TYPED_TEST(SparsifyTest, TellsHowFarItIs) {
+  constexpr int Dim = TypeParam::value;
+  Numbers numbers(12);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
+  const auto points = points_of<Dim>(control_points, 400);
+  const WeightMatrix weights = numbers.matrix(25, 400, -0.1, 0.2);
+  const auto expected = sparsify<Dim>(control_points, points, weights, at_most(5));
+  for (const int threads : {1, 2}) {
+    const ThreadScope scope(threads);
+    std::vector<double> told;
+    auto options = at_most(5);
+    options.progress = [&](double done) { told.push_back(done); };
+    EXPECT_EQ(sparsify<Dim>(control_points, points, weights, options), expected);
+    ASSERT_FALSE(told.empty());
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_GT(told.front(), 0);
+    EXPECT_LE(told.back(), 1);
+    if (threads == 1) EXPECT_EQ(told.back(), 1);
+  }
+}
+
 TYPED_TEST(SparsifyTest, RefusesWhatCannotBe) {
   constexpr int Dim = TypeParam::value;
   Numbers numbers(13);

@@ -66,6 +66,12 @@ struct Progress {
   std::function<double()> objective{};
 };
 
+//! What may take long in a solve besides the iteration.
+enum class Stage {
+  kDistances,   //!< those behind phi
+  kCertificate  //!< the lower bound at the end
+};
+
 //! Options of solve(). The defaults suit every cage. Where a method does not read a field, its
 //! value changes nothing.
 struct SolverOptions {
@@ -148,6 +154,11 @@ struct SolverOptions {
   //! Called whenever residuals are evaluated; returning false stops the run. Read by kValue,
   //! kLbc2014, kGradient and kPaper.
   std::function<bool(const Progress&)> progress{};
+
+  //! Called by the calling thread now and then during such a stage, with the part of it in [0, 1]
+  //! that is done. Must not throw. Read by all methods that have the stage; distances tell where
+  //! solve() sets the problem up.
+  std::function<void(Stage stage, double done)> stage_progress{};
 };
 
 //! Refuses impossible options. solve() and the classes that solve do this themselves, before

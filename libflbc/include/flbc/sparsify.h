@@ -3,6 +3,7 @@
 //! Few influences per point: weights for engines that read at most K of them, and small files.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "flbc/types.h"
@@ -16,6 +17,8 @@ struct SparsifyOptions {
   //! In [0, 1). Weights below it are dropped first, as far as the rest still reproduces the point.
   //! The weights that remain are moved for that and may come to lie below it.
   double threshold = 0;
+  //! Called by the calling thread now and then with the part in [0, 1] that is done; must not throw.
+  std::function<void(double done)> progress{};
 };
 
 //! Checks options.

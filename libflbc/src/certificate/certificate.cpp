@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/shape_checks.h"
+#include "base/stage_progress.h"
 #include "certificate/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
@@ -162,6 +163,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
                    const WeightMatrix& weights) {
   check_flux_and_weights(problem, flux, weights);
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
+  LoopProgress progress(problem.mesh.num_vertices());
   // In long double, so that the sum over vertices has next to no error.
   const auto sum = parallel_sum(
       problem.mesh.num_vertices(), LongRounded{}, [&](Index begin, Index end) {
@@ -178,6 +180,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
           start = weights.col(v);
           block.add(program.lower_bound(problem.mesh.points.col(v), costs, start));
         }
+        progress.add(end - begin);
         return block;
       });
   const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()));

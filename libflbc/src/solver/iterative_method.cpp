@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
@@ -132,6 +133,7 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
   }
   report.seconds.recover += watch.lap();
   if (options.certify || report.criterion == Criterion::kGap) {
+    const StageScope scope(told_of(options, Stage::kCertificate));
     report.certificate = certify(problem, result);
   }
   report.seconds.certify = watch.lap();

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "base/stage_progress.h"
 #include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
@@ -96,6 +97,12 @@ SolverOptions with_objective(const LbcProblem<Dim>& problem, SolverOptions optio
 //! Penalties and relaxations without measure take the numbers out of their range, which must never
 //! pass for a result. \throws SolverError unless `finite`
 void require_finite(bool finite, const SolveReport& report);
+
+//! The callback of a stage, for its loops.
+inline TellPart told_of(const SolverOptions& options, Stage stage) {
+  if (!options.stage_progress) return {};
+  return [stage, tell = options.stage_progress](double done) { tell(stage, done); };
+}
 
 //! Ends the run or tells the caller, after an evaluation of the residuals that `report` holds.
 //! Sets status and criterion. \return whether to stop

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/messages.h"
+#include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "projection/nearest_point_in_hull.h"
@@ -131,6 +132,12 @@ class PointSparsifier {
   SupportProjection<Dim> projection_;
 };
 
+// Within reduce_by_poisson() its own callback is told.
+TellPart told_of(const SparsifyOptions& options) {
+  if (options.progress || !StageScope::present()) return options.progress;
+  return *StageScope::present();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -151,15 +158,18 @@ template <int Dim>
 WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
                       const WeightMatrix& weights, const SparsifyOptions& options) {
   validate<Dim>(options);
+  const StageScope scope(told_of(options));
   WeightMatrix sparse = weights;
   project_non_negative(control_points, points, sparse);  // checks the input, too
   const PointSparsifier<Dim> sparsifier(control_points, options);
+  LoopProgress progress(static_cast<Index>(points.cols()));
 #pragma omp parallel if (points.cols() >= 256)
   {
     typename PointSparsifier<Dim>::Workspace work(control_points);
 #pragma omp for schedule(dynamic, 64)
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
       sparse.col(v) = sparsifier.sparsify(points.col(v), weights.col(v), sparse.col(v), work);
+      progress.add(1);
     }
   }
   return sparse;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/stage_progress.h"
 #include "flbc/geodesic_distances.h"
 #include "problem/geodesic/bucket_queue.h"
 #include "problem/geodesic/cell_tasks.h"
@@ -223,6 +224,7 @@ Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolo
   const EikonalMesh<Dim> eikonal(mesh, topology);
   const auto num_sources = static_cast<Index>(sources.size());
   Eigen::MatrixXd distances(num_sources, mesh.num_vertices());
+  LoopProgress progress(num_sources);
 #pragma omp parallel
   {
     March<Dim> march(eikonal);
@@ -230,6 +232,7 @@ Eigen::MatrixXd geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolo
     for (Index i = 0; i < num_sources; ++i) {
       const auto& arrivals = march.run(sources[i]);
       for (Index v = 0; v < mesh.num_vertices(); ++v) distances(i, v) = arrivals[v].distance;
+      progress.add(1);
     }
   }
   return distances;

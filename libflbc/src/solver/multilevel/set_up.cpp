@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "mesh/cell_walk.h"
 #include "problem/geodesic/interpolated_distances.h"
@@ -140,6 +141,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
     sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
   }
   result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
+  const StageScope scope(told_of(options, Stage::kDistances));
   auto distances = interpolates && !result.coarse.empty() ? choose_distances(result, options)
                                                           : distances_for(options.phi, problem);
   problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};

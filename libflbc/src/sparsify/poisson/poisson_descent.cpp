@@ -2,7 +2,10 @@
 #include "sparsify/poisson/poisson_descent.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "base/stage_progress.h"
 
 namespace flbc {
 namespace {
@@ -93,7 +96,10 @@ void PoissonDescent<Dim>::start(const WeightMatrix& weights) {
 
 template <int Dim>
 void PoissonDescent<Dim>::run(int sweeps, double least_gain) {
+  // Each sweep leaves about so much work to the next.
+  constexpr double kFall = 0.6;
   for (int k = 0; k < sweeps; ++k) {
+    const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
     if (!sweep(least_gain)) return;
   }
 }
@@ -103,6 +109,7 @@ void PoissonDescent<Dim>::run(int sweeps, double least_gain) {
 template <int Dim>
 bool PoissonDescent<Dim>::sweep(double least_gain) {
   Index changes = 0;
+  LoopProgress progress(static_cast<Index>(points_.cols()));
 #pragma omp parallel reduction(+ : changes) if (points_.cols() >= 256)
   {
     Workspace work(energy_.metric, control_points_);
@@ -111,6 +118,7 @@ bool PoissonDescent<Dim>::sweep(double least_gain) {
 #pragma omp for schedule(dynamic, 16)
       for (Index k = 0; k < count; ++k) {
         const Index point = color[k];
+        progress.add(1);
         if (!open_[point] || fixed_[point]) continue;
         open_[point] = 0;
         if (!improve(point, least_gain, work)) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/shape_checks.h"
+#include "base/stage_progress.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_descent.h"
 #include "sparsify/poisson/poisson_energy.h"
@@ -62,9 +63,17 @@ template <int Dim>
 WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                const EdgeList& edges, const WeightMatrix& weights,
                                const std::vector<PointList<Dim>>& poses,
-                               const SparsifyOptions& options) {
+                               const SparsifyOptions& user_options) {
   validate(edges, points.cols());
-  const auto plain = sparsify(control_points, points, weights, options);  // checks the input, too
+  // About as long as each of them takes.
+  constexpr double kPlain = 0.15, kStart = 0.3;
+  const StageScope scope(user_options.progress);
+  SparsifyOptions options = user_options;
+  options.progress = {};  // told by the scope
+  const auto plain = [&] {
+    const StagePart part(0, kPlain);
+    return sparsify(control_points, points, weights, options);  // checks the input, too
+  }();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
   if (!(plain_cost > 0)) return plain;
@@ -73,6 +82,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   const SupportProjection<Dim> projection(control_points);
   PoissonDescent<Dim> descent(energy, graph, control_points, points, weights, plain, options);
   const auto descend_from = [&](const WeightMatrix& start) {
+    const StagePart part(kStart, 1);
     descent.start(start);
     descent.run(kSweeps, kLeastGain * plain_cost / static_cast<double>(points.cols()));
     return polished(descent, graph, projection, points, plain);
@@ -80,7 +90,11 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   const auto is_better = [&](const WeightMatrix& result) {
     return evaluate<Dim>(energy, points, edges, weights, result) < plain_cost;
   };
-  auto result = descend_from(with_one_more(control_points, points, weights, options));
+  const auto start = [&] {
+    const StagePart part(kPlain, kStart);
+    return with_one_more(control_points, points, weights, options);
+  }();
+  auto result = descend_from(start);
   if (is_better(result)) return result;
   result = descend_from(plain);
   return is_better(result) ? result : plain;

@@ -4,14 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
-#include "flbc/meshing_options.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
+#include "flbc/openmesh/meshers.h"
 #include "flbc/openmesh/sparsify.h"
 #include "flbc/openmesh/weights.h"
 #include "flbc/options.h"
@@ -49,10 +48,6 @@ struct BindReport {
   Index outside = 0;    //!< number of vertices outside the cage
   double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
 };
-
-//! Makes the mesh of a cage's interior, as triangulate() and tetrahedralize() do.
-template <int Dim>
-using Mesher = std::function<DomainMesh<Dim>(const Cage<Dim>&, const MeshingOptions<Dim>&)>;
 
 namespace internal {
 
@@ -155,12 +150,13 @@ BindReport bind(Model& model, const AnyCage& any_cage, const BindOptions& option
   }
 }
 
-//! The same with a mesh of the interior of one's own, for which no component is needed.
+//! The same with a mesh of the interior of one's own, for which no component is needed; if one is
+//! linked, the solve may start from coarser meshes by it.
 //! \param domain  see normalize_and_validate()
 template <class Model, int Dim>
 BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                 const BindOptions& options = {}) {
-  return internal::bind_to<Dim>(model, cage, &domain, {}, options);
+  return internal::bind_to<Dim>(model, cage, &domain, internal::linked_mesher<Dim>(), options);
 }
 
 //! Puts the vertices back where they were when the model was bound.

@@ -11,6 +11,7 @@
 #include "flbc/content_hash.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/domain.h"
+#include "flbc/openmesh/meshers.h"
 #include "flbc/openmesh/property_storage.h"
 #include "flbc/openmesh/state_record.h"
 #include "flbc/openmesh/state_text.h"
@@ -177,14 +178,17 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
 //! Going on from a state under another penalty, the gradient methods rescale the duals; the others
 //! refuse. Another method, precision or phi begins anew, as the report says. After an exception
 //! from the iteration there is no state any more.
-//! \param mesher  makes coarser meshes to start from (flbc/coarse_to_fine.h); empty for none
+//! \param mesher  makes coarser meshes to start from where that pays (flbc/coarse_to_fine.h); {} for
+//! none. By default that of the component which the program links besides flbc::openmesh, flbc::cgal
+//! in the plane and flbc::tetgen in space, if it does (SolverOptions::coarse_to_fine switches it off)
 //! \throws InputError naming the element if mesh and cage do not belong together, if the mesh has
 //! deleted elements, or if there is a state that belongs to another cage, mesh or penalty;
 //! OptionError, SolverError
 template <class Mesh, int Dim>
 MeshSolveReport solve(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
                       const PropertyOptions& properties = {},
-                      const MesherArgument<Dim>& mesher = {}) {
+                      const MesherArgument<Dim>& mesher =
+                          internal::coarse_mesher(internal::linked_mesher<Dim>())) {
   if constexpr (std::is_same_v<Mesh, TetMesh>) {
     static_assert(Dim == 3, "tetrahedra do not fill a cage in the plane");
     return solve_on<Dim>(mesh, cage, options, properties, mesher);
