@@ -2,9 +2,6 @@
 #include "draw/deformation_picture.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
-#include <vector>
 
 #include "draw/plane_painter.h"
 #include "draw/weight_painter.h"
@@ -30,19 +27,6 @@ Box common_box(const DrawnShape& before, const DrawnShape& after) {
   PointList<2> all(2, 2 * (before.points.cols() + before.control_points.cols()));
   all << before.points, before.control_points, after.points, after.control_points;
   return bounding_box(all);
-}
-
-// The edges that belong to one triangle only: an outline tells a shape where the function is 0.
-std::vector<Segment> outline_of(const PointList<2>& points, const CellList<2>& triangles) {
-  std::map<std::pair<Index, Index>, int> counts;
-  for (const auto& corners : triangles.colwise()) {
-    for (int k = 0; k < 3; ++k) ++counts[std::minmax({corners[k], corners[(k + 1) % 3]})];
-  }
-  std::vector<Segment> outline;
-  for (const auto& [ends, count] : counts) {
-    if (count == 1) outline.push_back({points.col(ends.first), points.col(ends.second)});
-  }
-  return outline;
 }
 
 }  // namespace
@@ -71,12 +55,13 @@ Image draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,
   const PixelMap map(both, layout.frame);
   const double unit = std::max(0.6, pixel_unit(options));
   Canvas canvas = new_canvas(layout.width, layout.height, options);
+  const auto outline = outline_of(triangles);
   const auto paint = [&](const DrawnShape& shape, const Vector<2>& place) {
     const Vector<2> shift = place - content.low;
     const Cage<2> cage{shape.control_points.colwise() + shift, facets};
     const DomainMesh<2> mesh{shape.points.colwise() + shift, triangles};
     check_edges(cage);
-    canvas.draw_segments(outline_of(map(mesh.points), triangles), 2.4 * unit, kInk, 0.8F);
+    paint_outline(canvas, map, mesh.points, outline, unit);
     paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
   };
   paint(before, first);

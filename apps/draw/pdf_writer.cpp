@@ -56,7 +56,14 @@ cairo_status_t render_glyph(cairo_scaled_font_t*, unsigned long glyph, cairo_t* 
   const auto stroked = stroked_glyph(static_cast<char>(glyph));
   use_round_pen(cairo, stroke_width());
   for (const auto& line : stroked.strokes) stroke_line(cairo, line, -1);
+  // With the extents left to Cairo, some readers cut pens off at the top.
+  double left = 0, top = 0, right = 0, bottom = 0;
+  cairo_stroke_extents(cairo, &left, &top, &right, &bottom);
   cairo_stroke(cairo);
+  extents->x_bearing = left;
+  extents->y_bearing = top;
+  extents->width = right - left;
+  extents->height = bottom - top;
   extents->x_advance = stroked.advance;
   return CAIRO_STATUS_SUCCESS;
 }

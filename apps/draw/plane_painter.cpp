@@ -2,6 +2,7 @@
 #include "draw/plane_painter.h"
 
 #include <algorithm>
+#include <map>
 
 #include "draw/weight_painter.h"
 #include "flbc/errors.h"
@@ -17,7 +18,7 @@ double dot_radius(const Cage<2>& cage, const PixelMap& map, double unit) {
   }
   const double average =
       map.scale() * length / static_cast<double>(std::max<Eigen::Index>(1, cage.facets.cols()));
-  return std::clamp(0.2 * average, 1.5 * unit, 6 * unit);
+  return std::clamp(0.12 * average, 1.5 * unit, 6 * unit);
 }
 
 void paint_cage(Canvas& canvas, const Cage<2>& cage, const PixelMap& map, Index control_point,
@@ -34,7 +35,7 @@ void paint_cage(Canvas& canvas, const Cage<2>& cage, const PixelMap& map, Index 
   }
   // Last and largest, so that neighbours never hide it.
   paint_dot(canvas, map(Vector<2>(cage.points.col(control_point))),
-            std::max(1.5 * radius, 6 * unit), kHighlight);
+            std::max(1.5 * radius, 5 * unit), kHighlight);
 }
 
 }  // namespace
@@ -44,6 +45,27 @@ void paint_function(Canvas& canvas, const PixelMap& map, const Cage<2>& cage,
                     const WeightPictureOptions& options, double unit) {
   paint_weight(canvas, map(mesh.points), mesh.cells, values, options);
   paint_cage(canvas, cage, map, control_point, unit);
+}
+
+std::vector<std::pair<Index, Index>> outline_of(const CellList<2>& triangles) {
+  std::map<std::pair<Index, Index>, int> counts;
+  for (const auto& corners : triangles.colwise()) {
+    for (int k = 0; k < 3; ++k) ++counts[std::minmax({corners[k], corners[(k + 1) % 3]})];
+  }
+  std::vector<std::pair<Index, Index>> outline;
+  for (const auto& [ends, count] : counts) {
+    if (count == 1) outline.push_back(ends);
+  }
+  return outline;
+}
+
+void paint_outline(Canvas& canvas, const PixelMap& map, const PointList<2>& points,
+                   const std::vector<std::pair<Index, Index>>& outline, double unit) {
+  std::vector<Segment> segments;
+  for (const auto& [a, b] : outline) {
+    segments.push_back({map(Vector<2>(points.col(a))), map(Vector<2>(points.col(b)))});
+  }
+  canvas.draw_segments(segments, 2.4 * unit, kInk, 0.8F);
 }
 
 void check_edges(const Cage<2>& cage) {

@@ -111,15 +111,20 @@ struct Interval {
   double length() const { return high - low; }
 };
 
-// The range to be covered by slices, on the axis.
-Interval range_of_slices(const Interval& extent, const DomainMesh<3>& mesh,
-                         const Eigen::VectorXd& values, int axis, double at_control_point) {
+// Where the function is not as good as 0, on the axis.
+Interval support_of(const DomainMesh<3>& mesh, const Eigen::VectorXd& values, int axis,
+                    double at_control_point) {
   Interval support{at_control_point, at_control_point};
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     if (values[v] < kSupport) continue;
     support.low = std::min(support.low, mesh.points(axis, v));
     support.high = std::max(support.high, mesh.points(axis, v));
   }
+  return support;
+}
+
+// The range to be covered by slices, on the axis.
+Interval range_of_slices(const Interval& extent, Interval support) {
   // A narrower range would put the slices on top of each other in the picture.
   const double missing = std::max(0.0, 0.5 * extent.length() - support.length()) / 2;
   support = {support.low - missing, support.high + missing};
@@ -166,18 +171,22 @@ std::vector<Plane> choose_planes(const Cage<3>& cage, const DomainMesh<3>& mesh,
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const double at_control_point = cage.points(axis, control_point);
-  const Interval range =
-      range_of_slices({low[axis], high[axis]}, mesh, values, axis, at_control_point);
+  const auto support = support_of(mesh, values, axis, at_control_point);
+  const auto range = range_of_slices({low[axis], high[axis]}, support);
+  // A slice through a tip of the cage would miss the function beside it.
+  const double beside = 0.2 * support.length();
+  const double most_seen =
+      std::clamp(at_control_point, support.low + beside, support.high - beside);
 
   const double spacing = range.length() / count;
   std::vector<Plane> planes;
   for (int k = 0; k < count; ++k) {
-    // Each slice has a place of its own in the range; the one whose place holds the control point
-    // moves to it. At the very end of a cage a slice would be empty, hence the limits.
+    // Each slice has a place of its own in the range; the one in whose place the function is seen
+    // best moves there. At the very end of a cage a slice would be empty, hence the limits.
     const double begin = range.low + k * spacing;
-    const bool nearest = at_control_point >= begin && at_control_point <= begin + spacing;
+    const bool nearest = most_seen >= begin && most_seen <= begin + spacing;
     const double position =
-        nearest ? std::clamp(at_control_point, begin + 0.1 * spacing, begin + 0.9 * spacing)
+        nearest ? std::clamp(most_seen, begin + 0.1 * spacing, begin + 0.9 * spacing)
                 : begin + 0.5 * spacing;
     Vector<3> origin = (low + high) / 2;
     origin[axis] = position;

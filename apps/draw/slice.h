@@ -46,7 +46,8 @@ Slice cut(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd&
 
 //! Parallel planes, ascending along the axis on which the cage is longest: they spread over the
 //! range in which the function is not zero, at least over half of the cage, and one passes through
-//! the control point or as near to it as the spacing allows.
+//! the control point, or a fifth of that range beside it where the point is a tip, as far as the
+//! spacing allows.
 //! \param count  >= 1. \throws OptionError if it is not
 std::vector<Plane> choose_planes(const Cage<3>& cage, const DomainMesh<3>& mesh,
                                  const Eigen::VectorXd& values, Index control_point, int count);

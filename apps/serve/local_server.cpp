@@ -6,7 +6,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <future>
 #include <mutex>
+#include <queue>
 #include <random>
 #include <thread>
 #include <utility>
@@ -57,13 +60,56 @@ void send(std::string content, const char* type, httplib::Response& response) {
       });
 }
 
+// Work for one thread that others wait for: each thread that computes gets memory and a team of
+// OpenMP threads of its own, and keeps them.
+class Worker {
+ public:
+  // To be called by any thread. \return nothing once the worker has closed
+  std::string ask(std::function<std::string()> make) {
+    std::packaged_task<std::string()> task(std::move(make));
+    auto made = task.get_future();
+    {
+      const std::lock_guard lock(mutex_);
+      if (closed_) return {};
+      tasks_.push(std::move(task));
+    }
+    arrived_.notify_one();
+    return made.get();
+  }
+
+  // Does what there is to do, and waits for it if there is nothing, but not longer than that.
+  void work(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait_for(lock, patience, [this] { return !tasks_.empty(); })) return;
+    auto task = std::move(tasks_.front());
+    tasks_.pop();
+    lock.unlock();
+    task();
+  }
+
+  // What is left is done, nothing new accepted.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+    }
+    for (; !tasks_.empty(); tasks_.pop()) tasks_.front()();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::queue<std::packaged_task<std::string()>> tasks_;
+  bool closed_ = false;
+};
+
 }  // namespace
 
 struct LocalServer::State {
   httplib::Server server;
+  Worker worker;
   std::string token = make_token();
   int port = 0;
-  std::mutex answering;
   std::mutex watching;  // guards what follows
   int open_pages = 0;
   bool was_opened = false;
@@ -145,8 +191,7 @@ std::string LocalServer::address() const {
 void LocalServer::set_page(std::function<std::string()> make_page) {
   state_->server.Get(state_->prefix(), [this, make = std::move(make_page)](const auto&,
                                                                           auto& response) {
-    const std::lock_guard lock(state_->answering);
-    send(make(), "text/html; charset=utf-8", response);
+    send(state_->worker.ask(make), "text/html; charset=utf-8", response);
   });
 }
 
@@ -154,8 +199,8 @@ void LocalServer::set_answer(const std::string& name,
                              std::function<std::string(const std::string&)> answer) {
   state_->server.Post(state_->prefix() + name, [this, make = std::move(answer)](
                                                    const auto& request, auto& response) {
-    const std::lock_guard lock(state_->answering);
-    send(make(request.body), "application/json", response);
+    const auto& text = request.body;
+    send(state_->worker.ask([&] { return make(text); }), "application/json", response);
   });
 }
 
@@ -163,8 +208,9 @@ void LocalServer::serve(const std::function<bool()>& is_interrupted) {
   std::thread listener([this] { state_->server.listen_after_bind(); });
   constexpr std::chrono::milliseconds kLook(50);
   while (!state_->server.is_running()) std::this_thread::sleep_for(kLook);  // else stop() does nothing
-  while (!is_interrupted() && !state_->is_abandoned()) std::this_thread::sleep_for(kLook);
+  while (!is_interrupted() && !state_->is_abandoned()) state_->worker.work(kLook);
   state_->ended = true;
+  state_->worker.close();
   state_->server.stop();
   listener.join();
 }

@@ -24,10 +24,11 @@ class LocalServer {
   //! Of the page: http://127.0.0.1:PORT/TOKEN/
   std::string address() const;
 
-  //! What the page is. \param make_page  called for every request, from any thread
+  //! What the page is. \param make_page  called for every request, by the thread that serves
   void set_page(std::function<std::string()> make_page);
 
-  //! An answer in JSON to what the page posts to NAME beside its address. One is made at a time.
+  //! An answer in JSON to what the page posts to NAME beside its address. One is made at a time, by
+  //! the thread that serves.
   void set_answer(const std::string& name, std::function<std::string(const std::string&)> answer);
 
   //! Serves until `is_interrupted` or all pages that were opened are closed.

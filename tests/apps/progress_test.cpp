@@ -27,7 +27,9 @@ TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
         done = estimate.done();
         const auto line = estimate.line("", seconds);
         EXPECT_LE(line.size(), 79U) << line;
-        if (done > 0.1) EXPECT_NE(line.find(" left"), std::string::npos) << line;
+        if (done > 0.1) {
+          EXPECT_NE(line.find(" left"), std::string::npos) << line;
+        }
       }
       EXPECT_GT(done, level == 0 ? 0.99 : 0.02);
     }

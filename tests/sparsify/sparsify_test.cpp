@@ -266,7 +266,9 @@ TYPED_TEST(SparsifyTest, TellsHowFarItIs) {
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_GT(told.front(), 0);
     EXPECT_LE(told.back(), 1);
-    if (threads == 1) EXPECT_EQ(told.back(), 1);
+    if (threads == 1) {
+      EXPECT_EQ(told.back(), 1);
+    }
   }
 }
 
