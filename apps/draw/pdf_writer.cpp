@@ -56,15 +56,17 @@ cairo_status_t render_glyph(cairo_scaled_font_t*, unsigned long glyph, cairo_t* 
   const auto stroked = stroked_glyph(static_cast<char>(glyph));
   use_round_pen(cairo, stroke_width());
   for (const auto& line : stroked.strokes) stroke_line(cairo, line, -1);
-  // With the extents left to Cairo, some readers cut pens off at the top.
-  double left = 0, top = 0, right = 0, bottom = 0;
-  cairo_stroke_extents(cairo, &left, &top, &right, &bottom);
   cairo_stroke(cairo);
-  extents->x_bearing = left;
-  extents->y_bearing = top;
-  extents->width = right - left;
-  extents->height = bottom - top;
   extents->x_advance = stroked.advance;
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// Cairo clips text to these, by default 1, rounded to whole points: the tips of pens would be missing.
+cairo_status_t set_extents(cairo_scaled_font_t*, cairo_t*, cairo_font_extents_t* extents) {
+  extents->ascent = 1.5;
+  extents->descent = 0.75;
+  extents->height = extents->ascent + extents->descent;
+  extents->max_x_advance = 2;
   return CAIRO_STATUS_SUCCESS;
 }
 
@@ -77,6 +79,7 @@ cairo_status_t glyph_of_character(cairo_scaled_font_t*, unsigned long unicode,
 // The strokes of the PNG as a font, so that text looks the same everywhere and can be selected.
 FontFace stroke_font() {
   FontFace face(cairo_user_font_face_create());
+  cairo_user_font_face_set_init_func(face.get(), set_extents);
   cairo_user_font_face_set_render_glyph_func(face.get(), render_glyph);
   cairo_user_font_face_set_unicode_to_glyph_func(face.get(), glyph_of_character);
   return face;

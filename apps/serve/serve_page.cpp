@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "serve/serve_page.h"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -55,6 +58,9 @@ view::ShownModel<Dim> shown_model(const DomainMesh<Dim>& mesh, const ServeArgume
 
 template <int Dim>
 void serve_cage(const Cage<Dim>& cage, const ServeArguments& arguments) {
+  // One core is left to the browser, which draws meanwhile: threads that wait for one it has taken
+  // cost more than they save.
+  omp_set_num_threads(std::max(1, omp_get_max_threads() - 1));
   const auto mesh = mesh_interior(cage, arguments);
   auto model = shown_model(mesh, arguments);
   LocalServer server(arguments.port);

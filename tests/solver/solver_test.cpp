@@ -204,10 +204,7 @@ TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
       ASSERT_FALSE(parts.empty());
       EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
       EXPECT_GT(parts.front(), 0);
-      EXPECT_LE(parts.back(), 1);
-      if (threads == 1) {
-        EXPECT_EQ(parts.back(), 1);
-      }
+      EXPECT_EQ(parts.back(), 1);
     }
   }
 }

@@ -53,6 +53,11 @@ class LoopProgress {
  public:
   //! \param rounds  of the loop, > 0
   explicit LoopProgress(Index rounds) : tell_(StageScope::present()), rounds_(rounds) {}
+  ~LoopProgress() {
+    if (tell_ && *tell_) (*tell_)(1);  // others may have done the last rounds, or all
+  }
+  LoopProgress(const LoopProgress&) = delete;
+  LoopProgress& operator=(const LoopProgress&) = delete;
 
   //! To be called by any thread of the team after so many rounds.
   void add(Index rounds) {
