@@ -84,7 +84,7 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
                          "v 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n"
                          "f 2 6 8 4\n");
-  for (const std::string command : {"check " + cube, "mesh " + cube + " -o " + path("m.mesh")}) {
+  for (const std::string& command : {"check " + cube, "mesh " + cube + " -o " + path("m.mesh")}) {
     const auto refused = run(command);
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.errors.find("and 5 of the file)"), std::string::npos) << refused.errors;

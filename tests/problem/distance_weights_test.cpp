@@ -255,6 +255,19 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   EXPECT_NEAR(linear(0, 0), mean / (kDim + 1) / distances.maxCoeff(), 1e-14);
 }
 
+TYPED_TEST(DistanceWeightsTest, AMeshMayHaveMoreVerticesThanCells) {
+  constexpr int kDim = TypeParam::value;
+  DomainMesh<kDim> mesh;  // one cell
+  mesh.points = PointList<kDim>::Identity(kDim, kDim + 1);
+  mesh.cells.resize(kDim + 1, 1);
+  for (int k = 0; k <= kDim; ++k) mesh.cells(k, 0) = k;
+  const Eigen::MatrixXd distances = Eigen::MatrixXd::Ones(2, kDim + 1);
+  const WeightFunctions phi(DistanceScheme::kLinear, distances, mesh, 2);
+  EXPECT_EQ(phi.cols(), 1);
+  EXPECT_EQ(phi.size(), 2);
+  EXPECT_EQ(phi.dense(), Eigen::MatrixXd::Ones(2, 1));
+}
+
 TYPED_TEST(DistanceWeightsTest, WeightFunctionsThatAreGivenAreKept) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);

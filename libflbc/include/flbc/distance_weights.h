@@ -4,7 +4,6 @@
 //! farther it is from its control point, which keeps w_i local.
 #pragma once
 
-#include <algorithm>
 #include <utility>
 
 #include "flbc/domain_mesh.h"
@@ -44,7 +43,7 @@ class WeightFunctions {
   Eigen::Index rows() const { return cells_.cols() > 0 ? num_control_points_ : values_.rows(); }
 
   //! F, 0 if there are none.
-  Eigen::Index cols() const { return std::max(cells_.cols(), values_.cols()); }
+  Eigen::Index cols() const { return cells_.cols() > 0 ? cells_.cols() : values_.cols(); }
 
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
