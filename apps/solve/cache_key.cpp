@@ -15,8 +15,8 @@ void add_options(std::ostream& key, const SolverOptions& options) {
   // run that was stopped has not converged.
   [[maybe_unused]] const auto& [method, phi, distances, precision, recovery, non_negative,
                                 linear_solver, coarse_to_fine, coarse_levels, tolerance, gap,
-                                max_iterations, penalty, relaxation, check_interval, certify,
-                                threads, progress, stage_progress] = options;
+                                active_pairs, max_iterations, penalty, relaxation, check_interval,
+                                certify, threads, progress, stage_progress] = options;
   const auto& [coarsest, factor, looseness] = coarse_levels;
   key << "method " << name_of(method) << '\n'
       << "phi " << name_of(phi) << '\n'
@@ -29,6 +29,7 @@ void add_options(std::ostream& key, const SolverOptions& options) {
       << "coarse_levels " << coarsest << ' ' << factor << ' ' << looseness << '\n'
       << "tolerance " << tolerance << '\n'
       << "gap " << gap.value_or(0) << '\n'
+      << "active_pairs " << name_of(active_pairs) << '\n'
       << "max_iterations " << max_iterations << '\n'
       << "penalty " << penalty << '\n'
       << "relaxation " << relaxation << '\n'

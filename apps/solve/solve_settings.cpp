@@ -57,9 +57,9 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
-    for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
-                               "--coarse-to-fine", "--tolerance", "--gap", "--max-iterations",
-                               "--penalty", "--relaxation"}) {
+    for (const char* option :
+         {"--phi", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
+          "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
       refuse(option, name + " does not read it");
     }
   }
@@ -81,6 +81,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "start from coarser meshes of the cage (auto: where it pays)");
   command.add_flag("--certify", options.certify, "prove how near the optimum the weights are");
   add_choice(command, "--phi", options.phi, "growth of the distance weights (square)");
+  add_choice(
+      command, "--active", options.active_pairs,
+      "work only on pairs of points and control points whose weights may be positive (auto: in "
+      "3D from 80 control points on, unless --certify)");
   add_choice(command, "--distances", options.distances,
              "where distances are computed: on the mesh, or on a coarser one of the cage (auto)");
   add_choice(command, "--linear-solver", options.linear_solver,
@@ -88,12 +92,12 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--recovery", options.recovery, "how weights follow from gradients (auto)");
   add_choice(command, "--precision", options.precision,
              "numbers of the iteration (auto: half where the tolerance allows)");
+  command.add_option("--tolerance", options.tolerance,
+                     "accuracy wanted (by method: gradient 1e-6, others 1e-7)");
   command.add_option(
-      "--tolerance", options.tolerance,
-      "accuracy wanted (by method: gradient 1e-6, others 1e-7)");
-  command.add_option("--gap", options.gap,
-                     "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
-                     "the methods' own tolerances)");
+      "--gap", options.gap,
+      "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
+      "the methods' own tolerances)");
   command.add_option("--max-iterations", options.max_iterations, "limit of iterations (20000)");
   command.add_option("--penalty", settings.penalty,
                      "penalty of the augmented Lagrangian, as published: for a domain scaled to "

@@ -44,12 +44,14 @@ template <class Archive, class Report>
 void visit_report(Archive& archive, Report& report) {
   auto& [method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
          dual_residual, penalty, published_penalty, objective, certificate, state_scalars_per_cell,
-         distances, seconds, quality, coarse_levels] = report;
+         distances, active_pairs, seconds, quality, coarse_levels] = report;
   archive(method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
           dual_residual, penalty, published_penalty, objective, state_scalars_per_cell);
   visit_levels(archive, coarse_levels);
   auto& [source, coarse_vertices, phi_error] = distances;
   archive(source, coarse_vertices, phi_error);
+  auto& [density, growths] = active_pairs;
+  archive(density, growths);
   auto& [certified, lower_bound, relative_gap] = certificate;
   archive(certified, lower_bound, relative_gap);
   auto& [setup, solve, recover, certify] = seconds;

@@ -236,8 +236,7 @@ TYPED_TEST(CoarseToFineTest, SplittingGoesOnFromItsOwnOptimum) {
     density.template middleCols<kDim>(kDim * s) = flux.cell(s).transpose() / metric.cell[s];
   }
   const WeightMatrix weights = first.weights();
-  const WeightMatrix vertex_dual = first.vertex_dual();
-  const VectorsAt<1> own_dual = [&](Index v) -> Eigen::VectorXd { return vertex_dual.col(v); };
+  const VectorsAt<1> own_dual = [&](Index v) { return first.vertex_dual_at(v); };
   const auto moved = [&](const VectorsAt<kDim>& flux_density, const VectorsAt<1>& dual) {
     compact::CompactSplitting<double, double, kDim> second(problem, metric, 8, 1.9);
     second.start_from_duals([&](Index v) -> Eigen::VectorXd { return weights.col(v); },
@@ -485,24 +484,27 @@ TYPED_TEST(CoarseToFineTest, IsOnOrOffAsAskedFor) {
 }
 
 TEST(LevelSizes, NoneWhereTheyDoNotPay) {
-  EXPECT_TRUE(level_sizes<2>(900, 30, Method::kGradient, {}).empty());
-  EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kGradient, {}).empty());
-  EXPECT_TRUE(level_sizes<2>(5000, 30, Method::kValue, {}).empty());
-  EXPECT_TRUE(level_sizes<2>(30000, 6, Method::kValue, {}).empty());
-  EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kValue, {}).empty());
-  EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kValue, {}).empty());
-  EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kValue, {}).empty());
-  EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kGradient, {}).empty());
-  EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kGradient, {}).empty());
+  EXPECT_TRUE(level_sizes<2>(900, 30, Method::kGradient, false, {}).empty());
+  EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kGradient, false, {}).empty());
+  EXPECT_TRUE(level_sizes<2>(5000, 30, Method::kValue, false, {}).empty());
+  EXPECT_TRUE(level_sizes<2>(30000, 6, Method::kValue, false, {}).empty());
+  EXPECT_TRUE(level_sizes<3>(6000, 50, Method::kValue, false, {}).empty());
+  EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kValue, false, {}).empty());
+  EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kValue, false, {}).empty());
+  EXPECT_FALSE(level_sizes<2>(10000, 30, Method::kGradient, false, {}).empty());
+  EXPECT_FALSE(level_sizes<3>(40000, 50, Method::kGradient, false, {}).empty());
+  EXPECT_TRUE(level_sizes<3>(6000, 110, Method::kValue, false, {}).empty());
+  EXPECT_FALSE(level_sizes<3>(6000, 110, Method::kValue, true, {}).empty());
 }
 
 TEST(LevelSizes, AscendByTheFactorDownToTheCoarsest) {
   CoarseLevels levels;
   levels.coarsest = 100;
   levels.factor = 10;
-  EXPECT_EQ(level_sizes<2>(10000, 9, Method::kValue, levels), (std::vector<Index>{100, 1000}));
-  EXPECT_EQ(level_sizes<3>(9999, 9, Method::kValue, levels), (std::vector<Index>{999}));
-  EXPECT_TRUE(level_sizes<3>(999, 9, Method::kValue, levels).empty());
+  EXPECT_EQ(level_sizes<2>(10000, 9, Method::kValue, false, levels),
+            (std::vector<Index>{100, 1000}));
+  EXPECT_EQ(level_sizes<3>(9999, 9, Method::kValue, false, levels), (std::vector<Index>{999}));
+  EXPECT_TRUE(level_sizes<3>(999, 9, Method::kValue, false, levels).empty());
 }
 
 }  // namespace

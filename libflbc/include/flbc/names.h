@@ -35,6 +35,9 @@ const char* name_of(Precision precision);
 //! "auto", "on" or "off".
 //! \param choice  to be named
 const char* name_of(CoarseToFine choice);
+//! "auto", "on" or "off".
+//! \param choice  to be named
+const char* name_of(ActivePairs choice);
 //! "auto", "direct" or "multigrid".
 //! \param solver  to be named
 const char* name_of(LinearSolver solver);

@@ -17,7 +17,7 @@ enum class Method {
   kAuto,      //!< the method recommended for most uses, at present kValue
   kValue,     //!< splitting on the weights in the metric of the continuous problem: the fastest
   kGradient,  //!< the paper's gradient ADMM, started from harmonic coordinates, over-relaxed
-  kPaper,     //!< the paper's gradient ADMM with its parameters (docs/method.md: what it leaves open)
+  kPaper,  //!< the paper's gradient ADMM with its parameters (docs/method.md: what it leaves open)
   kLbc2014,   //!< the original solver (section 3 of the paper; Zhang et al. 2014)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
@@ -33,10 +33,10 @@ enum class NonNegative {
 
 //! Numbers of the iteration; set-up and recovery are always in double precision.
 enum class Precision {
-  kAuto,    //!< kHalf where the tolerance allows, for Method::kValue; else kSingle
-  kHalf,    //!< Method::kValue only: duals of cells in half precision, all else and all arithmetic in
-            //!< single; kSingle on meshes of less than 10,000 cells, from an estimated error of 1e-6
-            //!< on, and after 300 iterations
+  kAuto,  //!< kHalf where the tolerance allows, for Method::kValue; else kSingle
+  kHalf,  //!< Method::kValue only: duals of cells in half precision, all else and all arithmetic in
+          //!< single; kSingle on meshes of less than 10,000 cells, from an estimated error of 1e-6
+          //!< on, and after 300 iterations
   kSingle,  //!< float
   kDouble   //!< double
 };
@@ -45,7 +45,17 @@ enum class Precision {
 enum class Distances {
   kAuto,         //!< kInterpolated for Method::kValue, where it costs less and keeps the tolerance
   kExact,        //!< the mesh itself
-  kInterpolated  //!< a coarser mesh of the cage, by their detours round the boundary; needs a mesher
+  kInterpolated  //!< a coarser mesh of the cage, by their detours round the boundary; needs a
+                 //!< mesher
+};
+
+//! Whether an iteration works on all pairs of vertices and control points, or on those alone whose
+//! weights may be positive at the optimum: on supports that it finds, extends and checks.
+enum class ActivePairs {
+  kAuto,  //!< supports in 3D from 80 control points on, unless a certificate or a state is asked
+          //!< for
+  kOn,    //!< supports; a certificate is left to some last iterations on all pairs
+  kOff    //!< all pairs
 };
 
 //! How weights are recovered from gradients.
@@ -61,8 +71,8 @@ struct Progress {
   double primal_residual;  //!< norm of r_p, or estimated error, divided by its threshold
   double dual_residual;    //!< norm of r_d divided by its threshold; 0 where there is none
   int finer_levels = 0;    //!< meshes still to come after this one, if coarser ones go before
-  //! Objective of the present weights, in the units of SolveReport::objective; computed when called,
-  //! which takes as long as an iteration or two. Empty for methods without weights at hand.
+  //! Objective of the present weights, in the units of SolveReport::objective; computed when
+  //! called, which takes as long as an iteration or two. Empty for methods without weights at hand.
   std::function<double()> objective{};
 };
 
@@ -81,9 +91,10 @@ struct SolverOptions {
   //! Growth of the weight functions phi. Read by all methods but kHarmonic and kMeanValue.
   DistanceScheme phi = DistanceScheme::kSquare;
 
-  //! Where the distances behind phi come from. Read where solve() sets the problem up, by all methods
-  //! but kHarmonic and kMeanValue, for which none are computed. kAuto interpolates if the estimated
-  //! effect on the weights stays within half the tolerance; the report says how far phi is off.
+  //! Where the distances behind phi come from. Read where solve() sets the problem up, by all
+  //! methods but kHarmonic and kMeanValue, for which none are computed. kAuto interpolates if the
+  //! estimated effect on the weights stays within half the tolerance; the report says how far phi
+  //! is off.
   Distances distances = Distances::kAuto;
 
   //! Of the iteration. Read by kValue, kLbc2014, kGradient and kPaper.
@@ -95,13 +106,14 @@ struct SolverOptions {
   //! Treatment of w >= 0. Read by all methods; kConstraint is one of kValue and kLbc2014 only.
   NonNegative non_negative = NonNegative::kAuto;
 
-  //! For the linear system of each iteration (kValue, kLbc2014) or of start and recovery (kGradient).
-  //! Read by these and, as for kNone, by kPaper, which has no such system unless the recovery is
-  //! kLeastSquares.
+  //! For the linear system of each iteration (kValue, kLbc2014) or of start and recovery
+  //! (kGradient). Read by these and, as for kNone, by kPaper, which has no such system unless the
+  //! recovery is kLeastSquares.
   LinearSolver linear_solver = LinearSolver::kAuto;
 
   //! Whether to start from coarser meshes, for which solve() takes a mesher. Read by kValue,
-  //! kGradient and, where the penalty is chosen from the mesh, kLbc2014; other methods start as ever.
+  //! kGradient and, where the penalty is chosen from the mesh, kLbc2014; other methods start as
+  //! ever.
   CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
 
   //! Which coarser meshes. Read by kValue, kGradient and kLbc2014.
@@ -110,20 +122,24 @@ struct SolverOptions {
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
   //!   iteration changes them; 1e-7 by default.
-  //! - kGradient: the same, of the optimum without non-negativity, as estimated from weights that are
+  //! - kGradient: the same, of the optimum without non-negativity, as estimated from weights that
+  //! are
   //!   recovered every 40 iterations or so; 1e-6 by default.
   //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
   //!   tolerance; by default the paper's 1e-7.
   //! - kHarmonic, kMeanValue do not read it.
   double tolerance = 0;
 
-  //! Certified relative gap (certificate.h) that ends a run as well, whichever is met first; > 0, or
-  //! 0 for none. Absent: 1e-3 for kValue and kGradient where the tolerance is the method's own, else
-  //! none. On cages whose optimum is flat, as on round ones, it is met long before the tolerance.
-  //! Certified from iteration 500 on, each time a fifth later, for a few percent of the time. Read by
-  //! kValue, kGradient, kLbc2014 and kPaper; refused where weights may be negative, since the bound
-  //! is that of non-negative ones.
+  //! Certified relative gap (certificate.h) that ends a run as well, whichever is met first; > 0,
+  //! or 0 for none. Absent: 1e-3 for kValue and kGradient where the tolerance is the method's own,
+  //! else none. On cages whose optimum is flat, as on round ones, it is met long before the
+  //! tolerance. Certified from iteration 500 on, each time a fifth later, for a few percent of the
+  //! time. Read by kValue, kGradient, kLbc2014 and kPaper; refused where weights may be negative,
+  //! since the bound is that of non-negative ones.
   std::optional<double> gap{};
+
+  //! Work only where weights are. Read by kValue, but not where a state is kept (StateStorage).
+  ActivePairs active_pairs = ActivePairs::kAuto;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error. Read by kValue,
   //! kLbc2014, kGradient and kPaper.

@@ -38,9 +38,16 @@ struct StageSeconds {
 struct DistanceReport {
   Distances source = Distances::kExact;  //!< kExact or kInterpolated
   Index vertices = 0;                    //!< of the coarser mesh they are interpolated from, else 0
-  //! Root mean square error of interpolated phi, relative to its root mean square, as estimated from
-  //! a few control points whose distances are computed on both meshes.
+  //! Root mean square error of interpolated phi, relative to its root mean square, as estimated
+  //! from a few control points whose distances are computed on both meshes.
   double phi_error = 0;
+};
+
+//! Supports that an iteration worked on.
+struct ActivePairsReport {
+  double density = 1;  //!< their pairs relative to all pairs of interior vertices and control
+                       //!< points; 1 if it worked on all
+  int growths = 0;  //!< how often they were extended, as weights had reached their ends
 };
 
 //! A coarser mesh that was solved for a start (coarse_to_fine.h).
@@ -62,16 +69,17 @@ struct SolveReport {
   Index vertices = 0;                            //!< V
   Index cells = 0;                               //!< F
   int iterations = 0;                            //!< 0 for methods that do not iterate
-  double primal_residual = 0;  //!< |r_p|, or estimated error, divided by its threshold
-  double dual_residual = 0;    //!< |r_d| divided by its threshold
-  double penalty = 0;          //!< used last, in the unit of SolverOptions::penalty
+  double primal_residual = 0;    //!< |r_p|, or estimated error, divided by its threshold
+  double dual_residual = 0;      //!< |r_d| divided by its threshold
+  double penalty = 0;            //!< used last, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same on the scale of the literature (published_penalty())
-  //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN where phi was
-  //! not computed: for kHarmonic and kMeanValue, unless the problem came with it.
+  //! Of the weights: sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN where phi
+  //! was not computed: for kHarmonic and kMeanValue, unless the problem came with it.
   double objective = 0;
-  Certificate certificate{};  //!< if asked for or the criterion, in the same units
+  Certificate certificate{};                 //!< if asked for or the criterion, in the same units
   double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point
   DistanceReport distances{};                //!< behind phi, if solve() set the problem up
+  ActivePairsReport active_pairs{};          //!< of Method::kValue
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start

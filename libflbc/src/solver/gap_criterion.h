@@ -9,6 +9,9 @@
 
 namespace flbc {
 
+//! The first iteration at which it may certify.
+constexpr int kFirstCertified = 500;
+
 //! Certifies the weights of an iteration now and then. When is a matter of iterations alone, never
 //! of time, so that runs are repeatable.
 class GapCriterion {

@@ -37,6 +37,8 @@ constexpr Named<Precision> kPrecisionNames[]{{Precision::kAuto, "auto"},
                                              {Precision::kHalf, "half"},
                                              {Precision::kSingle, "single"},
                                              {Precision::kDouble, "double"}};
+constexpr Named<ActivePairs> kActivePairsNames[]{
+    {ActivePairs::kAuto, "auto"}, {ActivePairs::kOn, "on"}, {ActivePairs::kOff, "off"}};
 constexpr Named<CoarseToFine> kCoarseToFineNames[]{
     {CoarseToFine::kAuto, "auto"}, {CoarseToFine::kOn, "on"}, {CoarseToFine::kOff, "off"}};
 constexpr Named<LinearSolver> kLinearSolverNames[]{{LinearSolver::kAuto, "auto"},
@@ -46,9 +48,8 @@ constexpr Named<LinearSolver> kLinearSolverNames[]{{LinearSolver::kAuto, "auto"}
 constexpr Named<SolveStatus> kSolveStatusNames[]{{SolveStatus::kConverged, "converged"},
                                                  {SolveStatus::kIterationLimit, "iteration limit"},
                                                  {SolveStatus::kStopped, "stopped"}};
-constexpr Named<Criterion> kCriterionNames[]{{Criterion::kNone, "none"},
-                                             {Criterion::kTolerance, "tolerance"},
-                                             {Criterion::kGap, "gap"}};
+constexpr Named<Criterion> kCriterionNames[]{
+    {Criterion::kNone, "none"}, {Criterion::kTolerance, "tolerance"}, {Criterion::kGap, "gap"}};
 constexpr Named<OutsidePoints> kOutsidePointsNames[]{{OutsidePoints::kFail, "fail"},
                                                      {OutsidePoints::kNearest, "nearest"},
                                                      {OutsidePoints::kExtend, "extend"}};
@@ -70,6 +71,9 @@ constexpr auto& table_for(Recovery) {
 }
 constexpr auto& table_for(Precision) {
   return kPrecisionNames;
+}
+constexpr auto& table_for(ActivePairs) {
+  return kActivePairsNames;
 }
 constexpr auto& table_for(CoarseToFine) {
   return kCoarseToFineNames;
@@ -115,6 +119,9 @@ const char* name_of(Recovery value) {
 const char* name_of(Precision value) {
   return find_name(value);
 }
+const char* name_of(ActivePairs value) {
+  return find_name(value);
+}
 const char* name_of(CoarseToFine value) {
   return find_name(value);
 }
@@ -155,6 +162,7 @@ FLBC_INSTANTIATE(DistanceScheme)
 FLBC_INSTANTIATE(Distances)
 FLBC_INSTANTIATE(Recovery)
 FLBC_INSTANTIATE(Precision)
+FLBC_INSTANTIATE(ActivePairs)
 FLBC_INSTANTIATE(CoarseToFine)
 FLBC_INSTANTIATE(LinearSolver)
 FLBC_INSTANTIATE(SolveStatus)

@@ -12,6 +12,7 @@
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/level_sizes.h"
+#include "solver/supports/choice.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -121,7 +122,7 @@ std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMeshe
   // A penalty of the metric A^2 belongs to one mesh, and who gives it wants the iteration as it is.
   if (options.method == Method::kLbc2014 && options.penalty > 0) return {};
   return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(), options.method,
-                          options.coarse_levels);
+                          supports::serve(problem, options, true), options.coarse_levels);
 }
 
 template <int Dim>

@@ -101,23 +101,52 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
 
 }  // namespace
 
+template <int Dim>
+double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
+  constexpr double kTypical = 8;
+  constexpr double kLargest = 1000;
+  double sum = 0;
+  double largest = 0;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const double measure = cell_geometry(problem.mesh, s).measure;
+    const double radius2 = measure * measure / metric.cell[s];
+    sum += radius2;
+    largest = std::max(largest, radius2);
+  }
+  return std::min(kTypical / std::sqrt(sum / problem.mesh.num_cells()),
+                  kLargest / std::sqrt(largest));
+}
+
+template <class Scalar, class Stored, int Dim>
+CompactData<Scalar, Stored, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
+                                                     const splitting::Metric& metric,
+                                                     const std::vector<Index>& position,
+                                                     double unit) {
+  CompactData<Scalar, Stored, Dim> data;
+  set_up_rows(problem, metric, position, data);
+  set_up_cells(problem, metric, unit, data);
+  return data;
+}
+
 template <class Scalar, class Stored, int Dim>
 CompactData<Scalar, Stored, Dim> make_compact_data(const LbcProblem<Dim>& problem,
                                                    const splitting::Metric& metric,
                                                    const std::vector<Index>& position, double unit,
                                                    std::size_t stride,
                                                    const Kernel<Scalar, Stored, Dim>& kernel) {
-  CompactData<Scalar, Stored, Dim> data;
-  set_up_rows(problem, metric, position, data);
-  set_up_cells(problem, metric, unit, data);
+  auto data = make_rows_and_cells<Scalar, Stored>(problem, metric, position, unit);
   set_up_radii(problem, metric, unit, stride, kernel, data);
   data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, stride);
   return data;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                              \
-  template CompactData<Scalar, Stored, Dim> make_compact_data(                             \
-      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double, \
+template double radius_unit(const LbcProblem<2>&, const splitting::Metric&);
+template double radius_unit(const LbcProblem<3>&, const splitting::Metric&);
+#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                               \
+  template CompactData<Scalar, Stored, Dim> make_rows_and_cells(                            \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double); \
+  template CompactData<Scalar, Stored, Dim> make_compact_data(                              \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double,  \
       std::size_t, const Kernel<Scalar, Stored, Dim>&);
 FLBC_INSTANTIATE(float, Half, 2)
 FLBC_INSTANTIATE(float, Half, 3)

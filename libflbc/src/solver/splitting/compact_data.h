@@ -25,6 +25,18 @@ struct CompactData {
   splitting::RowConstraints<Scalar, Dim> constraints;
 };
 
+//! u, by which radii are of about 8, and of no more than 1000: they keep P within half precision.
+template <int Dim>
+double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric);
+
+//! Rows and cells alone. \param position  the row of every unknown in the linear solver's arrays
+//! \param unit  as below
+template <class Scalar, class Stored, int Dim>
+CompactData<Scalar, Stored, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
+                                                     const splitting::Metric& metric,
+                                                     const std::vector<Index>& position,
+                                                     double unit);
+
 //! \param position  the row of every unknown in the linear solver's arrays
 //! \param unit  u: a radius is u phi A / sqrt(m)
 //! \param stride  numbers per row

@@ -4,6 +4,7 @@
 
 #include "mesh/cell_geometry.h"
 #include "solver/splitting/compact_splitting.h"
+#include "solver/warm_start/flux_length.h"
 
 namespace flbc::compact {
 
@@ -15,7 +16,7 @@ WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const {
     AlignedArray<Scalar> numbers(stride_);
 #pragma omp for schedule(static)
     for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
-      read_row(static_cast<Index>(row), numbers.data());
+      read_vertex(data_.vertices[row], numbers.data());
       for (Index i = 0; i < n_; ++i) weights(i, data_.vertices[row]) = numbers[i];
     }
   }
@@ -25,18 +26,40 @@ WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const {
 }
 
 template <class Scalar, class Stored, int Dim>
-WeightMatrix CompactSplitting<Scalar, Stored, Dim>::vertex_dual() const {
-  if (vertex_dual_.size() == 0) return {};
-  WeightMatrix dual = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
-    const Index v = data_.vertices[row];
-    for (Index i = 0; i < n_; ++i) {
-      const double difference = static_cast<double>(extrapolated_[row * stride_ + i]) -
-                                static_cast<double>(relaxed_[v * stride_ + i]);
-      dual(i, v) = (vertex_dual_[v * stride_ + i] - 0.5 * difference) / sigma();
-    }
+Eigen::VectorXd CompactSplitting<Scalar, Stored, Dim>::weights_at(Index vertex) const {
+  AlignedArray<Scalar> numbers(stride_);
+  read_vertex(vertex, numbers.data());
+  return Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>(numbers.data(), n_)
+      .template cast<double>();
+}
+
+template <class Scalar, class Stored, int Dim>
+Eigen::VectorXd CompactSplitting<Scalar, Stored, Dim>::vertex_dual_at(Index vertex) const {
+  Eigen::VectorXd dual(n_);
+  const auto row = static_cast<std::size_t>(data_.row_of[vertex]);
+  const auto v = static_cast<std::size_t>(vertex);
+  for (Index i = 0; i < n_; ++i) {
+    const double difference = static_cast<double>(extrapolated_[row * stride_ + i]) -
+                              static_cast<double>(relaxed_[v * stride_ + i]);
+    dual[i] = (vertex_dual_[v * stride_ + i] - 0.5 * difference) / sigma();
   }
   return dual;
+}
+
+template <class Scalar, class Stored, int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>::flux_density(
+    Index cell) const {
+  AlignedArray<Scalar> rows(Dim * stride_);
+  kernel_.decode(cell_dual_.data() + static_cast<std::size_t>(cell) * Dim * stride_, rows.data(),
+                 Dim * stride_);
+  const double scale =
+      std::sqrt(metric_.cell[cell]) / (unit_ * cell_geometry(problem_.mesh, cell).measure);
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> density(n_, Dim);
+  for (int d = 0; d < Dim; ++d) {
+    for (Index i = 0; i < n_; ++i) density(i, d) = scale * rows[d * stride_ + i];
+  }
+  shorten_to(problem_.phi.col(cell), density);
+  return density;
 }
 
 template <class Scalar, class Stored, int Dim>
@@ -78,9 +101,12 @@ void CompactSplitting<Scalar, Stored, Dim>::set_boundary_flux() {
   }
 }
 
-#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                       \
-  template WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const;     \
-  template WeightMatrix CompactSplitting<Scalar, Stored, Dim>::vertex_dual() const; \
+#define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                                  \
+  template WeightMatrix CompactSplitting<Scalar, Stored, Dim>::weights() const;                \
+  template Eigen::VectorXd CompactSplitting<Scalar, Stored, Dim>::weights_at(Index) const;     \
+  template Eigen::VectorXd CompactSplitting<Scalar, Stored, Dim>::vertex_dual_at(Index) const; \
+  template Eigen::Matrix<double, Eigen::Dynamic, Dim>                                          \
+      CompactSplitting<Scalar, Stored, Dim>::flux_density(Index) const;                        \
   template CellFieldView<Scalar, Dim> CompactSplitting<Scalar, Stored, Dim>::flux();
 FLBC_INSTANTIATE(float, Half, 2)
 FLBC_INSTANTIATE(float, Half, 3)

@@ -16,23 +16,6 @@ namespace {
 
 constexpr Index kRowBlock = 256;
 
-// u: radii of about 8, and of no more than 1000, keep P within half precision.
-template <int Dim>
-double unit_of(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
-  constexpr double kTypical = 8;
-  constexpr double kLargest = 1000;
-  double sum = 0;
-  double largest = 0;
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    const double measure = cell_geometry(problem.mesh, s).measure;
-    const double radius2 = measure * measure / metric.cell[s];
-    sum += radius2;
-    largest = std::max(largest, radius2);
-  }
-  return std::min(kTypical / std::sqrt(sum / problem.mesh.num_cells()),
-                  kLargest / std::sqrt(largest));
-}
-
 }  // namespace
 
 template <class Scalar, class Stored, int Dim>
@@ -44,7 +27,7 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
       n_(problem.num_control_points()),
       stride_(padded(static_cast<std::size_t>(n_))),
       metric_(std::move(metric)),
-      unit_(unit_of(problem, metric_)),
+      unit_(radius_unit(problem, metric_)),
       penalty_(penalty),
       relaxation_(relaxation),
       solver_(splitting::system_matrix(problem, metric_), stride_, linear_solver),
@@ -210,17 +193,11 @@ void CompactSplitting<Scalar, Stored, Dim>::adapt_penalty(double ratio, double l
 }
 
 template <class Scalar, class Stored, int Dim>
-splitting::WeightHistory<Scalar> CompactSplitting<Scalar, Stored, Dim>::history() const {
-  std::vector<Index> rows(data_.vertices.size());
-  std::iota(rows.begin(), rows.end(), 0);
-  return {rows, stride_};
-}
-
-template <class Scalar, class Stored, int Dim>
-void CompactSplitting<Scalar, Stored, Dim>::read_row(Index row, Scalar* weights) const {
+void CompactSplitting<Scalar, Stored, Dim>::read_vertex(Index vertex, Scalar* weights) const {
   const auto half = static_cast<Scalar>(0.5 / sigma());
-  const Scalar* extrapolated = extrapolated_.data() + row * stride_;
-  const Scalar* relaxed = relaxed_.data() + data_.vertices[row] * stride_;
+  const Scalar* extrapolated =
+      extrapolated_.data() + static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
+  const Scalar* relaxed = relaxed_.data() + static_cast<std::size_t>(vertex) * stride_;
   for (std::size_t i = 0; i < stride_; ++i) weights[i] = half * (extrapolated[i] + relaxed[i]);
 }
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <type_traits>
 
 #include "base/aligned_array.h"
 #include "flbc/cell_field.h"
@@ -46,6 +47,9 @@ struct Step {
 template <class Scalar, class Stored, int Dim>
 class CompactSplitting {
  public:
+  static constexpr bool kStoresHalf = std::is_same_v<Stored, Half>;
+  static constexpr bool kAdapts = true;  //!< has iterate_and_adapt()
+
   //! \param metric  see splitting_data.h
   //! \param penalty  rho > 0
   //! \param relaxation  alpha in (0, 2)
@@ -93,14 +97,20 @@ class CompactSplitting {
 
   double penalty() const { return penalty_; }
 
-  //! To compare weights of different iterations.
-  splitting::WeightHistory<Scalar> history() const;
+  //! w of an interior vertex, padded.
+  void read_vertex(Index vertex, Scalar* weights) const;
 
-  //! w of one row of the history.
-  void read_row(Index row, Scalar* weights) const;
+  //! w of an interior vertex, n numbers.
+  Eigen::VectorXd weights_at(Index vertex) const;
 
-  //! q - w, n x V, zero on the boundary; empty if w may be negative.
-  WeightMatrix vertex_dual() const;
+  bool has_vertex_dual() const { return vertex_dual_.size() > 0; }
+
+  //! q - w of an interior vertex, n numbers.
+  Eigen::VectorXd vertex_dual_at(Index vertex) const;
+
+  //! p / A of a cell as it is at present, n x Dim, at most phi long; zero between boundary
+  //! vertices.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 
   //! n x V.
   WeightMatrix weights() const;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Method::kValue from start to weights.
-#include <algorithm>
-#include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -12,102 +10,13 @@
 #include "flbc/certificate.h"
 #include "solver/iterative_method.h"
 #include "solver/splitting/compact_splitting.h"
-#include "solver/splitting/error_estimate.h"
+#include "solver/splitting/value_run.h"
 #include "solver/state_storage.h"
+#include "solver/supports/iterate_on_supports.h"
+#include "solver/warm_start/dual_start.h"
 
 namespace flbc {
 namespace {
-
-template <class Scalar, class Stored, int Dim>
-using ValueSplitting = compact::CompactSplitting<Scalar, Stored, Dim>;
-
-// The penalty grows to no more than this: what is balanced are lengths of all that moves, and where
-// the start is nearly right everywhere, as on round cages, that takes the penalty out of the range
-// in which the rest converges.
-template <int Dim>
-double largest_penalty(const LbcProblem<Dim>& problem) {
-  return bounding_box_diagonal(problem.cage.points) / 30;
-}
-
-// A run from its start to its end, which may go on in another precision on the way.
-template <class Scalar, int Dim>
-class Run {
- public:
-  //! \param measure  of the domain \param adaptive  whether the penalty is to be balanced
-  Run(const LbcProblem<Dim>& problem, double measure, const SolverOptions& options, bool adaptive,
-      bool warm, SolveReport& report)
-      : problem_(problem),
-        options_(options),
-        adaptive_(adaptive),
-        report_(report),
-        num_weights_(
-            std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
-            problem.num_control_points()),
-        residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
-                        (problem.num_control_points() * measure)),
-        estimate_(warm, options.tolerance),
-        gap_(*options.gap, [this] { return certificate_(); }) {}
-
-  //! \param certify_weights  by the duals of the splitting
-  //! \return whether the run has ended; otherwise it is to go on in single precision
-  template <class Stored>
-  bool iterate(ValueSplitting<Scalar, Stored, Dim>& splitting,
-               const std::function<Certificate(const WeightMatrix&)>& certify_weights) {
-    constexpr int kFewest = 8;
-    const auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
-    certificate_ = [&] { return certify_weights(splitting.weights()); };
-    const auto read = [&](Index row, Scalar* weights) { splitting.read_row(row, weights); };
-    if (!history_) {
-      history_.emplace(splitting.history());
-      (*history_)(0, read);
-    }
-    for (;;) {
-      const int iteration = ++report_.iterations;
-      const auto step = step_at(iteration, splitting);
-      const double difference = (*history_)(iteration, read) / problem_.num_control_points();
-      report_.primal_residual = estimate_(iteration, step.change / num_weights_, difference,
-                                          step.violation * residual_scale_) /
-                                options_.tolerance;
-      const bool look = iteration % options_.check_interval == 0 ||
-                        (iteration >= kFewest && report_.primal_residual <= 1) ||
-                        iteration == options_.max_iterations;
-      if (look && finished(iteration, options, gap_, report_)) return true;
-      if (std::is_same_v<Stored, compact::Half> && trembles(iteration)) return false;
-    }
-  }
-
- private:
-  static double square(double x) { return x * x; }
-
-  template <class Stored>
-  compact::Step step_at(int iteration, ValueSplitting<Scalar, Stored, Dim>& splitting) const {
-    constexpr double kBalance = 0.3;
-    const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
-    if (adaptive_ && adapts)
-      return splitting.iterate_and_adapt(kBalance, largest_penalty(problem_));
-    return estimate_.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
-  }
-
-  // Duals that are rounded in every iteration make the weights tremble, of which the estimate of
-  // the error cannot tell that it leads nowhere.
-  bool trembles(int iteration) const {
-    constexpr int kLongest = 300;
-    constexpr double kSmallest = 1e-6;
-    return iteration >= kLongest ||
-           std::max(report_.primal_residual, 1.0) * options_.tolerance < kSmallest;
-  }
-
-  const LbcProblem<Dim>& problem_;
-  const SolverOptions& options_;
-  const bool adaptive_;
-  SolveReport& report_;
-  const double num_weights_;
-  const double residual_scale_;
-  splitting::ErrorEstimate estimate_;
-  std::optional<splitting::WeightHistory<Scalar>> history_;
-  std::function<Certificate()> certificate_;
-  GapCriterion gap_;
-};
 
 // A factor of a large mesh takes more time and memory than the iteration itself; in 3D soon, in 2D
 // where meshes hardly get.
@@ -128,91 +37,191 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
          (storage == nullptr || storage->holds_half());
 }
 
-// A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
-template <int Dim>
-double choose_penalty(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                      const StateStorage* storage, const WarmStart<Dim>& warm_start) {
-  if (resumes(storage)) return storage->penalty();
-  if (options.penalty > 0) return options.penalty;
-  if (warm_start.from) return warm_start.from->penalty();
-  return bounding_box_diagonal(problem.cage.points) / 40;
-}
-
-template <class Scalar, class Stored, int Dim>
-void choose_start(ValueSplitting<Scalar, Stored, Dim>& splitting, const StateStorage* storage,
-                  const WarmStart<Dim>& warm_start) {
-  constexpr int kRichardsonSteps = 8;
-  if (resumes(storage)) {
-    splitting.resume();
-  } else if (warm_start.from) {
-    splitting.start_from_duals([&](Index v) { return warm_start.from->weights_at(v); },
-                               [&](Index s) { return warm_start.from->flux_density(s); },
-                               warm_start.from->vertex_dual_at(splitting.penalty()));
-  } else {
-    splitting.start_from_harmonic(kRichardsonSteps);
+// A solve in the arithmetic of `Scalar`, on all pairs of vertices and control points and on
+// supports in turn.
+template <class Scalar, int Dim>
+class ValueSolve {
+ public:
+  ValueSolve(const LbcProblem<Dim>& problem, const SolverOptions& options, SolveReport& report,
+             StateStorage* storage, const WarmStart<Dim>& warm_start)
+      : problem_(problem),
+        options_(options),
+        report_(report),
+        storage_(storage),
+        warm_start_(warm_start),
+        metric_(
+            splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint)),
+        run_(problem, metric_.cell.sum(), options, is_adaptive(), warm_start.from != nullptr,
+             report) {
+    report.iterations = 0;
+    if (warm_start.from) start_ = start_of(*warm_start.from);
   }
-}
 
-template <class Scalar, class Stored, int Dim>
-MeshState<Dim> keep_state(ValueSplitting<Scalar, Stored, Dim>& splitting,
-                          const LbcProblem<Dim>& problem) {
-  MeshState<Dim> state;
-  state.penalty = splitting.penalty();
-  state.weights = splitting.weights();
-  state.vertex_dual = splitting.vertex_dual();
-  state.flux_density = flux_densities(problem, splitting.flux());
-  return state;
-}
+  template <class Stored>
+  MethodResult solve() {
+    const bool on_supports =
+        storage_ == nullptr && supports::serve(problem_, options_, start_.has_value());
+    if (on_supports && !start_) {
+      // The weights have to be local before they tell their supports.
+      constexpr int kFirst = 41;
+      if (auto result = on_all_pairs<Stored>(kFirst)) return std::move(*result);
+    }
+    if (on_supports) {
+      if (auto result = on_supports_of_start<Stored>()) return std::move(*result);
+    }
+    return std::move(*on_all_pairs<Stored>(kNever));
+  }
 
-// Leaves everything where it is wanted.
-template <class Scalar, class Stored, int Dim>
-MethodResult end(ValueSplitting<Scalar, Stored, Dim>& splitting, const LbcProblem<Dim>& problem,
-                 std::function<Certificate(const WeightMatrix&)> certify_weights,
-                 StateStorage* storage, MeshState<Dim>* final_state, SolveReport& report) {
-  splitting.finish();
-  report.state_scalars_per_cell = splitting.state_scalars_per_cell();
-  report.penalty = splitting.penalty();
-  if (storage != nullptr) storage->keep_penalty(report.penalty);
-  if (final_state) *final_state = keep_state(splitting, problem);
-  return {splitting.weights(), std::move(certify_weights)};
-}
+ private:
+  template <class Stored>
+  using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
-template <class Scalar, class Stored, int Dim>
-MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                   SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
-  Stopwatch watch;
-  const auto metric =
-      splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
-  auto splitting = std::make_shared<ValueSplitting<Scalar, Stored, Dim>>(
-      problem, metric, choose_penalty(problem, options, storage, warm_start), options.relaxation,
-      linear_solver_for(problem, options), storage);
-  choose_start(*splitting, storage, warm_start);
-  const bool warm = warm_start.from != nullptr;
-  if (warm_start.started) warm_start.started();
-  const bool adaptive = options.penalty == 0 && !resumes(storage) && !warm;
-  const auto certify_by = [&problem](const auto& any) {
-    return [any, &problem](const WeightMatrix& weights) {
-      return certify(problem, any->flux(), weights);
-    };
-  };
-  report.iterations = 0;
-  Run<Scalar, Dim> run(problem, metric.cell.sum(), options, adaptive, warm, report);
-  const auto end_with = [&](const auto& any) {
-    report.seconds.solve = watch.lap();
-    return end(*any, problem, certify_by(any), storage, warm_start.final_state, report);
-  };
-  [[maybe_unused]] const bool has_ended = run.iterate(*splitting, certify_by(splitting));
-  if constexpr (std::is_same_v<Stored, compact::Half>) {
-    if (!has_ended) {
-      const auto single =
-          std::make_shared<ValueSplitting<Scalar, Scalar, Dim>>(std::move(*splitting), storage);
-      splitting.reset();
-      run.iterate(*single, certify_by(single));
-      return end_with(single);
+  bool is_adaptive() const {
+    return options_.penalty == 0 && !resumes(storage_) && !warm_start_.from;
+  }
+
+  // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
+  double choose_penalty() const {
+    if (resumes(storage_)) return storage_->penalty();
+    if (options_.penalty > 0) return options_.penalty;
+    if (start_) return start_->penalty;
+    return bounding_box_diagonal(problem_.cage.points) / 40;
+  }
+
+  // What the start refers to is not needed any more.
+  void forget_start() {
+    start_.reset();
+    if (warm_start_.started) warm_start_.started();
+    warm_start_.started = nullptr;
+  }
+
+  // \return nothing if it paused: the start is then where it is
+  template <class Stored>
+  std::optional<MethodResult> on_all_pairs(int pause) {
+    constexpr int kRichardsonSteps = 8;
+    const auto splitting = std::make_shared<Splitting<Stored>>(
+        problem_, metric_, choose_penalty(), options_.relaxation,
+        linear_solver_for(problem_, options_), storage_);
+    if (resumes(storage_)) {
+      splitting->resume();
+    } else if (start_) {
+      splitting->start_from_duals(start_->weights, start_->flux_density,
+                                  start_->vertex_dual_at(splitting->penalty()));
+    } else {
+      splitting->start_from_harmonic(kRichardsonSteps);
+    }
+    forget_start();
+    return advance(splitting, pause);
+  }
+
+  template <class Stored>
+  std::optional<MethodResult> advance(std::shared_ptr<Splitting<Stored>> splitting, int pause) {
+    switch (run_.iterate(*splitting, certify_by(splitting), {0, pause})) {
+      case Outcome::kEnded:
+        return end(std::move(splitting));
+      case Outcome::kPaused:
+        start_ = start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting));
+        return {};
+      default:
+        return advance(in_single(std::move(splitting)), pause);
     }
   }
-  return end_with(splitting);
-}
+
+  template <class Stored>
+  std::shared_ptr<Splitting<Scalar>> in_single(std::shared_ptr<Splitting<Stored>> splitting) {
+    if constexpr (Splitting<Stored>::kStoresHalf) {
+      return std::make_shared<Splitting<Scalar>>(std::move(*splitting), storage_);
+    } else {
+      return splitting;
+    }
+  }
+
+  // \return nothing if it has to go on with all pairs: the start is then where it is
+  template <class Stored>
+  std::optional<MethodResult> on_supports_of_start() {
+    const double threshold = supports::threshold_for(options_.tolerance);
+    auto lists = warm_start_.from ? supports::supports_from(problem_, *warm_start_.from, threshold)
+                                  : supports::supports_of(problem_, start_->weights, threshold);
+    if (!supports::pay(problem_, options_, lists)) return {};
+    supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
+    // Where fewer weights move a smaller penalty serves, and a yet smaller one where they are
+    // nearly right already; as measured.
+    const double part = options_.penalty > 0 ? 1 : warm_start_.from ? 0.25 : 0.5;
+    const double of_all_pairs = choose_penalty();
+    report_.penalty = part * of_all_pairs;
+    auto last = iteration.template run<Stored>(*std::exchange(start_, {}), report_.penalty,
+                                               std::move(lists), [&] { forget_start(); });
+    last.state = with_penalty(last.state, of_all_pairs);
+    if (!last.ended || options_.certify) {
+      start_ = std::move(last.state);
+      return {};
+    }
+    if (warm_start_.final_state) {
+      *warm_start_.final_state = keep_state(last.state);
+      warm_start_.final_state->flux_density = flux_densities_of(last.state);
+    }
+    report_.seconds.solve = watch_.lap();
+    return MethodResult{std::move(last.weights), {}};
+  }
+
+  template <class Stored>
+  auto certify_by(const std::shared_ptr<Splitting<Stored>>& splitting) const {
+    return [splitting, &problem = problem_](const WeightMatrix& weights) {
+      return certify(problem, splitting->flux(), weights);
+    };
+  }
+
+  // All but the flux.
+  MeshState<Dim> keep_state(const DualStart<Dim>& start) const {
+    const Index n = problem_.num_control_points();
+    MeshState<Dim> state;
+    state.penalty = start.penalty;
+    state.weights = WeightMatrix::Zero(n, problem_.mesh.num_vertices());
+    if (start.vertex_dual) state.vertex_dual = state.weights;
+    for (const Index v : problem_.boundary.interior_vertices()) {
+      state.weights.col(v) = start.weights(v);
+      if (start.vertex_dual) state.vertex_dual.col(v) = start.vertex_dual(v);
+    }
+    problem_.boundary.impose_on(state.weights);
+    return state;
+  }
+
+  Eigen::MatrixXd flux_densities_of(const DualStart<Dim>& start) const {
+    Eigen::MatrixXd densities(problem_.num_control_points(), Dim * problem_.mesh.num_cells());
+    for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+      densities.template middleCols<Dim>(Dim * s) = start.flux_density(s);
+    }
+    return densities;
+  }
+
+  // Leaves everything where it is wanted.
+  template <class Stored>
+  MethodResult end(std::shared_ptr<Splitting<Stored>> splitting) {
+    report_.seconds.solve = watch_.lap();
+    splitting->finish();
+    report_.state_scalars_per_cell = splitting->state_scalars_per_cell();
+    report_.penalty = splitting->penalty();
+    if (storage_ != nullptr) storage_->keep_penalty(report_.penalty);
+    if (warm_start_.final_state) {
+      *warm_start_.final_state =
+          keep_state(start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting)));
+      warm_start_.final_state->flux_density = flux_densities(problem_, splitting->flux());
+    }
+    return {splitting->weights(), certify_by(splitting)};
+  }
+
+  static constexpr int kNever = std::numeric_limits<int>::max();
+
+  Stopwatch watch_;
+  const LbcProblem<Dim>& problem_;
+  const SolverOptions& options_;
+  SolveReport& report_;
+  StateStorage* const storage_;
+  WarmStart<Dim> warm_start_;
+  const splitting::Metric metric_;
+  ValueRun<Scalar, Dim> run_;
+  std::optional<DualStart<Dim>> start_;
+};
 
 }  // namespace
 
@@ -220,12 +229,12 @@ template <int Dim>
 MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions& options,
                             SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start) {
   if (options.precision == Precision::kDouble) {
-    return solve<double, double>(problem, options, report, storage, warm_start);
+    return ValueSolve<double, Dim>(problem, options, report, storage, warm_start)
+        .template solve<double>();
   }
-  if (takes_half(problem, options, storage)) {
-    return solve<float, compact::Half>(problem, options, report, storage, warm_start);
-  }
-  return solve<float, float>(problem, options, report, storage, warm_start);
+  ValueSolve<float, Dim> solve(problem, options, report, storage, warm_start);
+  return takes_half(problem, options, storage) ? solve.template solve<compact::Half>()
+                                               : solve.template solve<float>();
 }
 
 template MethodResult solve_by_value(const LbcProblem<2>&, const SolverOptions&, SolveReport&,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/warm_start/transfer.h"
 
-#include <limits>
 #include <utility>
 
 #include "flbc/bounding_box.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/cell_walk.h"
+#include "solver/warm_start/flux_length.h"
 
 namespace flbc {
 
@@ -93,9 +93,7 @@ template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cell) const {
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
       state_.flux_density.template middleCols<Dim>(Dim * cells_[cell]);
-  const Eigen::ArrayXd length =
-      density.rowwise().norm().array().max(std::numeric_limits<double>::min());
-  density.array().colwise() *= (fine_.phi.col(cell).array() / length).min(1);
+  shorten_to(fine_.phi.col(cell), density);
   return density;
 }
 

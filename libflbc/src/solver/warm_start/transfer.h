@@ -53,6 +53,13 @@ class Transfer {
   //! The same at one interior vertex, n numbers.
   Eigen::VectorXd weights_at(Index vertex) const;
 
+  //! Where a fine vertex lies in the coarse mesh.
+  const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
+
+  //! The coarse mesh and the weights there, n x V of that mesh.
+  const DomainMesh<Dim>& coarse_mesh() const { return coarse_.mesh; }
+  const WeightMatrix& coarse_weights() const { return state_.weights; }
+
   //! In a fine cell: that of the coarse cell which contains its middle, no longer than phi. n x Dim
   Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The loop of Method::kValue round its iteration.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "flbc/bounding_box.h"
+#include "flbc/certificate.h"
+#include "flbc/padded_rows.h"
+#include "solver/iterative_method.h"
+#include "solver/splitting/compact_splitting.h"
+#include "solver/splitting/error_estimate.h"
+
+namespace flbc {
+
+//! The penalty grows to no more than this: what is balanced are lengths of all that moves, and
+//! where the start is nearly right everywhere, as on round cages, that takes the penalty out of the
+//! range in which the rest converges.
+template <int Dim>
+double largest_penalty(const LbcProblem<Dim>& problem) {
+  return bounding_box_diagonal(problem.cage.points) / 30;
+}
+
+//! Why an iteration of a run was left.
+enum class Outcome {
+  kEnded,
+  kPaused,   //!< where it was told to
+  kTrembles  //!< half precision does no longer; it is to go on in single precision
+};
+
+//! Iterations between which a run may end, and after which it pauses.
+struct Window {
+  int earliest;
+  int pause;
+};
+
+//! A run from its start to its end, which may go on in another precision or on other supports on
+//! the way.
+template <class Scalar, int Dim>
+class ValueRun {
+ public:
+  //! \param measure  of the domain \param adaptive  whether the penalty is to be balanced
+  ValueRun(const LbcProblem<Dim>& problem, double measure, const SolverOptions& options,
+           bool adaptive, bool warm, SolveReport& report)
+      : problem_(problem),
+        options_(options),
+        adaptive_(adaptive),
+        report_(report),
+        num_weights_(
+            std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
+            problem.num_control_points()),
+        residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
+                        (problem.num_control_points() * measure)),
+        estimate_(warm, options.tolerance),
+        gap_(*options.gap, [this] { return certificate_(); }) {}
+
+  //! \param certify_weights  by the duals of the splitting
+  template <class Splitting>
+  Outcome iterate(Splitting& splitting,
+                  const std::function<Certificate(const WeightMatrix&)>& certify_weights,
+                  Window window) {
+    constexpr int kFewest = 8;
+    const auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
+    certificate_ = [&] { return certify_weights(splitting.weights()); };
+    const auto read = [&](Index v, Scalar* weights) { splitting.read_vertex(v, weights); };
+    if (!history_) {
+      history_.emplace(problem_.boundary.interior_vertices(),
+                       padded(static_cast<std::size_t>(problem_.num_control_points())));
+      (*history_)(0, read);
+    }
+    for (;;) {
+      const int iteration = ++report_.iterations;
+      const auto step = step_at(iteration, splitting);
+      const double difference = (*history_)(iteration, read) / problem_.num_control_points();
+      report_.primal_residual = estimate_(iteration, step.change / num_weights_, difference,
+                                          step.violation * residual_scale_) /
+                                options_.tolerance;
+      const bool shows_end = report_.primal_residual <= 1;
+      const bool look = iteration == options_.max_iterations ||
+                        (shows_end ? iteration >= std::max(kFewest, window.earliest)
+                                   : iteration % options_.check_interval == 0);
+      if (look && finished(iteration, options, gap_, report_)) return Outcome::kEnded;
+      if (Splitting::kStoresHalf && trembles(iteration)) return Outcome::kTrembles;
+      if (iteration >= window.pause) return Outcome::kPaused;
+    }
+  }
+
+ private:
+  static double square(double x) { return x * x; }
+
+  template <class Splitting>
+  compact::Step step_at(int iteration, Splitting& splitting) const {
+    if constexpr (Splitting::kAdapts) {
+      constexpr double kBalance = 0.3;
+      const bool adapts = iteration == 5 || iteration == 10 || iteration == 20 || iteration == 40;
+      if (adaptive_ && adapts) {
+        return splitting.iterate_and_adapt(kBalance, largest_penalty(problem_));
+      }
+    }
+    return estimate_.wants_residual() ? splitting.iterate_measured() : splitting.iterate();
+  }
+
+  // Duals that are rounded in every iteration make the weights tremble, of which the estimate of
+  // the error cannot tell that it leads nowhere.
+  bool trembles(int iteration) const {
+    constexpr int kLongest = 300;
+    constexpr double kSmallest = 1e-6;
+    return iteration >= kLongest ||
+           std::max(report_.primal_residual, 1.0) * options_.tolerance < kSmallest;
+  }
+
+  const LbcProblem<Dim>& problem_;
+  const SolverOptions& options_;
+  const bool adaptive_;
+  SolveReport& report_;
+  const double num_weights_;
+  const double residual_scale_;
+  splitting::ErrorEstimate estimate_;
+  std::optional<splitting::WeightHistory<Scalar>> history_;
+  std::function<Certificate()> certificate_;
+  GapCriterion gap_;
+};
+
+}  // namespace flbc

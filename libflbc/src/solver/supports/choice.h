@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Where Method::kValue works on supports.
+#pragma once
+
+#include "flbc/lbc_problem.h"
+#include "flbc/options.h"
+#include "solver/supports/support_lists.h"
+
+namespace flbc::supports {
+
+//! Whether supports are to be looked for: where they pay, and nothing is asked for that they do not
+//! give. \param from_coarse  whether weights on a coarser mesh tell them
+template <int Dim>
+bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options, bool from_coarse) {
+  // Below, lists of control points are not much shorter than all of them, as measured; in 2D they
+  // hold too few to leave the iteration freedom.
+  constexpr Index kFewest = 80;
+  const Index n = problem.num_control_points();
+  if (options.method != Method::kValue || n > kMostControlPoints) return false;
+  if (options.active_pairs != ActivePairs::kAuto) return options.active_pairs == ActivePairs::kOn;
+  // Few iterations are left where the weights themselves have to tell, and the wanted error is
+  // large.
+  constexpr double kMany = 1e-6;
+  return Dim == 3 && n >= kFewest && !options.certify &&
+         (from_coarse || options.tolerance <= kMany);
+}
+
+//! Whether so many pairs take less time than all.
+template <int Dim>
+bool pay(const LbcProblem<Dim>& problem, const SolverOptions& options, const SupportLists& lists) {
+  constexpr double kMost = 0.5;
+  return options.active_pairs == ActivePairs::kOn || density(problem, lists) <= kMost;
+}
+
+}  // namespace flbc::supports

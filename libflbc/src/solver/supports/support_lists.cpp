@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/supports/support_lists.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "projection/nearest_point_in_hull.h"
+
+namespace flbc::supports {
+namespace {
+
+using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+// Of every vertex, the control points that matter at it or next to it. n x V
+template <int Dim>
+Flags flags_of(const DomainMesh<Dim>& mesh, const WeightMatrix& weights, double threshold) {
+  const Flags matters = weights.array() > threshold;
+  Flags near = matters;
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    Eigen::Array<bool, Eigen::Dynamic, 1> any = matters.col(mesh.cells(0, s)).array();
+    for (int k = 1; k <= Dim; ++k) any = any || matters.col(mesh.cells(k, s)).array();
+    for (const Index v : mesh.cells.col(s)) {
+      near.col(v).array() = near.col(v).array() || any;
+    }
+  }
+  return near;
+}
+
+// Weights on a facet have to be taken over by the vertices next to it.
+template <int Dim>
+void add_boundary(const LbcProblem<Dim>& problem, Flags& flags) {
+  const auto& boundary = problem.boundary;
+  const auto add = [&](Index b, Index v) {
+    for (int k = 0; k < Dim; ++k) {
+      if (boundary.values(k, b) != 0) flags(boundary.control_points(k, b), v) = true;
+    }
+  };
+  for (Index b = 0; b < static_cast<Index>(boundary.vertices.size()); ++b) {
+    flags.col(boundary.vertices[b]).setConstant(false);
+    add(b, boundary.vertices[b]);
+  }
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    for (const Index v : problem.mesh.cells.col(s)) {
+      const Index b = boundary.boundary_index[v];
+      if (b < 0) continue;
+      for (const Index u : problem.mesh.cells.col(s)) {
+        if (boundary.is_interior(u)) add(b, u);
+      }
+    }
+  }
+}
+
+// Whether a vertex lies in the convex hull of its control points, so that it has weights.
+template <int Dim>
+bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
+  const double tolerance = 1e-9 * problem.cage.points.cwiseAbs().maxCoeff();
+  PointList<Dim> points(Dim, flags.col(v).count());
+  Index count = 0;
+  for (Index i = 0; i < flags.rows(); ++i) {
+    if (flags(i, v)) points.col(count++) = problem.cage.points.col(i);
+  }
+  if (count == 0) return false;
+  const Vector<Dim> point = problem.mesh.points.col(v);
+  return nearest_point_in_hull<Dim>(points, point).distance <= tolerance;
+}
+
+// Adds what every vertex has to have. \param weights  feasible ones of an interior vertex
+template <int Dim>
+SupportLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
+  add_boundary(problem, flags);
+#pragma omp parallel for schedule(dynamic, 64)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (!problem.boundary.is_interior(v) || is_feasible(problem, v, flags)) continue;
+    flags.col(v).array() = flags.col(v).array() || weights(v).array() > 0;
+  }
+  return lists_from(flags);
+}
+
+template <int Dim>
+Flags flags_of_lists(const LbcProblem<Dim>& problem, const SupportLists& supports) {
+  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    for (const ControlPoint i : supports.of(v)) flags(i, v) = true;
+  }
+  return flags;
+}
+
+// Calls action(vertex, place in its list, neighbour) for interior vertices and their interior
+// neighbours that lack a control point, vertex by vertex and place by place.
+template <int Dim, class Action>
+void for_ends(const LbcProblem<Dim>& problem, const SupportLists& supports, const Action& action) {
+  const VertexCells around(problem.mesh);
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (!problem.boundary.is_interior(v)) continue;
+    std::vector<Index> neighbours;
+    for (const Index s : around.cells_of(v)) {
+      for (const Index u : problem.mesh.cells.col(s)) {
+        if (u != v && problem.boundary.is_interior(u)) neighbours.push_back(u);
+      }
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    const auto list = supports.of(v);
+    for (const ControlPoint* item = list.first; item != list.last; ++item) {
+      for (const Index u : neighbours) {
+        const auto other = supports.of(u);
+        if (std::binary_search(other.first, other.last, *item)) continue;
+        action(v, static_cast<Index>(item - list.first), u);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double threshold_for(double tolerance) {
+  constexpr double kLeast = 1e-5;
+  constexpr double kMost = 1e-3;
+  constexpr double kErrors = 3;
+  return std::clamp(kErrors * std::sqrt(tolerance), kLeast, kMost);
+}
+
+SupportLists lists_from(const Flags& is_in) {
+  return items_by_vertex<ControlPoint>(static_cast<Index>(is_in.cols()), [&](const auto& visit) {
+    for (Index v = 0; v < static_cast<Index>(is_in.cols()); ++v) {
+      for (Index i = 0; i < static_cast<Index>(is_in.rows()); ++i) {
+        if (is_in(i, v)) visit(v, static_cast<ControlPoint>(i));
+      }
+    }
+  });
+}
+
+template <int Dim>
+SupportLists supports_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
+                           double threshold) {
+  constexpr double kNotInterpolated = 1e-12;
+  const auto& mesh = coarse.coarse_mesh();
+  const Flags near = flags_of(mesh, coarse.coarse_weights(), threshold);
+  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    const auto& place = coarse.place_of(v);
+    for (int k = 0; k <= Dim; ++k) {
+      if (place.coordinates[k] <= kNotInterpolated) continue;
+      flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
+    }
+  }
+  return completed(
+      problem, [&](Index v) { return coarse.weights_at(v); }, std::move(flags));
+}
+
+template <int Dim>
+SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
+                         double threshold) {
+  WeightMatrix all = WeightMatrix::Zero(problem.num_control_points(), problem.mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.is_interior(v)) all.col(v) = weights(v);
+  }
+  problem.boundary.impose_on(all);
+  return completed(problem, weights, flags_of(problem.mesh, all, threshold));
+}
+
+template <int Dim>
+SupportLists grown(const LbcProblem<Dim>& problem, const SupportLists& supports, double threshold,
+                   const WeightInList& weight) {
+  Flags flags = flags_of_lists(problem, supports);
+  for_ends(problem, supports, [&](Index v, Index place, Index neighbour) {
+    if (weight(v, place) > threshold) flags(supports.of(v).first[place], neighbour) = true;
+  });
+  return lists_from(flags);
+}
+
+template <int Dim>
+double squared_at_ends(const LbcProblem<Dim>& problem, const SupportLists& supports,
+                       const WeightInList& weight) {
+  double sum = 0;
+  Index last_vertex = -1;
+  Index last_place = -1;
+  for_ends(problem, supports, [&](Index v, Index place, Index) {
+    if (v == last_vertex && place == last_place) return;
+    last_vertex = v;
+    last_place = place;
+    const double w = weight(v, place);
+    sum += w * w;
+  });
+  return sum;
+}
+
+template <int Dim>
+double density(const LbcProblem<Dim>& problem, const SupportLists& supports) {
+  const auto interior = problem.boundary.interior_vertices();
+  double pairs = 0;
+  for (const Index v : interior) pairs += supports.start[v + 1] - supports.start[v];
+  const auto all = static_cast<double>(interior.size()) * problem.num_control_points();
+  return interior.empty() ? 1 : pairs / all;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template SupportLists supports_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double); \
+  template SupportLists supports_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);    \
+  template SupportLists grown(const LbcProblem<Dim>&, const SupportLists&, double,           \
+                              const WeightInList&);                                          \
+  template double squared_at_ends(const LbcProblem<Dim>&, const SupportLists&,               \
+                                  const WeightInList&);                                      \
+  template double density(const LbcProblem<Dim>&, const SupportLists&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::supports

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/supports/support_multigrid.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/flush_denormals.h"
+#include "flbc/padded_rows.h"
+
+namespace flbc::supports {
+namespace {
+
+// Fewer unknowns are swept as fast as they are solved for.
+constexpr Index kCoarsest = 16;
+
+template <class Scalar>
+void set_entries(const RowMatrix& matrix, std::vector<Index>& starts, std::vector<Index>& columns,
+                 std::vector<Scalar>& values) {
+  starts.assign(1, 0);
+  for (Index row = 0; row < matrix.rows(); ++row) {
+    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
+      columns.push_back(static_cast<Index>(it.col()));
+      values.push_back(static_cast<Scalar>(it.value()));
+    }
+    starts.push_back(static_cast<Index>(columns.size()));
+  }
+}
+
+template <class Scalar>
+Entries<Scalar> all_of(const std::vector<Index>& starts, const std::vector<Index>& columns,
+                       const std::vector<Scalar>& values) {
+  return {starts.data(), starts.data() + 1, columns.data(), values.data()};
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+SupportMultigrid<Scalar, Dim>::SupportMultigrid(RowMatrix matrix, SweepOrder order,
+                                                const PackedLists& lists,
+                                                const AlignedArray<Scalar>& basis,
+                                                const PointList<Dim>& control_points,
+                                                const Kernel<Scalar, Dim>& kernel)
+    : kernel_(kernel),
+      n_(static_cast<ControlPoint>(control_points.cols())),
+      work_size_(padded(static_cast<std::size_t>(n_) + 1)),
+      lists_(lists),
+      basis_(basis) {
+  LevelData level;
+  level.order = std::move(order);
+  for (;;) {
+    const PackedLists& fine = levels_.empty() ? lists_ : level.own_lists;
+    set_matrix(reordered(matrix, level.order.position, level.order.position), level);
+    level.solution = AlignedArray<Scalar>(fine.size());
+    LevelData next = coarsen(matrix, fine, level);
+    const bool is_last = next.own_lists.size() == 0;
+    if (!is_last)
+      next.own_basis = row_bases<Scalar, Dim>(next.own_lists, control_points, {}, nullptr);
+    levels_.push_back(std::move(level));
+    if (is_last) return;
+    level = std::move(next);
+  }
+}
+
+// Without lists if there is nothing to gain. \param matrix  becomes the coarse one
+template <class Scalar, int Dim>
+typename SupportMultigrid<Scalar, Dim>::LevelData SupportMultigrid<Scalar, Dim>::coarsen(
+    RowMatrix& matrix, const PackedLists& lists, LevelData& level) const {
+  LevelData next;
+  if (matrix.rows() <= kCoarsest) return next;
+  const RowMatrix prolongation = smoothed_prolongation(matrix);
+  RowMatrix coarse = prolongation.transpose() * RowMatrix(matrix * prolongation);
+  // Unknowns without couplings cannot be grouped.
+  if (5 * coarse.rows() > 4 * matrix.rows()) return next;
+  next.order = sweep_order(coarse);
+  const RowMatrix moved = reordered(prolongation, level.order.position, next.order.position);
+  const RowMatrix restriction = moved.transpose();
+  next.own_lists = coarse_lists(lists, restriction);
+  if (next.own_lists.size() == 0) return next;
+  set_entries(moved, level.prolongation_starts, level.prolongation_columns,
+              level.prolongation_values);
+  set_entries(restriction, level.restriction_starts, level.restriction_columns,
+              level.restriction_values);
+  next.right_side = AlignedArray<Scalar>(next.own_lists.size());
+  level.rest = AlignedArray<Scalar>(lists.size());
+  matrix = std::move(coarse);
+  return next;
+}
+
+template <class Scalar, int Dim>
+void SupportMultigrid<Scalar, Dim>::set_matrix(const RowMatrix& matrix, LevelData& level) const {
+  level.starts.assign(1, 0);
+  for (Index row = 0; row < matrix.rows(); ++row) {
+    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
+      const auto column = static_cast<Index>(it.col());
+      if (column == row) {
+        level.inverse_diagonal.push_back(static_cast<Scalar>(1 / it.value()));
+        level.upper.push_back(static_cast<Index>(level.columns.size()));
+        continue;
+      }
+      level.columns.push_back(column);
+      level.values.push_back(static_cast<Scalar>(it.value()));
+    }
+    level.starts.push_back(static_cast<Index>(level.columns.size()));
+  }
+}
+
+// The control points that are active at every vertex of a coarse unknown's function; none where
+// their number leaves no freedom.
+template <class Scalar, int Dim>
+PackedLists SupportMultigrid<Scalar, Dim>::coarse_lists(const PackedLists& fine,
+                                                        const RowMatrix& restriction) const {
+  PackedLists lists;
+  std::vector<Index> found(n_);
+  std::vector<ControlPoint> common;
+  for (Index row = 0; row < restriction.rows(); ++row) {
+    std::fill(found.begin(), found.end(), 0);
+    Index count = 0;
+    for (RowMatrix::InnerIterator it(restriction, row); it; ++it, ++count) {
+      const std::size_t start = fine.starts[it.col()];
+      for (Index j = 0; j < fine.counts[it.col()]; ++j) ++found[fine.items[start + j]];
+    }
+    common.clear();
+    for (Index i = 0; i < n_; ++i) {
+      if (found[i] == count) common.push_back(static_cast<ControlPoint>(i));
+    }
+    if (common.size() <= Dim + 1) common.clear();
+    lists.append(common.data(), common.data() + common.size(), n_);
+  }
+  return lists;
+}
+
+template <class Scalar, int Dim>
+Level<Scalar> SupportMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* right_side) {
+  LevelData& level = levels_[l];
+  Level<Scalar> view;
+  view.lists = l == 0 ? lists_.view() : level.own_lists.view();
+  view.lower = {level.starts.data(), level.upper.data(), level.columns.data(), level.values.data()};
+  view.upper = {level.upper.data(), level.starts.data() + 1, level.columns.data(),
+                level.values.data()};
+  view.inverse_diagonal = level.inverse_diagonal.data();
+  view.basis = l == 0 ? basis_.data() : level.own_basis.data();
+  view.right_side = l == 0 ? right_side : level.right_side.data();
+  view.solution = level.solution.data();
+  return view;
+}
+
+// Calls body(begin, end) for the rows of every block of a colour, by all threads of the team.
+template <class Scalar, int Dim>
+template <class Body>
+void SupportMultigrid<Scalar, Dim>::for_blocks(const LevelData& level, std::size_t colour,
+                                               const Body& body) const {
+  const auto& order = level.order;
+#pragma omp for schedule(static)
+  for (Index block = order.colour_starts[colour]; block < order.colour_starts[colour + 1];
+       ++block) {
+    body(order.block_starts[block], order.block_starts[block + 1]);
+  }
+}
+
+// Down to the next level: once a row has been relaxed, its residual is what later rows did to it,
+// but for a part that the projection takes away.
+template <class Scalar, int Dim>
+void SupportMultigrid<Scalar, Dim>::descend(std::size_t l, const Scalar* right_side, Scalar* work) {
+  LevelData& level = levels_[l];
+  const auto fine = view(l, right_side);
+  const std::size_t num_colours = level.order.colour_starts.size() - 1;
+  for (std::size_t colour = 0; colour < num_colours; ++colour) {
+    for_blocks(level, colour, [&](Index begin, Index end) {
+      kernel_.descend(fine, begin, end, work_size_, work);
+    });
+  }
+  if (l + 1 == levels_.size()) return;
+  const auto num_rows = static_cast<Index>(level.inverse_diagonal.size());
+#pragma omp for schedule(static)
+  for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
+    kernel_.multiply(fine.upper, fine.lists, fine.lists, -1, fine.solution, false,
+                     level.rest.data(), begin, std::min(num_rows, begin + kRowBlock), work_size_,
+                     work);
+  }
+  LevelData& coarse = levels_[l + 1];
+  const auto num_coarse = static_cast<Index>(coarse.inverse_diagonal.size());
+#pragma omp for schedule(static)
+  for (Index begin = 0; begin < num_coarse; begin += kRowBlock) {
+    kernel_.multiply(
+        all_of(level.restriction_starts, level.restriction_columns, level.restriction_values),
+        coarse.own_lists.view(), fine.lists, 1, level.rest.data(), false, coarse.right_side.data(),
+        begin, std::min(num_coarse, begin + kRowBlock), work_size_, work);
+  }
+}
+
+template <class Scalar, int Dim>
+void SupportMultigrid<Scalar, Dim>::ascend(std::size_t l, const Scalar* right_side, Scalar* work) {
+  LevelData& level = levels_[l];
+  const auto fine = view(l, right_side);
+  if (l + 1 < levels_.size()) {
+    const LevelData& coarse = levels_[l + 1];
+    const auto num_rows = static_cast<Index>(level.inverse_diagonal.size());
+#pragma omp for schedule(static)
+    for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
+      kernel_.multiply(
+          all_of(level.prolongation_starts, level.prolongation_columns, level.prolongation_values),
+          fine.lists, coarse.own_lists.view(), 1, coarse.solution.data(), true, fine.solution,
+          begin, std::min(num_rows, begin + kRowBlock), work_size_, work);
+    }
+  }
+  for (std::size_t colour = level.order.colour_starts.size() - 1; colour-- > 0;) {
+    for_blocks(level, colour,
+               [&](Index begin, Index end) { kernel_.ascend(fine, begin, end, work_size_, work); });
+  }
+}
+
+template <class Scalar, int Dim>
+void SupportMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
+#pragma omp parallel
+  {
+    const FlushDenormals flush;
+    AlignedArray<Scalar> work(2 * work_size_);
+    for (std::size_t l = 0; l < levels_.size(); ++l) descend(l, rows, work.data());
+    for (std::size_t l = levels_.size(); l-- > 0;) ascend(l, rows, work.data());
+  }
+  const auto num_unknowns = levels_.front().inverse_diagonal.size();
+  std::copy_n(levels_.front().solution.data(), lists_.starts[num_unknowns], rows);
+}
+
+template class SupportMultigrid<float, 2>;
+template class SupportMultigrid<float, 3>;
+template class SupportMultigrid<double, 2>;
+template class SupportMultigrid<double, 3>;
+
+}  // namespace flbc::supports

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The iteration on supports: its linear step against a dense solver of the same problem, and its
+// limit against the iteration on all pairs.
+#include <type_traits>
+#include <utility>
+
+#include <gtest/gtest.h>
+#include <Eigen/QR>
+
+#include "base/parallel.h"
+#include "flbc/harmonic.h"
+#include "flbc/solver.h"
+#include "projection/nearest_point_in_hull.h"
+#include "solver/supports/iterate_on_supports.h"
+#include "support/fine_cages.h"
+#include "support/judge.h"
+#include "support/splitting_cases.h"
+
+namespace flbc::testing {
+namespace {
+
+using supports::ControlPoint;
+using supports::SupportLists;
+
+template <class Dimension>
+class SupportsTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SupportsTest, Dimensions);
+
+template <int Dim>
+LbcProblem<Dim> make_fine_problem(Shape shape) {
+  const auto sample = with_fine_cage<Dim>(shape, 2, Dim == 2 ? 8 : 4);
+  return make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+}
+
+// The tighter the larger the threshold, as far as each vertex has weights there.
+template <int Dim>
+SupportLists supports_of_harmonic(const LbcProblem<Dim>& problem, double threshold) {
+  const WeightMatrix weights = harmonic_coordinates(problem);
+  return supports::supports_of<Dim>(
+      problem, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, threshold);
+}
+
+template <int Dim>
+std::vector<const supports::Kernel<double, Dim>*> kernels() {
+  const auto list = supported_kernels<supports::Kernel<double, Dim>>();
+  return {list.kernels, list.kernels + list.size};
+}
+
+// The changes of weights on the supports that sum to zero and reproduce zero, and the system: all
+// of it dense, pair by pair.
+template <int Dim>
+struct DenseSpace {
+  Eigen::MatrixXd basis;   // of the changes, pairs x dimensions
+  Eigen::MatrixXd system;  // K for every control point, pairs x pairs
+
+  DenseSpace(const LbcProblem<Dim>& problem, const RowMatrix& matrix,
+             const supports::PackedLists& lists, const std::vector<Index>& vertices) {
+    const Index rows = static_cast<Index>(vertices.size());
+    std::vector<std::pair<Index, Index>> pairs;  // row and control point
+    for (Index row = 0; row < rows; ++row) {
+      for (Index j = 0; j < lists.counts[row]; ++j) {
+        pairs.emplace_back(row, lists.items[lists.starts[row] + j]);
+      }
+    }
+    const auto size = static_cast<Index>(pairs.size());
+    Eigen::MatrixXd constraints = Eigen::MatrixXd::Zero((Dim + 1) * rows, size);
+    system = Eigen::MatrixXd::Zero(size, size);
+    const Eigen::MatrixXd dense(matrix);
+    for (Index a = 0; a < size; ++a) {
+      const auto [row, i] = pairs[a];
+      constraints((Dim + 1) * row, a) = 1;
+      constraints.block((Dim + 1) * row + 1, a, Dim, 1) = problem.cage.points.col(i);
+      for (Index b = 0; b < size; ++b) {
+        if (pairs[b].second == i) system(a, b) = dense(row, pairs[b].first);
+      }
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(constraints.transpose());
+    const Eigen::MatrixXd q = qr.householderQ();
+    basis = q.rightCols(size - qr.rank());
+  }
+
+  Eigen::VectorXd minimiser(const Eigen::VectorXd& right_side) const {
+    const Eigen::MatrixXd reduced = basis.transpose() * system * basis;
+    return basis * reduced.ldlt().solve(basis.transpose() * right_side);
+  }
+};
+
+// The multigrid of a problem, and rows without their padding.
+template <int Dim>
+struct LinearStep {
+  RowMatrix matrix;
+  supports::SweepOrder order;
+  std::vector<Index> vertices;
+  supports::PackedLists lists;
+  AlignedArray<double> bases;
+
+  LinearStep(const LbcProblem<Dim>& problem, const SupportLists& supports) {
+    const auto metric = splitting::measure_metric(problem, true);
+    matrix = RowMatrix(
+        splitting::system_matrix(problem, metric).template selfadjointView<Eigen::Lower>());
+    order = supports::sweep_order(matrix);
+    vertices.resize(matrix.rows());
+    Index unknown = 0;
+    for (const Index v : problem.boundary.interior_vertices()) {
+      vertices[order.position[unknown++]] = v;
+    }
+    for (const Index v : vertices) {
+      lists.append(supports.of(v).first, supports.of(v).last,
+                   static_cast<ControlPoint>(problem.num_control_points()));
+    }
+    bases = supports::row_bases<double, Dim>(lists, problem.cage.points, {}, nullptr);
+  }
+
+  Eigen::VectorXd packed(const AlignedArray<double>& numbers) const {
+    std::vector<double> result;
+    for (Index row = 0; row < lists.num_rows(); ++row) {
+      for (Index j = 0; j < lists.counts[row]; ++j) {
+        result.push_back(numbers[lists.starts[row] + j]);
+      }
+    }
+    return Eigen::Map<const Eigen::VectorXd>(result.data(), static_cast<Index>(result.size()));
+  }
+
+  AlignedArray<double> padded_rows(const Eigen::VectorXd& numbers) const {
+    AlignedArray<double> result(lists.size());
+    Index next = 0;
+    for (Index row = 0; row < lists.num_rows(); ++row) {
+      for (Index j = 0; j < lists.counts[row]; ++j) {
+        result[lists.starts[row] + j] = numbers[next++];
+      }
+    }
+    return result;
+  }
+};
+
+template <int Dim>
+Eigen::VectorXd cycle_of(supports::SupportMultigrid<double, Dim>& multigrid,
+                         const LinearStep<Dim>& step, const Eigen::VectorXd& right_side) {
+  auto rows = step.padded_rows(right_side);
+  multigrid.cycle(rows.data());
+  return step.packed(rows);
+}
+
+TYPED_TEST(SupportsTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+  const LinearStep<kDim> step(problem, supports_of_harmonic(problem, 0.02));
+  const DenseSpace<kDim> space(
+      problem, supports::reordered(step.matrix, step.order.position, step.order.position),
+      step.lists, step.vertices);
+  ASSERT_GT(space.basis.cols(), 20);
+  for (const auto* kernel : kernels<kDim>()) {
+    supports::SupportMultigrid<double, kDim> multigrid(step.matrix, step.order, step.lists,
+                                                       step.bases, problem.cage.points, *kernel);
+    const Eigen::VectorXd a = Eigen::VectorXd::Random(space.system.rows());
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(space.system.rows());
+    const Eigen::VectorXd of_a = cycle_of(multigrid, step, a);
+    const Eigen::VectorXd of_b = cycle_of(multigrid, step, b);
+    const double scale = of_a.norm() + of_b.norm();
+    EXPECT_LT((of_a - space.basis * (space.basis.transpose() * of_a)).norm(), 1e-12 * scale);
+    EXPECT_NEAR(of_a.dot(b), of_b.dot(a), 1e-12 * scale * (a.norm() + b.norm()));
+    // B >= K: errors shrink in the energy norm, and more than those of nothing at all.
+    const Eigen::VectorXd exact = space.minimiser(a);
+    Eigen::VectorXd solution = Eigen::VectorXd::Zero(a.size());
+    double energy = exact.dot(space.system * exact);
+    const double first = energy;
+    for (int cycle = 0; cycle < 12; ++cycle) {
+      solution += cycle_of<kDim>(multigrid, step, a - space.system * solution);
+      const Eigen::VectorXd error = exact - solution;
+      const double now = error.dot(space.system * error);
+      EXPECT_LE(now, energy);
+      energy = now;
+    }
+    EXPECT_LT(energy, 1e-6 * first);
+  }
+}
+
+// A run as solve() makes it, from harmonic coordinates on tight supports.
+template <class Scalar, class Stored, int Dim>
+Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance) {
+  SolveReport report;
+  SolverOptions options;
+  options.tolerance = tolerance;
+  options = resolve(options);
+  const auto metric = splitting::measure_metric(problem, true);
+  ValueRun<Scalar, Dim> run(problem, metric.cell.sum(), options, false, false, report);
+  const WeightMatrix weights = harmonic_coordinates(problem);
+  DualStart<Dim> start;
+  start.penalty = 50;
+  start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
+  start.flux_density = [n = problem.num_control_points()](Index) {
+    return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
+  };
+  supports::Iteration<Scalar, Dim> iteration(problem, metric, options, run, report);
+  auto last = iteration.template run<Stored>(start, start.penalty,
+                                             supports_of_harmonic(problem, 0.2), [] {});
+  return {std::move(last.weights), std::move(report)};
+}
+
+TYPED_TEST(SupportsTest, GrowsToTheOptimumOfAllPairs) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kBox, Shape::kCorner}) {
+    const auto problem = make_fine_problem<kDim>(shape);
+    SolverOptions options;
+    options.active_pairs = ActivePairs::kOff;
+    options.precision = Precision::kDouble;
+    options.tolerance = 1e-10;
+    const auto all = solve(problem, options);
+    const auto restricted = run_on_tight<double, double>(problem, 1e-10);
+    EXPECT_EQ(all.report.status, SolveStatus::kConverged);
+    EXPECT_EQ(restricted.report.status, SolveStatus::kConverged);
+    EXPECT_GT(restricted.report.active_pairs.growths, 0);
+    EXPECT_LT(squared_error(problem, restricted.weights, all.weights), 1e-9);
+  }
+}
+
+TYPED_TEST(SupportsTest, SolveGivesTheSameOptimum) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+  SolverOptions options;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-10;
+  options.active_pairs = ActivePairs::kOff;
+  const auto all = solve(problem, options);
+  EXPECT_EQ(all.report.active_pairs.density, 1);
+  options.active_pairs = ActivePairs::kOn;
+  const auto restricted = solve(problem, options);
+  EXPECT_EQ(restricted.report.status, SolveStatus::kConverged);
+  EXPECT_LT(restricted.report.active_pairs.density, 1);
+  EXPECT_LT(squared_error(problem, restricted.weights, all.weights), 1e-9);
+  EXPECT_NEAR(restricted.report.objective, all.report.objective, 1e-5 * all.report.objective);
+  const auto judged = judge(problem.cage, problem.mesh, restricted.weights);
+  EXPECT_GE(judged.min_weight, 0);
+  EXPECT_LT(judged.partition_error, 1e-13);
+  EXPECT_LT(judged.reproduction_error, 1e-13);
+}
+
+TYPED_TEST(SupportsTest, CertificateIsThatOfLastIterationsOnAllPairs) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kBox);
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  options.active_pairs = ActivePairs::kOn;
+  options.certify = true;
+  const auto solution = solve(problem, options);
+  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  EXPECT_LE(solution.report.certificate.lower_bound, solution.report.objective);
+  EXPECT_LT(solution.report.certificate.relative_gap, 1e-2);
+}
+
+TYPED_TEST(SupportsTest, NumberOfThreadsDoesNotMatter) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+  const auto weights_by = [&](int count) {
+    const ThreadScope threads(count);
+    return run_on_tight<float, compact::Half>(problem, 1e-6).weights;
+  };
+  const auto one = weights_by(1);
+  EXPECT_EQ(weights_by(2), one);
+  EXPECT_EQ(weights_by(3), one);
+}
+
+TYPED_TEST(SupportsTest, LowerPrecisionsFollowDouble) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+  const auto exact = run_on_tight<double, double>(problem, 1e-9).weights;
+  const auto single = run_on_tight<float, float>(problem, 1e-8).weights;
+  const auto half = run_on_tight<float, compact::Half>(problem, 1e-6).weights;
+  // Tolerances are per control point, and may be missed by a factor of two.
+  const double per_vertex = 2 * problem.num_control_points();
+  EXPECT_LT(squared_error(problem, single, exact), 1e-8 * per_vertex);
+  EXPECT_LT(squared_error(problem, half, exact), 1e-6 * per_vertex);
+}
+
+// Whether a vertex is a combination of its control points with weights that are not negative.
+TYPED_TEST(SupportsTest, EveryVertexHasWeightsOnItsSupport) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+  // Nothing is above this threshold: all that is there is what boundaries and feasibility ask for.
+  const auto lists = supports_of_harmonic(problem, 2);
+  for (const Index v : problem.boundary.interior_vertices()) {
+    const auto list = lists.of(v);
+    PointList<kDim> points(kDim, list.last - list.first);
+    for (Index j = 0; j < points.cols(); ++j)
+      points.col(j) = problem.cage.points.col(list.first[j]);
+    const Vector<kDim> point = problem.mesh.points.col(v);
+    EXPECT_LT(nearest_point_in_hull<kDim>(points, point).distance, 1e-6) << "vertex " << v;
+  }
+}
+
+TEST(Supports, AreForManyControlPointsIn3D) {
+  const auto serve = [](const auto& problem, ActivePairs choice, bool certify) {
+    SolverOptions options;
+    options.active_pairs = choice;
+    options.certify = certify;
+    return supports::serve(problem, resolve(options), true);
+  };
+  const auto few = make_fine_problem<3>(Shape::kBox);
+  ASSERT_LT(few.num_control_points(), 80);
+  const auto many_sample = with_fine_cage<3>(Shape::kBox, 4, 4);
+  const auto many = make_problem(many_sample.cage, many_sample.mesh, DistanceScheme::kSquare);
+  ASSERT_GE(many.num_control_points(), 80);
+  EXPECT_FALSE(serve(few, ActivePairs::kAuto, false));
+  EXPECT_TRUE(serve(many, ActivePairs::kAuto, false));
+  EXPECT_FALSE(serve(many, ActivePairs::kAuto, true));
+  EXPECT_FALSE(serve(many, ActivePairs::kOff, false));
+  EXPECT_TRUE(serve(few, ActivePairs::kOn, true));
+}
+
+}  // namespace
+}  // namespace flbc::testing
