@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
 #include "draw/picture_file.h"
@@ -22,16 +21,6 @@ struct PlotArguments {
   std::string output;
   draw::WeightPictureOptions options;
 };
-
-RunHistory read_history(const std::string& file) {
-  nlohmann::ordered_json report;
-  try {
-    report = nlohmann::ordered_json::parse(io::read_file(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": is no report: " + error.what());
-  }
-  return history_in(report, file);
-}
 
 double largest_residual(const RunHistory&, const HistoryEntry& entry) {
   return std::max(entry.primal_residual, entry.dual_residual);

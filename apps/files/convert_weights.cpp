@@ -83,7 +83,7 @@ void convert_weights(const WeightConversion& conversion, bool quiet) {
   auto weights = load(conversion);
   Dropped dropped;
   if (threshold) dropped = drop(weights, *threshold);
-  naming(input, [&] { save(output, weights); });
+  naming(input, [&] { save(conversion.output, weights); });
   if (quiet) return;
   std::cerr << output << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";

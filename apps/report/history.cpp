@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 
 namespace flbc::app {
 namespace {
@@ -99,7 +100,13 @@ Json history_json(const std::vector<HistoryEntry>& history) {
   return json;
 }
 
-RunHistory history_in(const Json& report, const std::string& file) {
+RunHistory read_history(const std::string& file) {
+  Json report;
+  try {
+    report = Json::parse(io::read_file(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": is no report: " + error.what());
+  }
   const auto& solve = report.contains("solve") ? report["solve"] : report;
   if (!solve.is_object() || !solve.contains("history")) {
     throw InputError(file + ": has no history; let flbc solve or flbc run write the report with "

@@ -52,8 +52,8 @@ struct RunHistory {
   double lower_bound = 0;  //!< of the objective; NaN without certificate
 };
 
-//! Of a report of flbc solve or flbc run. \param file  for messages
-//! \throws InputError naming the file if it has no history, or a damaged one
-RunHistory history_in(const nlohmann::ordered_json& report, const std::string& file);
+//! From a report of flbc solve or flbc run. \param file  where it is
+//! \throws IoError; InputError naming the file if it is no report, has no history, or a damaged one
+RunHistory read_history(const std::string& file);
 
 }  // namespace flbc::app

@@ -5,8 +5,10 @@
 #include <OpenMesh/Core/Utils/PropertyCreator.hh>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <sstream>
+#include <string_view>
 
 #include "flbc/content_hash.h"
 #include "flbc/errors.h"
@@ -159,6 +161,58 @@ std::unique_ptr<OpenMesh::BaseProperty> make_property(const std::string& type,
   return std::unique_ptr<OpenMesh::BaseProperty>(made ? made->clone() : nullptr);
 }
 
+// Walks over the numbers of a property before OpenMesh reads them: it makes lists as long as they
+// say they are, even if that is all memory and the numbers end before.
+class StoredElements {
+ public:
+  explicit StoredElements(std::string_view numbers) : rest_(numbers) {}
+
+  // Passes over an element. \return false if it says that it is longer than what is left
+  bool pass(const std::string& type) {
+    constexpr std::string_view kList = "std::vector<";
+    if (type == "std::string") return pass_bytes(take<std::uint16_t>());
+    if (type.compare(0, kList.size(), kList) != 0) return pass_bytes(size_of(type));
+    const auto count = take<std::uint32_t>();
+    const auto inner = type.substr(kList.size(), type.size() - kList.size() - 1);
+    if (inner == "bool") return pass_bytes((count + 7) / 8);
+    if (const auto size = size_of(inner); size > 0) return pass_bytes(count * size);
+    for (std::uint64_t k = 0; k < count; ++k) {
+      if (rest_.empty() || !pass(inner)) return false;
+    }
+    return true;
+  }
+
+ private:
+  // More than there is if there is none.
+  template <class Number>
+  std::uint64_t take() {
+    Number number = 0;
+    if (rest_.size() < sizeof number) return rest_.size() + 1;
+    std::memcpy(&number, rest_.data(), sizeof number);
+    rest_.remove_prefix(sizeof number);
+    return number;
+  }
+
+  bool pass_bytes(std::uint64_t count) {
+    if (count > rest_.size()) return false;
+    rest_.remove_prefix(count);
+    return true;
+  }
+
+  // 0 for types whose elements differ in size, and for those that are not registered.
+  std::uint64_t size_of(const std::string& type) {
+    const auto [entry, is_new] = sizes_.emplace(type, 0);
+    if (!is_new) return entry->second;
+    const auto property = make_property(type, "");
+    const auto size = property ? property->element_size() : 0;
+    if (size != OpenMesh::BaseProperty::UnknownSize) entry->second = size;
+    return entry->second;
+  }
+
+  std::map<std::string, std::uint64_t> sizes_;
+  std::string_view rest_;
+};
+
 void read_property(Reader& reader, TetMesh& mesh) {
   const auto wanted = reader.number<Kind>();
   const auto name = reader.text();
@@ -176,6 +230,10 @@ void read_property(Reader& reader, TetMesh& mesh) {
     auto* const kept = property.get();
     (container.*OpenContainer::kAdd)(property.release());
     container.resize(elements);
+    StoredElements stored(numbers);
+    for (std::size_t k = 0; k < kept->n_elements(); ++k) {
+      if (!stored.pass(type)) reader.refuse("has property '" + name + "', which ends too early");
+    }
     std::istringstream in(numbers);
     if (kept->n_elements() > 0) kept->restore(in, false);
     kept->set_persistent(true);
@@ -202,6 +260,7 @@ TetMesh load_tet_mesh(const std::string& path) {
   const auto properties = reader.number<std::uint64_t>();
   DomainMesh<3> domain;
   domain.points = reader.matrix<PointList<3>>(3, vertices);
+  if (!domain.points.allFinite()) reader.refuse("has a vertex that is not finite");
   domain.cells = reader.matrix<CellList<3>>(4, cells);
   TetMesh mesh;
   try {

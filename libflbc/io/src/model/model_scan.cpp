@@ -44,6 +44,25 @@ void add_other(Model& model, const std::string& phrase) {
   if (std::find(others.begin(), others.end(), phrase) == others.end()) others.push_back(phrase);
 }
 
+template <int Dim>
+void keep_finite(Model& model, PointList<Dim>& attributes) {
+  for (auto column : attributes.colwise()) {
+    if (column.allFinite()) continue;
+    column.setZero();
+    add_other(model, "attributes that are not finite");
+  }
+}
+
+template void keep_finite<2>(Model&, PointList<2>&);
+template void keep_finite<3>(Model&, PointList<3>&);
+
+void keep_colors_in_range(Model& model) {
+  auto& colors = model.attributes.colors;
+  if ((colors.array() >= 0 && colors.array() <= 1).all()) return;
+  colors.resize(3, 0);
+  add_other(model, "colours out of range");
+}
+
 int level_of(double intensity) {
   return static_cast<int>(std::lround(255 * std::clamp(intensity, 0.0, 1.0)));
 }

@@ -70,6 +70,14 @@ void refer_to_vertices(Model& model);
 //! Adds a phrase to what else is in the file, once.
 void add_other(Model& model, const std::string& phrase);
 
+//! Attributes in columns, without those that are not finite: some scanners write NaN as the normal
+//! of a vertex without polygons. These become 0, which is told among what else is in the file.
+template <int Dim>
+void keep_finite(Model& model, PointList<Dim>& attributes);
+
+//! Drops the colours unless all are between 0 and 1, and tells so among what else is in the file.
+void keep_colors_in_range(Model& model);
+
 //! The nearest of the 256 levels of a colour, from 0 to 1.
 int level_of(double intensity);
 

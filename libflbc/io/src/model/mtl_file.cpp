@@ -18,7 +18,8 @@ namespace flbc::io {
 namespace {
 
 bool to_number(std::string_view word, double& value) {
-  return std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc();
+  return std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc() &&
+         std::isfinite(value);
 }
 
 bool next_number(TextReader& reader, double& value) {

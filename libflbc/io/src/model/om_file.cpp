@@ -28,6 +28,10 @@ class OmScanner {
     if (model_.soup.points.size() != reader_.num_vertices()) {
       throw InputError(path_ + ": the file has no coordinates of its vertices");
     }
+    keep_finite<3>(model_, model_.attributes.normals);
+    keep_finite<2>(model_, model_.attributes.texture_coordinates);
+    keep_finite<3>(model_, scan_.face_normals);
+    keep_colors_in_range(model_);
     refer_to_vertices(model_);
   }
 

@@ -61,6 +61,10 @@ class PlyScanner {
       }
     }
     for (std::size_t f = 0; f < model_.soup.polygons.size(); ++f) check_polygon(f);
+    keep_finite<3>(model_, model_.attributes.normals);
+    keep_finite<2>(model_, model_.attributes.texture_coordinates);
+    keep_finite<3>(model_, scan_.face_normals);
+    keep_colors_in_range(model_);
     refer_to_vertices(model_);
     std::stable_sort(scan_.sites.begin(), scan_.sites.end(), [](const Site& a, const Site& b) {
       return a.place.begin < b.place.begin;  // coordinates may stand in any order

@@ -66,6 +66,7 @@ class StlScanner {
     }
     scan_.face_normals = Eigen::Map<const PointList<3>>(
         normals_.data(), 3, static_cast<Eigen::Index>(soup_.polygons.size()));
+    keep_finite<3>(scan_.model, scan_.face_normals);
   }
 
  private:

@@ -163,8 +163,9 @@ template <bool note, class Scalar, int Dim>
   const std::size_t stride = arrays.stride;
   FacetMultiplier<Scalar, Dim> multipliers[Dim + 1];
   gather_facets(arrays, cell, multipliers);
-  const auto average = [&](auto lanes, std::size_t i, auto* projection)
-      __attribute__((always_inline)) {
+  const auto average = [&](auto lanes, std::size_t i,
+                           PackN<Scalar, decltype(lanes)::kCount>* projection)
+                           __attribute__((always_inline)) {
     constexpr int kCount = decltype(lanes)::kCount;
     PackN<Scalar, kCount> r[Dim];
     average_candidates<kCount>(arrays, cell, multipliers, i, r);

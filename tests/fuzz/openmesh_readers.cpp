@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the bindings to OpenMesh read.
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "flbc/content_hash.h"
+#include "flbc/errors.h"
+#include "flbc/io/model_file.h"
+#include "flbc/openmesh/influences.h"
+#include "flbc/openmesh/mesh_io.h"
+#include "flbc/openmesh/om_file.h"
+#include "flbc/openmesh/state_record.h"
+#include "flbc/openmesh/tet_mesh_file.h"
+#include "flbc/openmesh/wide_property.h"
+#include "fuzz/reader.h"
+
+namespace flbc::fuzz {
+namespace {
+
+using openmesh::TetMesh;
+
+void read_om(const std::string& path) {
+  const io::ModelFile file(path);
+  const auto& soup = file.model().soup;
+  for (const auto& point : soup.points) require(point.allFinite(), "points are finite");
+  for (const auto& polygon : soup.polygons) {
+    for (const Index vertex : polygon) {
+      require(vertex >= 0 && vertex < static_cast<Index>(soup.points.size()), "vertices in range");
+    }
+  }
+}
+
+std::string om_file(bool has_attributes) {
+  io::Model model;
+  model.soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1.0 / 3}};
+  model.soup.polygons = {{0, 1, 2}, {0, 2, 3}};
+  if (has_attributes) {
+    model.attributes.colors = PointList<3>::Constant(3, 4, 0.5);
+    model.attributes.normals = PointList<3>::Identity(3, 4);
+    model.attributes.corners = {{{-1, 0}, {-1, 1}, {-1, 2}}, {{-1, 0}, {-1, 2}, {-1, 3}}};
+  }
+  return written("a.om", [&](const std::string& path) { openmesh::write_om(path, model); });
+}
+
+// ---- properties in .om files
+// ---------------------------------------------------------------------
+
+constexpr std::size_t kElements = 3;
+
+template <class Scalar>
+void read_rows(const std::string& path) {
+  std::istringstream in(get_file(path));
+  openmesh::RowBlock<Scalar> rows;
+  rows.resize(kElements);
+  openmesh::restore_rows(in, false, "rows", rows);
+  require(rows.size() == kElements, "there are as many elements as before");
+}
+
+void read_influences(const std::string& path) {
+  std::istringstream in(get_file(path));
+  openmesh::InfluenceBlock block;
+  block.resize(kElements);
+  openmesh::restore_influences(in, false, "influences", block);
+  require(block.size() == kElements, "there are as many elements as before");
+  for (std::size_t j = 0; j < block.size() * block.most(); ++j) {
+    require(block.control_points()[j] < block.num_control_points(), "control points in range");
+  }
+}
+
+template <class Scalar>
+std::string stored_rows() {
+  openmesh::RowBlock<Scalar> rows(2, 3);
+  rows.resize(kElements);
+  std::ostringstream out;
+  openmesh::store_rows(out, false, "rows", rows);
+  return out.str();
+}
+
+std::string stored_influences() {
+  openmesh::InfluenceBlock block(5, 2);
+  block.resize(kElements);
+  std::ostringstream out;
+  openmesh::store_influences(out, false, "influences", block);
+  return out.str();
+}
+
+void read_record(const std::string& path) {
+  const auto record = openmesh::parse_state_record(get_file(path));
+  if (record.method.empty()) throw InputError(path + ": no record");
+  const auto again = openmesh::parse_state_record(openmesh::to_json(record));
+  require(openmesh::find_mismatch(record, again).empty(), "a record is written and read back");
+}
+
+std::string record() {
+  openmesh::StateRecord record;
+  record.method = "value";
+  record.penalty = 10;
+  record.control_points = 7;
+  return openmesh::to_json(record);
+}
+
+// ---- tetrahedral meshes with properties
+// -----------------------------------------------------------
+
+std::string with_hash(std::string content) {
+  ContentHash hash;
+  hash.add(content.data(), content.size());
+  const auto value = hash.value();
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  return content.append(bytes, sizeof bytes);
+}
+
+void read_tet_mesh(const std::string& path) {
+  const auto mesh = openmesh::load_tet_mesh(path);
+  const auto domain = mesh.domain();
+  require(domain.points.allFinite(), "points are finite");
+  for (const auto& cell : domain.cells.colwise()) {
+    for (const Index vertex : cell) {
+      require(vertex >= 0 && vertex < domain.num_vertices(), "vertices are in range");
+    }
+  }
+}
+
+template <class Handle>
+auto& add_property(TetMesh& mesh, const char* name) {
+  Handle handle;
+  mesh.add_property(handle, name);
+  mesh.property(handle).set_persistent(true);
+  return mesh.property(handle);
+}
+
+std::string tet_mesh(bool has_properties) {
+  DomainMesh<3> domain;
+  domain.points = PointList<3>::Identity(3, 4);
+  domain.cells = Eigen::Vector4i(0, 1, 2, 3);
+  normalize_and_validate(domain);
+  auto mesh = TetMesh::from(domain);
+  if (has_properties) {
+    add_property<OpenMesh::VPropHandleT<openmesh::Wide<double>>>(mesh, "w").set_shape(1, 4);
+    add_property<OpenMesh::EPropHandleT<std::string>>(mesh, "text")[0] = "abc";
+    add_property<OpenMesh::FPropHandleT<std::vector<double>>>(mesh, "list")[0] = {1, 2, 3};
+    add_property<openmesh::CPropHandleT<int>>(mesh, "number")[0] = 7;
+  }
+  const auto content =
+      written("a.tet", [&](const std::string& path) { openmesh::save_tet_mesh(path, mesh); });
+  return content.substr(0, content.size() - sizeof(std::uint64_t));
+}
+
+}  // namespace
+
+std::vector<Reader> openmesh_readers() {
+  return {
+      {"om", "input.om", read_om, {om_file(false), om_file(true)}},
+      {"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
+      {"rows_single", "input.rows", read_rows<float>, {stored_rows<float>()}},
+      {"influences", "input.pairs", read_influences, {stored_influences()}},
+      {"state_record", "input.json", read_record, {record()}},
+      {"tet_mesh", "input.tet", read_tet_mesh, {tet_mesh(false), tet_mesh(true)}, {}, with_hash}};
+}
+
+}  // namespace flbc::fuzz

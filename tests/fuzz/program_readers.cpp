@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program alone reads: silhouettes, reports, weights that it kept.
+#include <png.h>
+
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "files/silhouette.h"
+#include "flbc/errors.h"
+#include "fuzz/reader.h"
+#include "report/history.h"
+#include "solve/byte_archive.h"
+#include "solve/weights_cache.h"
+
+namespace flbc::fuzz {
+namespace {
+
+void read_silhouette(const std::string& path) {
+  const auto model = app::load_silhouette(path);
+  require(model.points.cols() > 0 && model.facets.cols() > 0, "there is an outline");
+  std::vector<int> ends(static_cast<std::size_t>(model.points.cols()), 0);
+  for (const auto& edge : model.facets.colwise()) {
+    for (const Index vertex : edge) {
+      require(vertex >= 0 && vertex < model.points.cols(), "vertices are in range");
+      ++ends[static_cast<std::size_t>(vertex)];
+    }
+  }
+  for (const int count : ends) require(count == 2 || count == 4, "outlines are closed");
+}
+
+std::string picture(int format, const std::string& pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = image.height = 2;
+  image.format = static_cast<png_uint_32>(format);
+  char bytes[1024];
+  png_alloc_size_t size = sizeof bytes;
+  png_image_write_to_memory(&image, bytes, &size, 0, pixels.data(), 0, nullptr);
+  return {bytes, size};
+}
+
+const char* const kReport =
+    "{\"method\": \"value\", \"lower_bound\": 1.5, \"history\": {\"iterations\": [10, 20], "
+    "\"finer_levels\": [1, 0], \"seconds\": [0.1, 0.2], \"estimated_error\": [null, 1e-3], "
+    "\"primal_residual\": [1, 2], \"dual_residual\": [3, 4], \"objective\": [null, 2.5]}}";
+const char* const kReportOfRun =
+    "{\"solve\": {\"history\": {\"iterations\": [], \"finer_levels\": []}}}";
+
+void read_report(const std::string& path) {
+  app::read_history(path);
+}
+
+// ---- weights that were kept: any file may be there, and the key decides
+// ---------------------------
+
+constexpr const char* kKey = "key";
+
+template <int Dim>
+void read_kept(const std::string& path) {
+  const app::WeightsCache cache(std::filesystem::path(path).parent_path().string());
+  require(cache.path_of(kKey) == path, "the file is the one of the key");
+  const auto answer = cache.find<Dim>(kKey);
+  require(answer.solved.has_value() == answer.complaint.empty(), "weights or a complaint");
+  if (!answer.solved) throw InputError(answer.complaint);
+  require(answer.solved->solution.weights.cols() == answer.solved->domain.num_vertices(),
+          "weights are of the vertices");
+}
+
+template <int Dim>
+std::string kept_weights() {
+  const Folder folder;
+  const app::WeightsCache cache(folder.path(""));
+  app::SolvedDomain<Dim> solved;
+  solved.domain.points = PointList<Dim>::Identity(Dim, Dim + 1);
+  solved.domain.cells = Eigen::Matrix<Index, Dim + 1, 1>::LinSpaced(Dim + 1, 0, Dim);
+  solved.solution.weights = WeightMatrix::Identity(Dim + 1, Dim + 1);
+  solved.solution.report.coarse_levels.resize(1);
+  cache.store(kKey, solved);
+  const auto content = get_file(cache.path_of(kKey));
+  return content.substr(0, content.size() - sizeof(std::uint64_t));
+}
+
+std::string with_hash(std::string content) {
+  const auto hash = app::hash_of(content);
+  char bytes[sizeof hash];
+  std::memcpy(bytes, &hash, sizeof hash);
+  return content.append(bytes, sizeof bytes);
+}
+
+template <int Dim>
+Reader kept_reader(const std::string& name) {
+  const Folder folder;
+  const auto file = std::filesystem::path(app::WeightsCache(folder.path("")).path_of(kKey));
+  return {name, file.filename().string(), read_kept<Dim>, {kept_weights<Dim>()}, {}, with_hash};
+}
+
+}  // namespace
+
+std::vector<Reader> program_readers() {
+  const std::string with_hole{
+      "aaa\xff"
+      "bbb\0"
+      "ccc\xff"
+      "ddd\0",
+      16};
+  const std::string grey{
+      "a\xff"
+      "b\0"
+      "c\x80"
+      "d\x01",
+      8};
+  return {{"silhouette",
+           "input.png",
+           read_silhouette,
+           {picture(PNG_FORMAT_RGBA, with_hole), picture(PNG_FORMAT_GA, grey)}},
+          {"report", "input.json", read_report, {kReport, kReportOfRun}},
+          kept_reader<2>("kept_2d"),
+          kept_reader<3>("kept_3d")};
+}
+
+}  // namespace flbc::fuzz

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The readers of the project as things to be fuzzed: by libFuzzer (fuzz_main.cpp) and, a little,
+//! in every run of the tests (replay_test.cpp).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flbc::fuzz {
+
+//! What a reader hands back breaks a promise. No flbc::Error, so that it is a finding.
+class BrokenPromise : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+//! \throws BrokenPromise with these words unless it holds
+inline void require(bool holds, const char* promise) {
+  if (!holds) throw BrokenPromise(promise);
+}
+
+//! A reader of files.
+struct Reader {
+  std::string name;  //!< for people
+  std::string file;  //!< the file's name, by whose extension it is read
+  //! Reads the file and requires of the result what users rely on. It may throw flbc::Error.
+  void (*read)(const std::string& path);
+  std::vector<std::string> seeds;  //!< contents that are read without an error
+  //! Other files, names with contents, that lie beside it.
+  std::vector<std::pair<std::string, std::string>> companions{};
+  //! Where the fuzzer could not guess what a file ends with, such as a checksum.
+  std::string (*complete)(std::string content) = nullptr;
+  bool refuses =
+      true;  //!< whether it refuses what it does not understand, rather than pass over it
+};
+
+//! The readers, a room of the sources each.
+std::vector<Reader> model_readers();
+std::vector<Reader> mesh_readers();
+std::vector<Reader> weight_readers();
+std::vector<Reader> program_readers();
+std::vector<Reader> openmesh_readers();
+
+//! All of them.
+std::vector<Reader> all_readers();
+
+//! A folder of its own, in memory where there is such a thing, that goes away with it.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+
+  std::string path(const std::string& name) const;
+
+ private:
+  std::string path_;
+};
+
+//! Replaces a file. \throws std::runtime_error if it cannot be written
+void put_file(const std::string& path, const char* bytes, std::size_t size);
+
+//! The content of a file.
+std::string get_file(const std::string& path);
+
+//! What `write` puts into a file of this name.
+template <class Write>
+std::string written(const std::string& name, const Write& write) {
+  const Folder folder;
+  write(folder.path(name));
+  return get_file(folder.path(name));
+}
+
+//! Hands contents to one reader.
+class Reading {
+ public:
+  explicit Reading(Reader reader);
+
+  //! \return whether the content was read rather than refused
+  //! \throws whatever is no flbc::Error: a finding
+  bool accepts(const std::string& content) const;
+
+ private:
+  Reader reader_;
+  Folder folder_;
+  std::string path_;
+};
+
+}  // namespace flbc::fuzz

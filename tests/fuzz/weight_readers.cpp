@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Weights and animations.
+#include <cmath>
+#include <string>
+
+#include "flbc/io/keyframes.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/io/weights_triplets.h"
+#include "fuzz/reader.h"
+
+namespace flbc::fuzz {
+namespace {
+
+// Matrices that are larger take time to write that is better spent on reading.
+constexpr Eigen::Index kSmall = 256;
+
+void read_weights(const std::string& path) {
+  const auto weights = io::read_weights(path);
+  require(weights.allFinite(), "weights are finite");
+  if (weights.size() == 0 || weights.size() > kSmall) return;
+  io::write_weights(path, weights);
+  require(io::read_weights(path) == weights, "what is written is read back");
+}
+
+void read_triplets(const std::string& path) {
+  const auto weights = io::read_weight_triplets(path);
+  require(weights.allFinite() && weights.size() > 0, "weights are finite");
+  if (weights.size() > kSmall) return;
+  const auto rows = static_cast<Index>(weights.rows()),
+             columns = static_cast<Index>(weights.cols());
+  require(io::read_weight_triplets(path, rows, columns) == weights, "both ways read the same");
+  io::write_weight_triplets(path, weights);
+  require(io::read_weight_triplets(path) == weights, "what is written is read back");
+}
+
+void read_keyframes(const std::string& path) {
+  const auto keyframes = io::read_keyframes(path);
+  require(!keyframes.empty(), "there are keyframes");
+  const auto controls = keyframes.front().displacements.cols();
+  for (const auto& keyframe : keyframes) {
+    require(std::isfinite(keyframe.time) && keyframe.displacements.allFinite(), "all is finite");
+    require(controls > 0 && keyframe.displacements.cols() == controls, "all have the same size");
+  }
+}
+
+std::string file_of_weights(const std::string& name) {
+  WeightMatrix weights(2, 3);
+  weights << 1, 0, 1.0 / 3, 0, 1, 2.0 / 3;
+  return written(name, [&](const std::string& path) { io::write_weights(path, weights); });
+}
+
+std::string npy(const std::string& dictionary, std::size_t numbers) {
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dictionary.size()) + '\0' +
+         dictionary + std::string(numbers, '\0');
+}
+
+const char* const kMtxArray =
+    "%%MatrixMarket matrix array real general\n% by hand\n2 2\n1\n0\n0.25\n1e-3\n";
+const char* const kDmatText = "2 3\n1 0 0.5\n0 1 0.5\n";
+const char* const kTriplets = "# controls points\n0 0 1\n1 2 0.25\n0 1 -1e-3\n";
+const char* const kKeyframes = "k 0\nk 0.5 # s\nc 0 0 0 0\nc 1 1 0 -1e-3\nc 0 1 2 3\nc 1 0 0 0\n";
+
+}  // namespace
+
+std::vector<Reader> weight_readers() {
+  return {{"mtx", "input.mtx", read_weights, {file_of_weights("a.mtx"), kMtxArray}},
+          {"dmat", "input.dmat", read_weights, {file_of_weights("a.dmat"), kDmatText}},
+          {"npy",
+           "input.npy",
+           read_weights,
+           {file_of_weights("a.npy"),
+            npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", 24)}},
+          {"triplets", "input.txt", read_triplets, {kTriplets}},
+          {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
+}
+
+}  // namespace flbc::fuzz
