@@ -11,6 +11,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/error_estimate.h"
 #include "solver/state_storage.h"
@@ -39,6 +40,7 @@ class Run {
       : problem_(problem),
         options_(options),
         adaptive_(adaptive),
+        warm_(warm),
         report_(report),
         num_weights_(
             std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
@@ -48,13 +50,28 @@ class Run {
         estimate_(warm, options.tolerance),
         gap_(*options.gap, [this] { return certificate_(); }) {}
 
+  //! Goes on from what visit() has written.
+  template <class Stored>
+  void resume(ByteReader& read, const ValueSplitting<Scalar, Stored, Dim>& splitting) {
+    history_.emplace(splitting.history());
+    visit(read);
+    refuse_rest(read);
+  }
+
   //! \param certify_weights  by the duals of the splitting
   //! \return whether the run has ended; otherwise it is to go on in single precision
   template <class Stored>
   bool iterate(ValueSplitting<Scalar, Stored, Dim>& splitting,
                const std::function<Certificate(const WeightMatrix&)>& certify_weights) {
     constexpr int kFewest = 8;
-    const auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
+    constexpr bool kIsHalf = std::is_same_v<Stored, compact::Half>;
+    const auto options =
+        offering(with_objective(problem_, options_, [&] { return splitting.weights(); }),
+                 [&](ByteWriter& write) {
+                   write(kIsHalf, splitting.penalty(), warm_);
+                   splitting.visit(write);
+                   visit(write);
+                 });
     certificate_ = [&] { return certify_weights(splitting.weights()); };
     const auto read = [&](Index row, Scalar* weights) { splitting.read_row(row, weights); };
     if (!history_) {
@@ -62,6 +79,7 @@ class Run {
       (*history_)(0, read);
     }
     for (;;) {
+      if (kIsHalf && report_.iterations > 0 && trembles(report_.iterations)) return false;
       const int iteration = ++report_.iterations;
       const auto step = step_at(iteration, splitting);
       const double difference = (*history_)(iteration, read) / problem_.num_control_points();
@@ -72,12 +90,19 @@ class Run {
                         (iteration >= kFewest && report_.primal_residual <= 1) ||
                         iteration == options_.max_iterations;
       if (look && finished(iteration, options, gap_, report_)) return true;
-      if (std::is_same_v<Stored, compact::Half> && trembles(iteration)) return false;
     }
   }
 
  private:
   static double square(double x) { return x * x; }
+
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(report_.iterations, report_.primal_residual);
+    history_->visit(archive);
+    estimate_.visit(archive);
+    gap_.visit(archive);
+  }
 
   template <class Stored>
   compact::Step step_at(int iteration, ValueSplitting<Scalar, Stored, Dim>& splitting) const {
@@ -100,6 +125,7 @@ class Run {
   const LbcProblem<Dim>& problem_;
   const SolverOptions& options_;
   const bool adaptive_;
+  const bool warm_;
   SolveReport& report_;
   const double num_weights_;
   const double residual_scale_;
@@ -126,6 +152,21 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
   constexpr Index kFewestCells = 10000;
   return options.precision == Precision::kHalf && problem.mesh.num_cells() >= kFewestCells &&
          (storage == nullptr || storage->holds_half());
+}
+
+// The front of what the progress callback is offered.
+struct StateFront {
+  bool is_half = false;
+  double penalty = 0;
+  bool warm = false;
+};
+
+// Takes it off. \return none where there is no state to go on from
+std::optional<StateFront> take_front(ByteReader& read) {
+  if (read.is_at_end()) return std::nullopt;
+  StateFront front;
+  read(front.is_half, front.penalty, front.warm);
+  return front;
 }
 
 // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
@@ -183,11 +224,18 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   Stopwatch watch;
   const auto metric =
       splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
+  ByteReader read(options.resume_from);
+  const auto front = take_front(read);
+  const double penalty =
+      front ? front->penalty : choose_penalty(problem, options, storage, warm_start);
   auto splitting = std::make_shared<ValueSplitting<Scalar, Stored, Dim>>(
-      problem, metric, choose_penalty(problem, options, storage, warm_start), options.relaxation,
-      linear_solver_for(problem, options), storage);
-  choose_start(*splitting, storage, warm_start);
-  const bool warm = warm_start.from != nullptr;
+      problem, metric, penalty, options.relaxation, linear_solver_for(problem, options), storage);
+  if (front) {
+    splitting->visit(read);
+  } else {
+    choose_start(*splitting, storage, warm_start);
+  }
+  const bool warm = front ? front->warm : warm_start.from != nullptr;
   if (warm_start.started) warm_start.started();
   const bool adaptive = options.penalty == 0 && !resumes(storage) && !warm;
   const auto certify_by = [&problem](const auto& any) {
@@ -197,6 +245,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   };
   report.iterations = 0;
   Run<Scalar, Dim> run(problem, metric.cell.sum(), options, adaptive, warm, report);
+  if (front) run.resume(read, *splitting);
   const auto end_with = [&](const auto& any) {
     report.seconds.solve = watch.lap();
     return end(*any, problem, certify_by(any), storage, warm_start.final_state, report);
@@ -222,7 +271,9 @@ MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions&
   if (options.precision == Precision::kDouble) {
     return solve<double, double>(problem, options, report, storage, warm_start);
   }
-  if (takes_half(problem, options, storage)) {
+  ByteReader read(options.resume_from);
+  const auto front = take_front(read);
+  if (front ? front->is_half : takes_half(problem, options, storage)) {
     return solve<float, compact::Half>(problem, options, report, storage, warm_start);
   }
   return solve<float, float>(problem, options, report, storage, warm_start);
