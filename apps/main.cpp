@@ -116,6 +116,8 @@ int run(int argc, char** argv) {
   add_plot_command(app, exit_status);
   add_view_command(app, exit_status);
   add_info_command(app, exit_status);
+  add_completion_command(app, exit_status);
+  add_man_command(app, exit_status);
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'" +
