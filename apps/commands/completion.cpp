@@ -14,7 +14,8 @@ void add_completion_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("completion", "Print what makes a shell complete commands and options");
   command->footer(
-      "For one session: source <(flbc completion bash). For good it is installed with the program,\n"
+      "For one session: source <(flbc completion bash). For good it is installed with the "
+      "program,\n"
       "as share/bash-completion/completions/flbc and share/zsh/site-functions/_flbc.");
   command->add_option("SHELL", *shell, "bash or zsh")
       ->required()

@@ -49,9 +49,10 @@ void add_man_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ManArguments>();
   auto* command = app.add_subcommand("man", "Print a manual page");
   command->footer("To read one: flbc man solve | man -l -");
-  auto* name = command->add_option("COMMAND", arguments->command,
-                                   "whose page is printed (that of the program)")
-                   ->type_name("COMMAND");
+  auto* name =
+      command
+          ->add_option("COMMAND", arguments->command, "whose page is printed (that of the program)")
+          ->type_name("COMMAND");
   command
       ->add_option("--folder", arguments->folder,
                    "write all pages here instead, with the completion for bash and zsh")

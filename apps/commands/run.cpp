@@ -61,7 +61,7 @@ void naming_step(const std::string& step, const Action& action) {
   } catch (const IoError& error) {
     throw IoError(text(error));
   } catch (const std::bad_alloc&) {
-    throw InputError("step " + step + ": out of memory; try fewer --vertices");
+    throw;  // has an exit status of its own
   } catch (const std::exception& error) {
     throw InputError(text(error));
   }
@@ -149,6 +149,9 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
     take_steps(run);
   } catch (const Error& error) {
     leave_report(run, error.what());
+    throw;
+  } catch (const std::bad_alloc&) {
+    leave_report(run, "out of memory");
     throw;
   }
   return finish(run);

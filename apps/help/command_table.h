@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the program understands, as a table: manual pages and completion are made of it, so that they
-//! cannot differ from it.
+//! What the program understands, as a table: manual pages and completion are made of it, so that
+//! they cannot differ from it.
 #pragma once
 
 #include <string>

@@ -79,20 +79,21 @@ std::string arguments_of(const CommandTable& table, const CommandEntry& command)
 
 std::string bash_completion(const CommandTable& table) {
   std::ostringstream script;
-  script << "# Made by `flbc completion bash`.\n"
-            "_flbc() {\n"
-            "  local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]}\n"
-            "  local values= options= previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-            "  COMPREPLY=()\n"
-            "  if [[ $COMP_CWORD -eq 1 ]]; then\n"
-            "    COMPREPLY=($(compgen -W '"
-         << names_of_commands(table) << ' ' << names_of_options(table.options)
-         << "' -- \"$current\"))\n"
-            "    return\n"
-            "  fi\n"
-            "  # An option that takes a value: nothing to offer but files if it is not one of a few.\n"
-            "  values=none\n"
-            "  case $command:$previous in\n";
+  script
+      << "# Made by `flbc completion bash`.\n"
+         "_flbc() {\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]}\n"
+         "  local values= options= previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+         "  COMPREPLY=()\n"
+         "  if [[ $COMP_CWORD -eq 1 ]]; then\n"
+         "    COMPREPLY=($(compgen -W '"
+      << names_of_commands(table) << ' ' << names_of_options(table.options)
+      << "' -- \"$current\"))\n"
+         "    return\n"
+         "  fi\n"
+         "  # An option that takes a value: nothing to offer but files if it is not one of a few.\n"
+         "  values=none\n"
+         "  case $command:$previous in\n";
   for (const auto& command : table.commands) {
     for (const auto& option : command.options) add_values(script, command.name, option);
   }

@@ -76,8 +76,7 @@ void add_options(std::ostream& page, const std::vector<OptionEntry>& options) {
   for (const auto& option : options) {
     std::string names;
     for (const auto& name : option.names) names += (names.empty() ? "" : ", ") + bold(name);
-    add_entry(page, names + value_of(option),
-              option.help + (option.required ? " (required)" : ""));
+    add_entry(page, names + value_of(option), option.help + (option.required ? " (required)" : ""));
   }
 }
 
@@ -98,11 +97,13 @@ void add_exit_status(std::ostream& page) {
 std::string manual_of_program(const CommandTable& table) {
   std::ostringstream page;
   page << header("flbc") << ".SH NAME\nflbc \\- " << escaped(after_name(table.help)) << '\n'
-       << ".SH SYNOPSIS\n" << bold("flbc") << ' ' << italic("COMMAND") << " ...\n"
+       << ".SH SYNOPSIS\n"
+       << bold("flbc") << ' ' << italic("COMMAND") << " ...\n"
        << ".SH DESCRIPTION\n"
        << escaped(table.help.substr(0, table.help.find('\n'))) << '\n'
-       << "Each command has a page of its own,\n" << bold("flbc-") << italic("COMMAND")
-       << "(1), and\n" << bold("--help") << ".\n"
+       << "Each command has a page of its own,\n"
+       << bold("flbc-") << italic("COMMAND") << "(1), and\n"
+       << bold("--help") << ".\n"
        << ".SH COMMANDS\n";
   for (const auto& command : table.commands) {
     add_entry(page, bold(command.name), command.help + ".");
@@ -120,15 +121,16 @@ std::string manual_of_program(const CommandTable& table) {
 std::string manual_of_command(const CommandEntry& command) {
   std::ostringstream page;
   const std::string name = "flbc-" + command.name;
-  page << header(name) << ".SH NAME\n" << escaped(name) << " \\- "
-       << escaped(after_name(command.help)) << '\n' << ".SH SYNOPSIS\n"
+  page << header(name) << ".SH NAME\n"
+       << escaped(name) << " \\- " << escaped(after_name(command.help)) << '\n'
+       << ".SH SYNOPSIS\n.nh\n.ad l\n"
        << bold("flbc " + command.name) << '\n';
   for (const auto& positional : command.positionals) {
     const auto text = italic(positional.value) + (positional.repeated ? " ..." : "");
     page << (positional.required ? text : "[" + text + "]") << '\n';
   }
   for (const auto& option : command.options) page << in_synopsis(option) << '\n';
-  page << ".SH DESCRIPTION\n" << escaped(command.help) << ".\n";
+  page << ".ad b\n.hy\n.SH DESCRIPTION\n" << escaped(command.help) << ".\n";
   if (!command.footer.empty()) page << ".PP\n" << escaped(command.footer) << '\n';
   if (!command.positionals.empty()) page << ".SH ARGUMENTS\n";
   for (const auto& positional : command.positionals) {

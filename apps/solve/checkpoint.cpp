@@ -35,9 +35,9 @@ KeptRun<Dim> read_run(const std::string& path, const std::string& lines) {
   const auto content = io::read_file(path);
   const auto sealed = open_sealed(content, kFirstLine, "a checkpoint");
   if (sealed.key != lines) {
-    throw InputError("it was left by another command: '" +
-                     first_difference(lines, std::string(sealed.key)) +
-                     "' differs; repeat that command, name another --checkpoint, or remove the file");
+    throw InputError(
+        "it was left by another command: '" + first_difference(lines, std::string(sealed.key)) +
+        "' differs; repeat that command, name another --checkpoint, or remove the file");
   }
   ByteReader read(sealed.payload);
   KeptRun<Dim> run;

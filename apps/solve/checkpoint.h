@@ -38,9 +38,9 @@ class Checkpoint {
   //! \throws InputError naming the file if it is damaged or of another run; IoError
   std::optional<KeptRun<Dim>> find() const;
 
-  //! Writes the state if it is time to or a signal came. Says on standard error if that fails, which
-  //! does not end the solve.
-  //! \return whether a signal came, after which the program is to end by end()
+  //! Writes the state if it is time to or a signal came. Says on standard error if that fails,
+  //! which does not end the solve. \return whether a signal came, after which the program is to end
+  //! by end()
   bool look(const Progress& progress, const SolvedDomain<Dim>& solved,
             const std::vector<HistoryEntry>& history);
 

@@ -97,13 +97,15 @@ TEST_F(CheckpointCommand, ManyKillsInThePlane) {
 }
 
 TEST_F(CheckpointCommand, ManyKillsInSpaceFromCoarserMeshes) {
-  kill_at_random(10, "3d/limb_cage.obj", "--vertices 1500 --tolerance 1e-10 --coarse-to-fine on", 2);
+  kill_at_random(10, "3d/limb_cage.obj", "--vertices 1500 --tolerance 1e-10 --coarse-to-fine on",
+                 2);
 }
 
 TEST_F(CheckpointCommand, InterruptedRunSaysHowToGoOn) {
-  const auto command =
-      solve("3d/limb_cage.obj", "killed", "--vertices 1500 --tolerance 1e-14 "
-            "--checkpoint " + path("state"));
+  const auto command = solve("3d/limb_cage.obj", "killed",
+                             "--vertices 1500 --tolerance 1e-14 "
+                             "--checkpoint " +
+                                 path("state"));
   int status = 0;
   for (double seconds = 2; seconds < 60 && !fs::exists(path("state")); seconds *= 2) {
     status = run_until(seconds, SIGINT, command);
@@ -125,8 +127,7 @@ TEST_F(CheckpointCommand, LimitOfIterationsKeepsTheState) {
       << stopped.errors;
   const auto on = run(solve(cage, "killed", options + keeping()));
   EXPECT_EQ(on.status, 0);
-  EXPECT_NE(on.errors.find("going on from " + path("state") + ", at iteration "),
-            std::string::npos)
+  EXPECT_NE(on.errors.find("going on from " + path("state") + ", at iteration "), std::string::npos)
       << on.errors;
   auto whole = report("whole"), killed = report("killed");
   EXPECT_EQ(killed, whole);
@@ -141,8 +142,10 @@ TEST_F(CheckpointCommand, FileOfAnotherRunIsRefused) {
   const auto expect_refused = [&](const std::string& command, const std::string& name) {
     const auto refused = run(command);
     EXPECT_EQ(refused.status, 2) << command;
-    EXPECT_NE(refused.errors.find("--checkpoint " + path("state") + ": it was left by another "
-                                  "command: '" + name + "' differs"),
+    EXPECT_NE(refused.errors.find("--checkpoint " + path("state") +
+                                  ": it was left by another "
+                                  "command: '" +
+                                  name + "' differs"),
               std::string::npos)
         << refused.errors;
     EXPECT_TRUE(slurp(path("state")) == state);
@@ -167,13 +170,12 @@ TEST_F(CheckpointCommand, DamagedFileIsRefused) {
   const auto state = slurp(path("state"));
   auto flipped = state;
   flipped[flipped.size() / 2] ^= 1;
-  for (const auto& content : {std::string(), std::string("v 0 0 0\n"),
-                              state.substr(0, state.size() / 2), flipped}) {
+  for (const auto& content :
+       {std::string(), std::string("v 0 0 0\n"), state.substr(0, state.size() / 2), flipped}) {
     file("state", content);
     const auto refused = run(command);
     EXPECT_EQ(refused.status, 2);
-    EXPECT_NE(refused.errors.find("--checkpoint " + path("state") + ": it is "),
-              std::string::npos)
+    EXPECT_NE(refused.errors.find("--checkpoint " + path("state") + ": it is "), std::string::npos)
         << refused.errors;
   }
 }
@@ -182,12 +184,13 @@ TEST_F(CheckpointCommand, OptionsThatCannotBeFollowedAreRefused) {
   EXPECT_EQ(run(solve("3d/star_cage.obj", "a", "--method harmonic" + keeping())).status, 1);
   EXPECT_EQ(run(solve("3d/star_cage.obj", "a", "--checkpoint-every 5")).status, 1);
   EXPECT_EQ(run(solve("3d/star_cage.obj", "a", "--checkpoint " + path("none/state"))).status, 4);
-  EXPECT_EQ(run(solve("3d/star_cage.obj", "a", "--checkpoint " + sample("3d/star_cage.obj"))).status,
-            1);
+  EXPECT_EQ(
+      run(solve("3d/star_cage.obj", "a", "--checkpoint " + sample("3d/star_cage.obj"))).status, 1);
 }
 
 TEST_F(CheckpointCommand, RunGoesOnAsWell) {
-  const auto command = "run " + sample("2d/figure_cage.obj") + " --vertices 1500 --tolerance 1e-10 -o ";
+  const auto command =
+      "run " + sample("2d/figure_cage.obj") + " --vertices 1500 --tolerance 1e-10 -o ";
   const auto stopped = run(command + path("out") + keeping() + "--max-iterations 200");
   ASSERT_EQ(stopped.status, 3) << stopped.errors;
   ASSERT_TRUE(fs::exists(path("state")));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual pages and completion: they have all that --help has, man takes the pages without a warning,
-// and a shell completes.
+// Manual pages and completion: they have all that --help has, man takes the pages without a
+// warning, and a shell completes.
 #include <algorithm>
 #include <regex>
 #include <set>
@@ -89,7 +89,8 @@ TEST_F(HelpCommands, PagesAreWithoutWarnings) {
   for (const auto& name : names) {
     const auto page = path("help/flbc" + (name.empty() ? "" : "-" + name) + ".1");
     ASSERT_EQ(std::system(("groff -man -ww -Tutf8 " + page + " >" + path("page.txt") + " 2>" +
-                           path("warnings.txt")).c_str()),
+                           path("warnings.txt"))
+                              .c_str()),
               0);
     EXPECT_EQ(slurp(path("warnings.txt")), "") << page;
     EXPECT_NE(slurp(path("page.txt")).find("wrong usage"), std::string::npos) << page;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that stops at any check and goes on from its state is the run that never stopped, to the bit.
+// A run that stops at any check and goes on from its state is the run that never stopped, to the
+// bit.
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -71,13 +72,13 @@ void expect_same(const Solution& resumed, const Solution& whole) {
 //! \return the run that never stopped
 template <int Dim>
 SolveReport expect_resumable(const Sample<Dim>& sample, const SolverOptions& options,
-                      const CoarseMesher<Dim>& mesher = {}) {
+                             const CoarseMesher<Dim>& mesher = {}) {
   std::vector<State> states;
   const auto whole = solve_and_keep(sample, options, mesher, states);
   EXPECT_GE(states.size(), 3U);
   if (states.size() < 3) return whole.report;
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, states.size() / 2,
-                              states.size() - 2, states.size() - 1}) {
+  for (const std::size_t k :
+       {std::size_t{0}, std::size_t{1}, states.size() / 2, states.size() - 2, states.size() - 1}) {
     SCOPED_TRACE("from iteration " + std::to_string(states[k].iteration));
     auto going_on = options;
     going_on.resume_from = states[k].bytes;
