@@ -92,6 +92,11 @@ std::string describe_usage_error(const CLI::App* app, const CLI::Error& error) {
   return command + ": " + error.what() + "; see " + command + " --help\n";
 }
 
+// Results that were meant for standard output and are lost must not pass for done.
+void require_output() {
+  if (!std::cout.flush()) throw flbc::IoError("standard output: cannot write");
+}
+
 int run(int argc, char** argv) {
   using namespace flbc::app;
   CLI::App app{
@@ -116,6 +121,8 @@ int run(int argc, char** argv) {
   add_plot_command(app, exit_status);
   add_view_command(app, exit_status);
   add_info_command(app, exit_status);
+  add_completion_command(app, exit_status);
+  add_man_command(app, exit_status);
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'" +
@@ -124,13 +131,14 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help and --version
-    return app.exit(request);
+    const int status = app.exit(request);
+    require_output();
+    return status;
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return kWrongUsage;
   }
-  // Results that were meant for standard output and are lost must not pass for done.
-  if (!std::cout.flush()) throw flbc::IoError("standard output: cannot write");
+  require_output();
   return exit_status;
 }
 

@@ -24,6 +24,11 @@ flbc_install_component(netgen flbc_netgen)
 flbc_install_component(openmesh flbc_openmesh flbc_gltf)
 if(TARGET flbc_app)
   install(TARGETS flbc_app)
+  set(help ${PROJECT_BINARY_DIR}/help)
+  install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+  install(FILES ${help}/flbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME flbc)
+  install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 endif()
 
 # ---- headers -------------------------------------------------------------------------------------

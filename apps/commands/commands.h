@@ -13,9 +13,11 @@
 namespace flbc::app {
 
 void add_cage_command(CLI::App& app, int& exit_status);
+void add_man_command(CLI::App& app, int& exit_status);
 void add_mesh_command(CLI::App& app, int& exit_status);
 void add_solve_command(CLI::App& app, int& exit_status);
 void add_check_command(CLI::App& app, int& exit_status);
+void add_completion_command(CLI::App& app, int& exit_status);
 void add_convert_command(CLI::App& app, int& exit_status);
 void add_deform_command(CLI::App& app, int& exit_status);
 void add_draw_command(CLI::App& app, int& exit_status);

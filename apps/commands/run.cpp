@@ -61,7 +61,7 @@ void naming_step(const std::string& step, const Action& action) {
   } catch (const IoError& error) {
     throw IoError(text(error));
   } catch (const std::bad_alloc&) {
-    throw InputError("step " + step + ": out of memory; try fewer --vertices");
+    throw;  // has an exit status of its own
   } catch (const std::exception& error) {
     throw InputError(text(error));
   }
@@ -111,6 +111,7 @@ void print_summary(const Run<Dim>& run) {
 template <int Dim>
 int finish(Run<Dim>& run) {
   run.folder.add_report(run.report, "all of this in numbers");
+  run.solver.forget_checkpoint();
   if (!run.arguments.quiet) print_summary(run);
   for (const auto& violation : run.report["check"]["weights"]["violations"]) {
     std::cerr << "flbc: " << run.arguments.output << ": " << violation.template get<std::string>()
@@ -148,6 +149,9 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
     take_steps(run);
   } catch (const Error& error) {
     leave_report(run, error.what());
+    throw;
+  } catch (const std::bad_alloc&) {
+    leave_report(run, "out of memory");
     throw;
   }
   return finish(run);
@@ -188,6 +192,7 @@ void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
 int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArguments& arguments) {
   check_arguments(arguments);
   read_auto_cage(auto_cage, arguments);
+  settle_checkpoint(arguments.settings);
   if (arguments.makes_cage) return run_model(arguments);
   refuse_unread_options(command, arguments.settings);
   if (arguments.settings.embed && arguments.settings.model.empty()) {

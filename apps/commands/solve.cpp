@@ -33,7 +33,8 @@ void check_outputs(const SolveArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
   require_distinct({settings.cage, settings.domain, settings.model},
-                   {arguments.output, arguments.save_domain, arguments.report});
+                   {arguments.output, arguments.save_domain, arguments.report,
+                    settings.checkpoint.file});
 }
 
 template <int Dim>
@@ -73,6 +74,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
   }
+  solver.forget_checkpoint();
   if (arguments.verbose) std::cerr << json;
   if (!arguments.quiet) print_summary(arguments, solver, delivered);
   return tell_convergence(solver.report(), settings) ? kDone : kNotConverged;
@@ -108,6 +110,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);
     refuse_unread_options(*command, arguments->settings);
+    settle_checkpoint(arguments->settings);
     check_outputs(*arguments);
     const auto cage = load_cage(arguments->settings.cage);
     exit_status = std::visit([&](const auto& any) { return solve_cage(any, *arguments); }, cage);

@@ -45,15 +45,6 @@ bool is_same_file(const std::string& a, const std::string& b) {
   throw OptionError(path + ": cannot tell the format; the file must end in " + extensions);
 }
 
-void require_writable_folder(const std::string& path) {
-  auto folder = std::filesystem::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw IoError(path + ": cannot write in folder " + folder.string() + ": " +
-                  std::strerror(errno));
-  }
-}
-
 }  // namespace
 
 io::AnyCage load_cage(const std::string& path) {
@@ -92,6 +83,16 @@ PointList<Dim> load_model(const std::string& path) {
   auto points = io::to_points<Dim>(io::read_polygons(path), path);
   if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
   return points;
+}
+
+void require_writable_folder(const std::string& path) {
+  if (path.empty()) return;
+  auto folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw IoError(path + ": cannot write in folder " + folder.string() + ": " +
+                  std::strerror(errno));
+  }
 }
 
 void require_writable(const std::string& path, const char* extension) {

@@ -43,6 +43,10 @@ PointList<Dim> load_model(const std::string& path);
 void require_writable(const std::string& path, const char* extension);
 void require_writable(const std::string& path, std::initializer_list<io::Content> contents);
 
+//! \throws IoError before any work is done if the file's folder is missing or must not be written in.
+//! Nothing is checked for an empty path.
+void require_writable_folder(const std::string& path);
+
 //! The formats of meshes of the interior, for help.
 std::string mesh_formats_help();
 

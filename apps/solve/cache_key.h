@@ -31,4 +31,9 @@ struct WeightOrigin {
 template <int Dim>
 std::string key_of(const WeightOrigin<Dim>& origin);
 
+//! The same with hashes in place of the bytes, and without max_iterations: what an iteration depends
+//! on that stops and goes on.
+template <int Dim>
+std::string lines_of(const WeightOrigin<Dim>& origin);
+
 }  // namespace flbc::app

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -62,6 +63,17 @@ void keep(const WeightsCache& cache, const std::string& key, const SolvedDomain<
   }
 }
 
+const char* name_of(Stage stage) {
+  switch (stage) {
+    case Stage::kDistances:
+      return "measuring distances";
+    case Stage::kNonNegative:
+      return "making weights non-negative";
+    default:
+      return "proving the gap";
+  }
+}
+
 // By the bounding boxes.
 template <int Dim>
 bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
@@ -85,16 +97,25 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                      "; are CAGE and MODEL swapped?");
   }
   if (!settings.cache.empty()) cache_.emplace(settings.cache);
+  require_writable_folder(settings.checkpoint.file);
+}
+
+template <int Dim>
+WeightOrigin<Dim> CageSolver<Dim>::origin() const {
+  return {cage_,
+          settings_.domain.empty() ? nullptr : &solved_.domain,
+          settings_.embed ? &embedded_.points : nullptr,
+          settings_.vertices,
+          bool(coarse_mesher<Dim>(settings_.meshing.mesher)),
+          settings_.penalty,
+          settings_.options,
+          settings_.meshing.mesher};
 }
 
 template <int Dim>
 bool CageSolver<Dim>::find_in_cache() {
   if (!cache_) return false;
-  const bool has_domain = !settings_.domain.empty();
-  key_ = key_of<Dim>({cage_, has_domain ? &solved_.domain : nullptr,
-                      settings_.embed ? &embedded_.points : nullptr, settings_.vertices,
-                      bool(coarse_mesher<Dim>(settings_.meshing.mesher)), settings_.penalty,
-                      settings_.options, settings_.meshing.mesher});
+  key_ = key_of(origin());
   auto answer = cache_->find<Dim>(key_);
   if (!answer.complaint.empty()) {
     std::cerr << "flbc: " << answer.complaint << "; the weights are computed anew\n";
@@ -105,13 +126,29 @@ bool CageSolver<Dim>::find_in_cache() {
 }
 
 template <int Dim>
+bool CageSolver<Dim>::find_checkpoint(bool quiet) {
+  if (settings_.checkpoint.file.empty()) return false;
+  const std::string history = settings_.history ? "history 1\n" : "history 0\n";
+  checkpoint_.emplace(settings_.checkpoint, lines_of(origin()) + history);
+  auto found = checkpoint_->find();
+  if (!found) return false;
+  kept_ = std::move(*found);
+  solved_ = std::move(kept_.solved);
+  if (!quiet) {
+    std::cerr << "flbc: going on from " << settings_.checkpoint.file << ", at iteration "
+              << kept_.iteration << '\n';
+  }
+  return true;
+}
+
+template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
   const auto start = std::chrono::steady_clock::now();
   const bool has_domain = !settings_.domain.empty();
   if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
   if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
   is_cached_ = find_in_cache();
-  if (!is_cached_) {
+  if (!is_cached_ && !find_checkpoint(quiet)) {
     std::string note;
     if (!has_domain) {
       const ProgressBar bar(quiet, meshing_stage(Dim, settings_.meshing.timeout));
@@ -134,25 +171,43 @@ void CageSolver<Dim>::make_domain(bool quiet) {
 }
 
 template <int Dim>
+void CageSolver<Dim>::compute(bool quiet) {
+  auto options = settings_.options;
+  std::optional<ProgressBar> bar;
+  bar.emplace(quiet, "setting up: boundary values, distances", options);
+  HistoryRecorder recorder(options);
+  recorder.go_on(std::move(kept_.history));
+  options.resume_from = kept_.state;
+  options.progress = [&](const Progress& progress) {
+    bar->show(progress);
+    if (settings_.history) recorder.note(progress);
+    if (checkpoint_ && checkpoint_->look(progress, solved_, recorder.entries())) {
+      bar.reset();
+      checkpoint_->end();
+    }
+    return true;
+  };
+  options.stage_progress = [&](Stage stage, double done) {
+    if (checkpoint_) checkpoint_->release_signals();  // what they would interrupt is over
+    bar->show(name_of(stage), done);
+  };
+  solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
+    return solve_domain(cage_, solved_.domain, options, settings_.penalty, solved_.mesher);
+  });
+  if (settings_.history) history_ = recorder.finished(report());
+  kept_ = {};
+}
+
+template <int Dim>
+void CageSolver<Dim>::forget_checkpoint() const {
+  if (checkpoint_ && report().status == SolveStatus::kConverged) checkpoint_->remove();
+}
+
+template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
   if (is_cached_) return;
-  auto options = settings_.options;
-  {
-    ProgressBar bar(quiet, "setting up: boundary values, distances", options);
-    HistoryRecorder recorder(options);
-    options.progress = [&](const Progress& progress) {
-      bar.show(progress);
-      if (settings_.history) recorder.note(progress);
-      return true;
-    };
-    options.stage_progress = [&](Stage stage, double done) {
-      bar.show(stage == Stage::kDistances ? "measuring distances" : "proving the gap", done);
-    };
-    solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-      return solve_domain(cage_, solved_.domain, options, settings_.penalty, solved_.mesher);
-    });
-    if (settings_.history) history_ = recorder.finished(report());
-  }
+  compute(quiet);
+  if (checkpoint_) checkpoint_->release_signals();
   if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
 }
 
@@ -206,7 +261,13 @@ std::string describe(const Placement<Dim>& placement, double size) {
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) return true;
   std::cerr << "flbc: not converged within " << settings.options.max_iterations
-            << " iterations; the result was written nevertheless (see --max-iterations, --tolerance and --gap)\n";
+            << " iterations; the result was written nevertheless (see --max-iterations, --tolerance and --gap)";
+  std::error_code ignored;
+  if (std::filesystem::exists(settings.checkpoint.file, ignored)) {
+    std::cerr << "; with a larger --max-iterations the solve goes on from "
+              << settings.checkpoint.file;
+  }
+  std::cerr << '\n';
   return false;
 }
 

@@ -13,7 +13,9 @@
 #include "flbc/embeddable_points.h"
 #include "flbc/placement.h"
 #include "report/history.h"
+#include "solve/checkpoint.h"
 #include "solve/solve_settings.h"
+#include "solve/cache_key.h"
 #include "solve/weights_cache.h"
 
 namespace flbc::app {
@@ -26,7 +28,7 @@ class CageSolver {
   //! \throws IoError if the cache cannot be used
   CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
 
-  //! Finds mesh and weights in the cache; or reads the mesh, or makes it. Then finds the model's
+  //! Finds mesh and weights in the cache, or mesh and state in the file of the checkpoint; or reads the mesh, or makes it. Then finds the model's
   //! vertices in it, so that a model outside its cage is refused before the solve. Says on standard
   //! error if a file of the cache is of no use.
   //! \param quiet  without a progress line
@@ -35,6 +37,10 @@ class CageSolver {
   //! Nothing, if the weights were in the cache; else they go there if they have converged.
   //! \param quiet  without a progress line
   void solve(bool quiet);
+
+  //! To be called when all results are written: the state of a solve that has converged is of no use
+  //! any more.
+  void forget_checkpoint() const;
 
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return solved_.domain; }
@@ -57,12 +63,17 @@ class CageSolver {
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
+  WeightOrigin<Dim> origin() const;
   bool find_in_cache();
+  bool find_checkpoint(bool quiet);
+  void compute(bool quiet);
 
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;
   const SolveSettings& settings_;
   std::optional<WeightsCache> cache_;
+  std::optional<Checkpoint<Dim>> checkpoint_;
+  KeptRun<Dim> kept_;  // to go on from
   std::string key_;
   SolvedDomain<Dim> solved_;
   bool is_cached_ = false;

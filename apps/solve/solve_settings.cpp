@@ -57,11 +57,14 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
-    for (const char* option :
-         {"--phi", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
-          "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
+    for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
+                               "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations",
+                               "--penalty", "--relaxation", "--checkpoint"}) {
       refuse(option, name + " does not read it");
     }
+  }
+  if (method != Method::kAuto && method != Method::kValue) {
+    refuse("--active", name + " does not read it");
   }
   if (!gradients) refuse("--recovery", name + " does not read it");
   if (method == Method::kPaper) refuse("--coarse-to-fine", name + " does not read it");
@@ -70,6 +73,16 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
     refuse("--mesher", "with --domain nothing is meshed");
     refuse("--mesh-timeout", "with --domain nothing is meshed");
   }
+}
+
+void settle_checkpoint(SolveSettings& settings) {
+  if (settings.checkpoint.file.empty()) return;
+  auto& choice = settings.options.active_pairs;
+  if (choice == ActivePairs::kOn) {
+    throw OptionError("--checkpoint: a run with --active on cannot be gone on from; leave one of "
+                      "them out");
+  }
+  choice = ActivePairs::kOff;
 }
 
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
@@ -114,6 +127,15 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.add_option("--cache", settings.cache,
                      "keep weights in this folder, and take them from there if the numbers of "
                      "cage and mesh and all options are the same");
+  auto* checkpoint = command.add_option(
+      "--checkpoint", settings.checkpoint.file,
+      "keep the state of the solve in this file, also when interrupted: the same command goes on "
+      "from it, to the same bits; removed when done");
+  command
+      .add_option("--checkpoint-every", settings.checkpoint.interval,
+                  "seconds between two writes of the state (60)")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(checkpoint);
 }
 
 }  // namespace flbc::app

@@ -9,8 +9,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "flbc/byte_archive.h"
 #include "flbc/io/files.h"
-#include "solve/byte_archive.h"
+#include "solve/sealed_file.h"
 
 namespace flbc::app {
 
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kMagic = "flbc weights, format 5\n";
+constexpr std::string_view kFirstLine = "flbc weights, format 5\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -67,38 +68,10 @@ void visit_solved(Archive& archive, Solved& solved) {
   visit_report(archive, solved.solution.report);
 }
 
-std::uint64_t number_at(std::string_view bytes) {
-  std::uint64_t number = 0;
-  std::memcpy(&number, bytes.data(), sizeof number);
-  return number;
-}
-
-// The parts of a file between its first line and its hash.
-struct Entry {
-  std::string_view key;
-  std::string_view payload;
-};
-
-// \throws InputError saying what is wrong with the file
-Entry take_apart(std::string_view content) {
-  constexpr auto kNumber = sizeof(std::uint64_t);
-  if (content.substr(0, kMagic.size()) != kMagic || content.size() < kMagic.size() + 2 * kNumber) {
-    throw InputError("it is no file of weights of this format");
-  }
-  const auto checked = content.substr(0, content.size() - kNumber);
-  if (hash_of(checked) != number_at(content.substr(checked.size()))) {
-    throw InputError("it is damaged: its checksum is wrong");
-  }
-  const auto rest = checked.substr(kMagic.size() + kNumber);
-  const auto key_size = number_at(checked.substr(kMagic.size()));
-  if (key_size > rest.size()) throw InputError("it ends early");
-  return {rest.substr(0, key_size), rest.substr(key_size)};
-}
-
 template <int Dim>
 SolvedDomain<Dim> read_entry(const std::string& path, const std::string& key) {
   const auto content = io::read_file(path);
-  const auto entry = take_apart(content);
+  const auto entry = open_sealed(content, kFirstLine, "weights");
   if (entry.key != key) {
     throw InputError("it was made of another cage or mesh, with other options or another version");
   }
@@ -148,13 +121,9 @@ void WeightsCache::store(const std::string& key, const SolvedDomain<Dim>& solved
   // A file that must not be written could not be replaced.
   std::error_code ignored;
   fs::remove(path, ignored);
-  io::write_file(path, [&](std::ostream& file) {
-    ByteWriter writer(file);
-    writer.bytes(kMagic.data(), kMagic.size());
-    writer(static_cast<std::uint64_t>(key.size()));
-    writer.bytes(key.data(), key.size());
+  write_sealed(path, kFirstLine, key, [&](std::ostream& out) {
+    ByteWriter writer(out);
     visit_solved(writer, solved);
-    writer(writer.hash());
   });
 }
 

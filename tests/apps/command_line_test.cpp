@@ -190,10 +190,54 @@ TEST_F(CommandLine, SwappedCageAndModelAreSaid) {
 }
 
 TEST_F(CommandLine, ALostOutputIsAFailure) {
-  const std::string command = std::string(FLBC_PROGRAM) + " info " + sample("3d/limb_cage.obj") +
-                              " >/dev/full 2>" + path("errors.txt");
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
-  EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos);
+  for (const std::string& arguments : {"info " + sample("3d/limb_cage.obj"), std::string("--help"),
+                                       std::string("--version"), std::string("solve --help")}) {
+    const std::string command = std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>" +
+                                path("errors.txt");
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
+    EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos) << arguments;
+  }
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
+TEST_F(CommandLine, OutOfMemoryIsStatus5) {
+  const auto cage = sample("3d/limb_cage.obj");
+  for (const std::string& arguments :
+       {"solve " + cage + " -o " + path("w.npy"), "run " + cage + " -o " + path("out")}) {
+    const auto command = "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) + " " +
+                         arguments + " --vertices 40000 --mesher tetgen -q >/dev/null 2>" +
+                         path("errors.txt");
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5) << arguments;
+    EXPECT_NE(slurp(path("errors.txt")).find("out of memory"), std::string::npos) << arguments;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("w.npy")));
+  EXPECT_NE(slurp(path("out/report.json")).find("\"failed\": \"out of memory\""),
+            std::string::npos);
+}
+#endif
+
+TEST_F(CommandLine, StlThatEndsEarlyIsStatus2) {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\n";
+  const std::string counted(80, 'x');
+  const std::pair<std::string, std::string> files[] = {
+      {"", "not an STL file"},
+      {"solid\nendsolid\n", "no triangles"},
+      {counted + std::string(4, '\0'), "no triangles"},
+      {counted + std::string("\2\0\0\0", 4) + std::string(60, '\0'), "after 1 of 2 triangles"},
+      {"solid\n" + facet.substr(0, 40), "ends within a facet"},
+      {"solid\n" + facet, "\"endsolid\" is missing"}};
+  const auto cage = sample("3d/limb_cage.obj");
+  for (const auto& [content, reason] : files) {
+    const auto stl = file("m.stl", content);
+    for (const auto& command :
+         {"info " + stl, "check " + stl, "check " + cage + " --model " + stl,
+          "solve " + cage + " --model " + stl + " -o " + path("w.npy"),
+          "convert " + stl + " -o " + path("m.obj"), "cage " + stl + " -o " + path("c.obj")}) {
+      expect_failure(command, 2, reason);
+    }
+  }
 }
 
 TEST_F(CommandLine, WrongUsageIsStatus1) {

@@ -297,6 +297,9 @@ TEST_F(DeformCommand, Keyframes) {
   const auto uneven = file("uneven.txt", "k 0\nk 1\n" + zeros + "c 1 0 0 0\n");
   expect_deform(command + uneven + " --rest " + rest + output, 2,
                 "keyframe 1 has 1 control points, keyframe 0 has 4");
+  const auto none = file("none.txt", "k 0\nk 1\n" + zeros);
+  expect_deform(command + none + " --rest " + rest + output, 2,
+                "keyframe 1 has no displacements");
   const auto unknown = file("unknown.txt", "k 0\n" + zeros + "c 1 0 0 0\n");
   expect_deform(command + unknown + " --rest " + rest + output, 2, "unknown.txt:6: ");
   EXPECT_FALSE(std::filesystem::exists(path("k_0.obj")));

@@ -31,7 +31,7 @@ const std::vector<std::vector<std::string>> kFloors{{"base"},
 
 // Public headers of types, which have no source, and those that only include others.
 const std::map<std::string, std::string> kRoomsOfTypes{
-    {"types", "base"},          {"errors", "base"},        {"content_hash", "base"},
+    {"types", "base"},          {"byte_archive", "base"}, {"errors", "base"},        {"content_hash", "base"},
     {"version", "base"},       {"padded_rows", "base"},   {"boundary_tolerance", "base"},
     {"linear_solver", "linear"}, {"cell_field", "mesh"},    {"meshing_options", "meshing"},
     {"report", "solver"},       {"solver_state", "solver"}, {"coarse_to_fine", "solver"}, {"meshing", "meshing"},

@@ -14,6 +14,15 @@ foreach(component cgal tetgen openmesh)
   endif()
 endforeach()
 
+if(PROGRAM)
+  foreach(file man/man1/flbc.1 man/man1/flbc-solve.1 bash-completion/completions/flbc
+      zsh/site-functions/_flbc)
+    if(NOT EXISTS ${WORK}/moved/share/${file})
+      message(FATAL_ERROR "share/${file} is not installed")
+    endif()
+  endforeach()
+endif()
+
 # A file that knows where it was made would not work on another machine.
 file(GLOB_RECURSE texts ${WORK}/moved/*.cmake ${WORK}/moved/*.pc ${WORK}/moved/*.h)
 foreach(text IN LISTS texts)

@@ -199,7 +199,7 @@ TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
       told[stage].push_back(done);
     };
     EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, without);
-    for (const auto stage : {Stage::kDistances, Stage::kCertificate}) {
+    for (const auto stage : {Stage::kDistances, Stage::kNonNegative, Stage::kCertificate}) {
       const auto& parts = told[stage];
       ASSERT_FALSE(parts.empty());
       EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));

@@ -48,6 +48,9 @@ class WeightFunctions {
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
 
+  //! Those it was made of, n x V, empty for kConstant; phi itself if given one by one.
+  const Eigen::MatrixXd& distances() const { return values_; }
+
   //! phi_i on one cell, in [0, 1] if made from distances. \param i  control point \param s  cell
   double operator()(Eigen::Index i, Eigen::Index s) const {
     return cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <optional>
+#include <string_view>
 
 #include "flbc/coarse_to_fine.h"
 #include "flbc/distance_weights.h"
@@ -74,12 +76,16 @@ struct Progress {
   //! Objective of the present weights, in the units of SolveReport::objective; computed when
   //! called, which takes as long as an iteration or two. Empty for methods without weights at hand.
   std::function<double()> objective{};
+  //! Writes the state of the whole run, for SolverOptions::resume_from; to be called by the callback
+  //! or not at all. Empty on coarser meshes, and where solve() was given a problem.
+  std::function<void(std::ostream&)> write_state{};
 };
 
 //! What may take long in a solve besides the iteration.
 enum class Stage {
-  kDistances,   //!< those behind phi
-  kCertificate  //!< the lower bound at the end
+  kDistances,    //!< those behind phi
+  kNonNegative,  //!< weights of the last iteration are projected
+  kCertificate   //!< the lower bound at the end
 };
 
 //! Options of solve(). The defaults suit every cage. Where a method does not read a field, its
@@ -139,6 +145,7 @@ struct SolverOptions {
   std::optional<double> gap{};
 
   //! Work only where weights are. Read by kValue, but not where a state is kept (StateStorage).
+  //! Progress::write_state is empty while supports are worked on.
   ActivePairs active_pairs = ActivePairs::kAuto;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error. Read by kValue,
@@ -170,6 +177,13 @@ struct SolverOptions {
   //! Called whenever residuals are evaluated; returning false stops the run. Read by kValue,
   //! kLbc2014, kGradient and kPaper.
   std::function<bool(const Progress&)> progress{};
+
+  //! State that Progress::write_state has written in a run of the same cage, mesh and options, but
+  //! for threads, max_iterations and callbacks, by the same version of the library. The run goes on
+  //! from there and ends with the same bits as if it had never stopped. The bytes must stay until
+  //! solve() returns. Read by solve() of a cage and a mesh, refused by whoever else solves; empty to
+  //! start afresh.
+  std::string_view resume_from{};
 
   //! Called by the calling thread now and then during such a stage, with the part of it in [0, 1]
   //! that is done. Must not throw. Read by all methods that have the stage; distances tell where

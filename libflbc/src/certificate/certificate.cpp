@@ -151,6 +151,7 @@ void check_flux_and_weights(const LbcProblem<Dim>& problem, const CellFieldView<
 template <int Dim>
 WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   problem.boundary.impose_on(weights);
+  const StageScope silent({});  // the bound that follows tells how far it is
   project_non_negative(problem.cage.points, problem.mesh.points, weights,
                        problem.boundary.interior_vertices());
   return weights;

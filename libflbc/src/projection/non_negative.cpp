@@ -7,6 +7,7 @@
 
 #include "base/messages.h"
 #include "base/shape_checks.h"
+#include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "projection/nearest_point_in_hull.h"
 #include "projection/weight_projection.h"
@@ -57,6 +58,7 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
   const WeightProjection<Dim> projection(control_points);
   const auto count = static_cast<Index>(columns.size());
   std::atomic<Index> outside{static_cast<Index>(points.cols())};
+  LoopProgress progress(count);
 #pragma omp parallel if (count >= 256)
   {
     typename WeightProjection<Dim>::Workspace work(projection);
@@ -64,6 +66,7 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
 #pragma omp for schedule(dynamic, 64)
     for (Index k = 0; k < count; ++k) {
       const Index point = columns[k];
+      progress.add(1);
       // Only the first one is reported, so that those behind it do not matter any more.
       if (outside.load(std::memory_order_relaxed) < point) continue;
       column = weights.col(point);

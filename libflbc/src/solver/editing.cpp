@@ -14,6 +14,7 @@
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/state_storage.h"
 #include "solver/warm_start/transfer.h"
 
@@ -92,7 +93,7 @@ template <int Dim>
 class EditableCoordinates<Dim>::State {
  public:
   State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
-      : options_(resolve(options)) {
+      : options_(offering_nothing(resolve(options))) {
     const ThreadScope threads(threads_for(options_.threads, cage.size(), mesh.num_vertices()));
     normalize_and_validate(mesh);
     Stopwatch watch;
@@ -187,6 +188,7 @@ template <int Dim>
 EditableCoordinates<Dim>::EditableCoordinates(Cage<Dim> cage, DomainMesh<Dim> mesh,
                                               const SolverOptions& options) {
   validate(options);
+  refuse_state(options);
   state_ = std::make_unique<State>(std::move(cage), std::move(mesh), options);
 }
 

@@ -24,6 +24,12 @@ class GapCriterion {
   //! \return whether the gap is proved to be at most the one wanted
   bool is_met(int iteration, bool last);
 
+  //! Writes or reads what changes.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(next_);
+  }
+
  private:
   double wanted_;
   std::function<Certificate()> certify_;

@@ -128,6 +128,7 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
                 SolveReport report) {
   Stopwatch watch;
   if (options.non_negative != NonNegative::kOff) {
+    const StageScope scope(told_of(options, Stage::kNonNegative));
     project_non_negative(problem.cage.points, problem.mesh.points, result.weights,
                          problem.boundary.interior_vertices());
   }

@@ -10,6 +10,7 @@
 #include "solver/iterative_method.h"
 #include "solver/multilevel/cascade.h"
 #include "solver/multilevel/set_up.h"
+#include "solver/run_state.h"
 #include "solver/state_storage.h"
 
 namespace flbc {
@@ -42,7 +43,8 @@ Solution solve_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Di
                     const SolverOptions& options, StateStorage* storage) {
   if (!coarse.empty()) return solve_in_cascade(problem, std::move(coarse), options, storage);
   SolveReport report;
-  auto result = run_method(problem, options, report, storage, WarmStart<Dim>{});
+  auto result =
+      run_method(problem, offering_levels(options, {}), report, storage, WarmStart<Dim>{});
   return finish(problem, options, std::move(result), std::move(report));
 }
 
@@ -50,7 +52,7 @@ Solution solve_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Di
 template <int Dim>
 Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_options,
                      const CoarseMesher<Dim>& mesher, StateStorage* storage) {
-  const auto options = resolve(user_options);
+  const auto options = offering_nothing(resolve(user_options));
   const ThreadScope threads(
       threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices()));
   std::vector<CoarseProblem<Dim>> coarse;
@@ -75,12 +77,37 @@ void add_set_up(double seconds, const DistanceReport& distances, SolveReport& re
   report.distances = distances;
 }
 
+// From the state that the options bring.
+template <int Dim>
+Solution go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions options) {
+  Stopwatch watch;
+  auto told = options;
+  auto record = take_record(told, cage, mesh);
+  auto problem = make_geometry(cage, mesh);
+  problem.phi = {options.phi, std::move(record.distances), problem.mesh,
+                 problem.num_control_points()};
+  const double setup_seconds = record.setup_seconds + watch.lap();
+  // In the order in which they are read.
+  options.resume_from = told.resume_from;
+  told = offering_levels(offering_record(options, cage, mesh, problem.phi.distances(),
+                                         record.source, setup_seconds, record.solve_seconds),
+                         record.levels);
+  SolveReport report;
+  auto result = run_method(problem, told, report, nullptr, WarmStart<Dim>{});
+  report.coarse_levels = std::move(record.levels);
+  report.seconds.solve += record.solve_seconds;
+  auto solution = finish(problem, options, std::move(result), std::move(report));
+  add_set_up(setup_seconds, record.source, solution.report);
+  return solution;
+}
+
 }  // namespace
 
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
                const MesherArgument<Dim>& mesher, StateStorage* storage) {
   require_valid(options, bool(mesher));
+  refuse_state(options);
   require_phi(problem, resolve(options));
   return solve_valid(problem, options, mesher, storage);
 }
@@ -91,8 +118,15 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverO
   require_valid_set_up(options, bool(mesher));
   const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
+  if (!resolved.resume_from.empty()) return go_on(cage, mesh, resolved);
   auto ready = set_up(cage, mesh, resolved, mesher);
-  auto solution = solve_from(ready.problem, std::move(ready.coarse), resolved, nullptr);
+  double coarse_seconds = 0;
+  for (const auto& level : ready.coarse) {
+    coarse_seconds += level.report.mesh_seconds + level.report.setup_seconds;
+  }
+  const auto told = offering_record(resolved, cage, mesh, ready.problem.phi.distances(),
+                                    ready.distances, ready.seconds, coarse_seconds);
+  auto solution = solve_from(ready.problem, std::move(ready.coarse), told, nullptr);
   add_set_up(ready.seconds, ready.distances, solution.report);
   return solution;
 }
@@ -103,6 +137,7 @@ class LbcSolver<Dim>::State {
   State(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
         const CoarseMesher<Dim>& mesher)
       : options_(options), mesher_(mesher) {
+    refuse_state(options);
     const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
     ready_ = set_up(cage, mesh, resolve(options), mesher);
   }
@@ -120,6 +155,7 @@ class LbcSolver<Dim>::State {
 
   void set_options(const SolverOptions& options) {
     require_valid(options, bool(mesher_));
+    refuse_state(options);
     if (options.phi != options_.phi) {
       throw OptionError("phi cannot be changed once the problem is set up; make another LbcSolver");
     }
@@ -157,7 +193,8 @@ class LbcSolver<Dim>::State {
     const ThreadScope threads(threads_for(options_.threads,
                                           ready_.problem.num_control_points(),
                                           ready_.problem.mesh.num_vertices()));
-    return solve_from(ready_.problem, std::move(coarse), resolve(options_), &kept_);
+    return solve_from(ready_.problem, std::move(coarse), offering_nothing(resolve(options_)),
+                      &kept_);
   }
 
   SolverOptions options_;

@@ -160,7 +160,10 @@ WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>
   validate<Dim>(options);
   const StageScope scope(told_of(options));
   WeightMatrix sparse = weights;
-  project_non_negative(control_points, points, sparse);  // checks the input, too
+  {
+    const StageScope silent({});
+    project_non_negative(control_points, points, sparse);  // checks the input, too
+  }
   const PointSparsifier<Dim> sparsifier(control_points, options);
   LoopProgress progress(static_cast<Index>(points.cols()));
 #pragma omp parallel if (points.cols() >= 256)

@@ -64,6 +64,7 @@ class StlScanner {
     } else {
       scan_binary();
     }
+    if (soup_.polygons.empty()) throw InputError(path_ + ": the file has no triangles");
     scan_.face_normals = Eigen::Map<const PointList<3>>(
         normals_.data(), 3, static_cast<Eigen::Index>(soup_.polygons.size()));
     keep_finite<3>(scan_.model, scan_.face_normals);
@@ -115,6 +116,7 @@ class StlScanner {
   void scan_text() {
     TextReader reader(path_, scan_.text, {});
     std::size_t corners = 3;
+    bool is_open = true;
     while (reader.next_line()) {
       const std::string keyword = lower(reader.word());
       if ((keyword == "facet" || keyword == "endfacet") && corners < 3) {
@@ -133,11 +135,13 @@ class StlScanner {
               to_single(std::string_view(scan_.text).substr(place.begin, place.size));
         }
         add_corner(numbers);
-      } else if (keyword == "solid" && reader.has_word()) {
-        add_other(scan_.model, "the name of the solid");
+      } else if (keyword == "solid" || keyword == "endsolid") {
+        is_open = keyword == "solid";
+        if (is_open && reader.has_word()) add_other(scan_.model, "the name of the solid");
       }
     }
     if (corners < 3) reader.fail("the file ends within a facet");
+    if (is_open) reader.fail("the file ends within a solid: \"endsolid\" is missing");
   }
 
   void begin_triangle(const PlacedNumbers& normal) {

@@ -19,7 +19,10 @@ void require_equal_sizes(const TextReader& reader, const std::vector<Keyframe>& 
   const auto expected = keyframes.front().displacements.cols();
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     const auto found = keyframes[k].displacements.cols();
-    if (found == expected && found > 0) continue;
+    if (found == 0) {
+      reader.fail("keyframe " + std::to_string(k) + " has no displacements (\"c\" lines)");
+    }
+    if (found == expected) continue;
     reader.fail("keyframe " + std::to_string(k) + " has " + std::to_string(found) +
                 " control points, keyframe 0 has " + std::to_string(expected));
   }

@@ -88,6 +88,12 @@ class GradientAdmm {
   //! The periods' duals as factors of their functions' gradients in p / A, n x P.
   Eigen::MatrixXd period_factors() const;
 
+  //! Writes or reads the state, to the bit. What is read must be of the same problem and penalty.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(gradient_, extrapolated_, tv_dual_, facet_dual_, period_dual_);
+  }
+
   //! Numbers of state held per cell and control point; phi is one more.
   double state_scalars_per_cell() const;
 

@@ -14,6 +14,7 @@
 #include "solver/gradient/gradient_admm.h"
 #include "solver/gradient/weight_recovery.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/splitting/error_estimate.h"
 #include "solver/state_storage.h"
 
@@ -63,8 +64,12 @@ class RunToError {
                          problem.mesh.num_cells())),
         estimate_(warm, options.tolerance, interval_) {}
 
-  void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, GapCriterion& gap, SolveReport& report) {
-    report.primal_residual = 1 / options_.tolerance;  // weights are between 0 and 1
+  //! \param options  of the run, with who is told of it
+  void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
+               GapCriterion& gap, SolveReport& report) {
+    if (report.iterations == 0) {
+      report.primal_residual = 1 / options_.tolerance;  // weights are between 0 and 1
+    }
     for (bool ends = false; !ends;) {
       const int count =
           std::min(options_.check_interval, options_.max_iterations - report.iterations);
@@ -72,8 +77,15 @@ class RunToError {
       report.iterations += count;
       require_finite(std::isfinite(change.gradient) && std::isfinite(change.dual), report);
       if (report.iterations % interval_ == 0) look(residual_scale_ * change.dual, report);
-      ends = finished(report.iterations, options_, gap, report);
+      ends = finished(report.iterations, options, gap, report);
     }
+  }
+
+  // Writes or reads what the iteration itself does not know.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(weights_, looked_at_, errors_);
+    estimate_.visit(archive);
   }
 
   // The last weights, if they are those of this iteration.
@@ -165,7 +177,10 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   const auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
       problem, options.penalty, options.relaxation,
       gradient::boundary_periods(problem, linear_solver), storage);
-  auto first_weights = start(*admm, options, recovery, storage, warm_start.from);
+  ByteReader read(options.resume_from);
+  const bool goes_on = !read.is_at_end();
+  auto first_weights = goes_on ? WeightMatrix()
+                               : start(*admm, options, recovery, storage, warm_start.from);
   if (warm_start.started) warm_start.started();
   const auto certify_weights = [admm, &problem](const WeightMatrix& weights) {
     return certify(problem, admm->flux(), weights);
@@ -175,10 +190,21 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   report.iterations = 0;
   RunToError<Scalar, Dim> run(problem, options, recover, std::move(first_weights),
                               warm_start.from != nullptr || resumes(storage));
+  const auto visit = [&](auto& archive) {
+    admm->visit(archive);
+    archive(report.iterations, report.primal_residual);
+    run.visit(archive);
+    gap.visit(archive);
+  };
+  if (goes_on) {
+    visit(read);
+    refuse_rest(read);
+  }
+  const auto told = offering(options, visit);
   if (options.method == Method::kPaper) {
-    iterate_to_residuals(*admm, options, gap, report);
+    iterate_to_residuals(*admm, told, gap, report);
   } else {
-    run.iterate(*admm, gap, report);
+    run.iterate(*admm, told, gap, report);
   }
   report.state_scalars_per_cell = admm->state_scalars_per_cell();
   report.penalty = options.penalty;

@@ -7,6 +7,7 @@
 
 #include "base/stopwatch.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -27,7 +28,9 @@ class Cascade {
 
   Solution solve_finest(StateStorage* storage) {
     Stopwatch watch;
-    auto options = options_;
+    std::vector<LevelReport> reports;
+    for (std::size_t k = 0; k < num_solved_; ++k) reports.push_back(levels_[k].report);
+    auto options = offering_levels(options_, reports);
     if (stopped_) options.max_iterations = 1;  // for weights that belong to this mesh
     std::unique_ptr<Transfer<Dim>> transfer;
     if (num_solved_ > 0) {
@@ -50,7 +53,7 @@ class Cascade {
       report.seconds.solve +=
           level.report.mesh_seconds + level.report.setup_seconds + level.report.solve_seconds;
     }
-    for (std::size_t k = 0; k < num_solved_; ++k) report.coarse_levels.push_back(levels_[k].report);
+    report.coarse_levels = std::move(reports);
     return finish(problem_, options, std::move(result), std::move(report));
   }
 
@@ -62,6 +65,7 @@ class Cascade {
     const auto finer_levels = static_cast<int>(levels_.size() - num_solved_);
     options.progress = [&](Progress progress) {
       progress.finer_levels = finer_levels;
+      progress.write_state = {};
       stopped_ = options_.progress && !options_.progress(progress);
       return !stopped_;
     };

@@ -119,6 +119,13 @@ class CompactSplitting {
   //! rounding.
   CellFieldView<Scalar, Dim> flux();
 
+  //! Writes or reads the state, to the bit. What is read must be of the same problem, penalty, Scalar
+  //! and Stored.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(extrapolated_, relaxed_, vertex_dual_, cell_dual_, residual_, start_);
+  }
+
   //! Leaves the state in the storage, complete.
   void finish();
 

@@ -33,6 +33,12 @@ class WeightHistory {
   //! iterations; below 0 at other times
   double operator()(int iteration, const ReadRow& read);
 
+  //! Writes or reads the weights that are kept.
+  template <class Archive>
+  void visit(Archive& archive) {
+    for (auto& kept : kept_) archive(kept);
+  }
+
  private:
   std::vector<Index> sample_;
   std::size_t stride_;
@@ -72,6 +78,12 @@ class ErrorEstimate {
   //! \return the estimate of this iteration or, where there is none, of the last one that had one;
   //! above the tolerance until a residual has confirmed it; not finite if an argument is not
   double operator()(int iteration, double change, double difference, double residual = -1);
+
+  //! Writes or reads what it has been told.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(warm_, shown_, hidden_, next_measured_, wants_residual_, entries_);
+  }
 
  private:
   struct Entry {

@@ -9,6 +9,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/value_run.h"
 #include "solver/state_storage.h"
@@ -37,6 +38,21 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
          (storage == nullptr || storage->holds_half());
 }
 
+// The front of what the progress callback is offered.
+struct StateFront {
+  bool is_half = false;
+  double penalty = 0;
+  bool warm = false;
+};
+
+// Takes it off. \return none where there is no state to go on from
+std::optional<StateFront> take_front(ByteReader& read) {
+  if (read.is_at_end()) return std::nullopt;
+  StateFront front;
+  read(front.is_half, front.penalty, front.warm);
+  return front;
+}
+
 // A solve in the arithmetic of `Scalar`, on all pairs of vertices and control points and on
 // supports in turn.
 template <class Scalar, int Dim>
@@ -51,8 +67,7 @@ class ValueSolve {
         warm_start_(warm_start),
         metric_(
             splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint)),
-        run_(problem, metric_.cell.sum(), options, is_adaptive(), warm_start.from != nullptr,
-             report) {
+        run_(problem, metric_.cell.sum(), options, is_adaptive(), is_warm(), report) {
     report.iterations = 0;
     if (warm_start.from) start_ = start_of(*warm_start.from);
   }
@@ -76,12 +91,14 @@ class ValueSolve {
   template <class Stored>
   using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
+  bool is_warm() const { return front_ ? front_->warm : warm_start_.from != nullptr; }
   bool is_adaptive() const {
-    return options_.penalty == 0 && !resumes(storage_) && !warm_start_.from;
+    return options_.penalty == 0 && !resumes(storage_) && !is_warm();
   }
 
   // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
   double choose_penalty() const {
+    if (front_) return front_->penalty;
     if (resumes(storage_)) return storage_->penalty();
     if (options_.penalty > 0) return options_.penalty;
     if (start_) return start_->penalty;
@@ -102,7 +119,11 @@ class ValueSolve {
     const auto splitting = std::make_shared<Splitting<Stored>>(
         problem_, metric_, choose_penalty(), options_.relaxation,
         linear_solver_for(problem_, options_), storage_);
-    if (resumes(storage_)) {
+    if (front_) {
+      splitting->visit(read_);
+      run_.resume(read_);
+      front_.reset();
+    } else if (resumes(storage_)) {
       splitting->resume();
     } else if (start_) {
       splitting->start_from_duals(start_->weights, start_->flux_density,
@@ -143,6 +164,7 @@ class ValueSolve {
     auto lists = warm_start_.from ? supports::supports_from(problem_, *warm_start_.from, threshold)
                                   : supports::supports_of(problem_, start_->weights, threshold);
     if (!supports::pay(problem_, options_, lists)) return {};
+    run_.offer_no_state();
     supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
     // Where fewer weights move a smaller penalty serves, and a yet smaller one where they are
     // nearly right already; as measured.
@@ -218,6 +240,8 @@ class ValueSolve {
   SolveReport& report_;
   StateStorage* const storage_;
   WarmStart<Dim> warm_start_;
+  ByteReader read_;
+  std::optional<StateFront> front_;  // until it has been gone on from
   const splitting::Metric metric_;
   ValueRun<Scalar, Dim> run_;
   std::optional<DualStart<Dim>> start_;
@@ -232,9 +256,11 @@ MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions&
     return ValueSolve<double, Dim>(problem, options, report, storage, warm_start)
         .template solve<double>();
   }
+  ByteReader read(options.resume_from);
+  const auto front = take_front(read);
+  const bool half = front ? front->is_half : takes_half(problem, options, storage);
   ValueSolve<float, Dim> solve(problem, options, report, storage, warm_start);
-  return takes_half(problem, options, storage) ? solve.template solve<compact::Half>()
-                                               : solve.template solve<float>();
+  return half ? solve.template solve<compact::Half>() : solve.template solve<float>();
 }
 
 template MethodResult solve_by_value(const LbcProblem<2>&, const SolverOptions&, SolveReport&,

@@ -8,6 +8,7 @@
 #include "flbc/certificate.h"
 #include "flbc/harmonic.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/splitting/weight_splitting.h"
 #include "solver/state_storage.h"
 
@@ -109,7 +110,11 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
   Stopwatch watch;
   const AugmentedLagrangian<Dim> lagrangian(problem, options);
   double penalty = lagrangian.penalty();
-  if (resumes(storage)) {
+  ByteReader read(options.resume_from);
+  const bool goes_on = !read.is_at_end();
+  if (goes_on) {
+    read(penalty);
+  } else if (resumes(storage)) {
     penalty = storage->penalty();
   } else if (warm_start.from && lagrangian.is_chosen()) {
     penalty = lagrangian.from_per_measure(warm_start.from->penalty());
@@ -119,7 +124,7 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
                                  : LinearSolver::kDirect;
   const auto splitting = std::make_shared<Splitting<Scalar, Dim>>(
       problem, lagrangian.metric(), penalty, options.relaxation, linear_solver, storage);
-  start(*splitting, problem, lagrangian, storage, warm_start.from);
+  if (!goes_on) start(*splitting, problem, lagrangian, storage, warm_start.from);
   if (warm_start.started) warm_start.started();
 
   const auto certify_weights = [splitting, &problem](const WeightMatrix& weights) {
@@ -127,8 +132,22 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
   };
   GapCriterion gap(*options.gap, [&] { return certify_weights(splitting->weights()); });
   report.iterations = 0;
-  iterate(*splitting, with_objective(problem, options, [&] { return splitting->weights(); }), gap,
-          report);
+  const auto visit = [&](auto& archive) {
+    splitting->visit(archive);
+    archive(report.iterations);
+    gap.visit(archive);
+  };
+  if (goes_on) {
+    visit(read);
+    refuse_rest(read);
+  }
+  const auto told =
+      offering(with_objective(problem, options, [&] { return splitting->weights(); }),
+               [&](ByteWriter& write) {
+                 write(penalty);
+                 visit(write);
+               });
+  iterate(*splitting, told, gap, report);
   report.penalty = penalty;
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();
   if (storage != nullptr) storage->keep_penalty(penalty);

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "flbc/padded_rows.h"
 #include "solver/iterative_method.h"
+#include "solver/run_state.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/error_estimate.h"
 
@@ -48,6 +50,7 @@ class ValueRun {
       : problem_(problem),
         options_(options),
         adaptive_(adaptive),
+        warm_(warm),
         report_(report),
         num_weights_(
             std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
@@ -57,21 +60,31 @@ class ValueRun {
         estimate_(warm, options.tolerance),
         gap_(*options.gap, [this] { return certificate_(); }) {}
 
+  //! Goes on from the part of a state that is the run's, the last one.
+  void resume(ByteReader& read) {
+    start_history();
+    visit(read);
+    refuse_rest(read);
+  }
+
+  //! From now on the state is one that cannot be gone on from.
+  void offer_no_state() { offers_state_ = false; }
+
   //! \param certify_weights  by the duals of the splitting
   template <class Splitting>
   Outcome iterate(Splitting& splitting,
                   const std::function<Certificate(const WeightMatrix&)>& certify_weights,
                   Window window) {
     constexpr int kFewest = 8;
-    const auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
+    const auto options = told(splitting);
     certificate_ = [&] { return certify_weights(splitting.weights()); };
     const auto read = [&](Index v, Scalar* weights) { splitting.read_vertex(v, weights); };
     if (!history_) {
-      history_.emplace(problem_.boundary.interior_vertices(),
-                       padded(static_cast<std::size_t>(problem_.num_control_points())));
+      start_history();
       (*history_)(0, read);
     }
     for (;;) {
+      if (Splitting::kStoresHalf && trembles()) return Outcome::kTrembles;
       const int iteration = ++report_.iterations;
       const auto step = step_at(iteration, splitting);
       const double difference = (*history_)(iteration, read) / problem_.num_control_points();
@@ -83,13 +96,41 @@ class ValueRun {
                         (shows_end ? iteration >= std::max(kFewest, window.earliest)
                                    : iteration % options_.check_interval == 0);
       if (look && finished(iteration, options, gap_, report_)) return Outcome::kEnded;
-      if (Splitting::kStoresHalf && trembles(iteration)) return Outcome::kTrembles;
       if (iteration >= window.pause) return Outcome::kPaused;
     }
   }
 
  private:
   static double square(double x) { return x * x; }
+
+  void start_history() {
+    history_.emplace(problem_.boundary.interior_vertices(),
+                     padded(static_cast<std::size_t>(problem_.num_control_points())));
+  }
+
+  // What the progress callback may ask for.
+  template <class Splitting>
+  SolverOptions told(Splitting& splitting) {
+    auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
+    if constexpr (Splitting::kAdapts) {
+      if (offers_state_) {
+        return offering(std::move(options), [&](ByteWriter& write) {
+          write(Splitting::kStoresHalf, splitting.penalty(), warm_);
+          splitting.visit(write);
+          visit(write);
+        });
+      }
+    }
+    return offering_nothing(std::move(options));
+  }
+
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(report_.iterations, report_.primal_residual);
+    history_->visit(archive);
+    estimate_.visit(archive);
+    gap_.visit(archive);
+  }
 
   template <class Splitting>
   compact::Step step_at(int iteration, Splitting& splitting) const {
@@ -105,16 +146,19 @@ class ValueRun {
 
   // Duals that are rounded in every iteration make the weights tremble, of which the estimate of
   // the error cannot tell that it leads nowhere.
-  bool trembles(int iteration) const {
+  bool trembles() const {
     constexpr int kLongest = 300;
     constexpr double kSmallest = 1e-6;
-    return iteration >= kLongest ||
+    if (report_.iterations == 0) return false;
+    return report_.iterations >= kLongest ||
            std::max(report_.primal_residual, 1.0) * options_.tolerance < kSmallest;
   }
 
   const LbcProblem<Dim>& problem_;
   const SolverOptions& options_;
   const bool adaptive_;
+  const bool warm_;
+  bool offers_state_ = true;
   SolveReport& report_;
   const double num_weights_;
   const double residual_scale_;

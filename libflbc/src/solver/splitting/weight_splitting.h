@@ -82,6 +82,12 @@ class WeightSplitting {
   //! p = rho m clip(2 x - y): the dual of the total variation, |p_s^i| <= phi A up to rounding.
   CellFieldView<Scalar, Dim> flux();
 
+  //! Writes or reads the state, to the bit. What is read must be of the same problem and penalty.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(weights_, cell_state_, vertex_state_, residual_);
+  }
+
   //! Numbers of state held per cell and control point; phi is one more.
   double state_scalars_per_cell() const;
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc completion: what makes shells complete commands and options.
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "help/completion.h"
+
+namespace flbc::app {
+
+void add_completion_command(CLI::App& app, int& exit_status) {
+  auto shell = std::make_shared<std::string>();
+  auto* command =
+      app.add_subcommand("completion", "Print what makes a shell complete commands and options");
+  command->footer(
+      "For one session: source <(flbc completion bash). For good it is installed with the "
+      "program,\n"
+      "as share/bash-completion/completions/flbc and share/zsh/site-functions/_flbc.");
+  command->add_option("SHELL", *shell, "bash or zsh")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh"}));
+  command->callback([&app, shell, &exit_status] {
+    const auto table = read_table(app);
+    std::cout << (*shell == "bash" ? bash_completion(table) : zsh_completion(table));
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc man: manual pages.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "commands/exit_status.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "help/completion.h"
+#include "help/manual.h"
+
+namespace flbc::app {
+namespace {
+
+std::string page_of(const CommandTable& table, const std::string& name) {
+  if (name.empty()) return manual_of_program(table);
+  for (const auto& command : table.commands) {
+    if (command.name == name) return manual_of_command(command);
+  }
+  throw OptionError("there is no command '" + name + "'; see flbc --help");
+}
+
+// Under the names by which they are installed.
+void write_all(const CommandTable& table, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw IoError(folder + ": cannot make this folder: " + error.message());
+  const auto put = [&](const std::string& name, const std::string& text) {
+    io::write_file(folder + "/" + name, [&](std::ostream& file) { file << text; });
+  };
+  put("flbc.1", manual_of_program(table));
+  for (const auto& command : table.commands) {
+    put("flbc-" + command.name + ".1", manual_of_command(command));
+  }
+  put("flbc.bash", bash_completion(table));
+  put("_flbc", zsh_completion(table));
+}
+
+struct ManArguments {
+  std::string command;
+  std::string folder;
+};
+
+}  // namespace
+
+void add_man_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<ManArguments>();
+  auto* command = app.add_subcommand("man", "Print a manual page");
+  command->footer("To read one: flbc man solve | man -l -");
+  auto* name =
+      command
+          ->add_option("COMMAND", arguments->command, "whose page is printed (that of the program)")
+          ->type_name("COMMAND");
+  command
+      ->add_option("--folder", arguments->folder,
+                   "write all pages here instead, with the completion for bash and zsh")
+      ->excludes(name);
+  command->callback([&app, arguments, &exit_status] {
+    const auto table = read_table(app);
+    if (arguments->folder.empty()) {
+      std::cout << page_of(table, arguments->command);
+    } else {
+      write_all(table, arguments->folder);
+    }
+    exit_status = kDone;
+  });
+}
+
+}  // namespace flbc::app

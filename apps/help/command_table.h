@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What the program understands, as a table: manual pages and completion are made of it, so that
+//! they cannot differ from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace flbc::app {
+
+//! An option or a positional argument.
+struct OptionEntry {
+  std::vector<std::string> names{};    //!< "-o", "--output"; empty for a positional one
+  std::string value{};                 //!< name of the value, as "FILE"; empty for a flag
+  std::vector<std::string> choices{};  //!< if the value is one of these
+  std::string help{};
+  bool required = false;
+  bool optional_value = false;  //!< whether the option may come without it
+  bool repeated = false;        //!< whether it may have several values
+};
+
+//! A subcommand.
+struct CommandEntry {
+  std::string name{};
+  std::string help{};
+  std::string footer{};
+  std::vector<OptionEntry> positionals{};
+  std::vector<OptionEntry> options{};
+};
+
+//! The program.
+struct CommandTable {
+  std::string help{};
+  std::vector<OptionEntry> options{};
+  std::vector<CommandEntry> commands{};
+};
+
+//! Reads the parser.
+CommandTable read_table(const CLI::App& app);
+
+}  // namespace flbc::app

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Manual pages and completion: they have all that --help has, man takes the pages without a
+// warning, and a shell completes.
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+using Words = std::set<std::string>;
+
+bool is_there(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+// All of a text that match.
+Words found_in(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  Words words;
+  for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at) {
+    words.insert((*at)[1]);
+  }
+  return words;
+}
+
+class HelpCommands : public CommandLineTest {
+ protected:
+  // By the program's own help.
+  Words commands() const {
+    const auto help = run("--help").output;
+    auto words = found_in(help.substr(help.find("Subcommands:")), R"(\n  ([a-z]+) +[A-Z])");
+    EXPECT_GE(words.size(), 16U) << help;
+    return words;
+  }
+  Words options_of(const std::string& command) const {
+    const auto help = run(command + " --help").output;
+    // Lines of options begin with their names: "  -o,--output FILE"
+    auto words = found_in(help, R"(\n  (?:-[a-zA-Z],)?(--[a-z-]+))");
+    const auto shorts = found_in(help, R"(\n  (-[a-zA-Z]),)");
+    words.insert(shorts.begin(), shorts.end());
+    EXPECT_GE(words.size(), 2U) << help;
+    return words;
+  }
+
+  // What bash offers for the last of these words.
+  Words offered(const std::vector<std::string>& words) const {
+    std::string line;
+    for (const auto& word : words) line += " '" + word + "'";
+    const auto script = path("completion.sh");
+    std::ofstream(script) << "source <(" << FLBC_PROGRAM << " completion bash)\n"
+                          << "COMP_WORDS=(" << line << ")\nCOMP_CWORD=" << words.size() - 1
+                          << "\n_flbc\nprintf '%s\\n' \"${COMPREPLY[@]}\" >" << path("offered");
+    EXPECT_EQ(std::system(("bash -u " + script).c_str()), 0);
+    std::istringstream lines(slurp(path("offered")));
+    Words offers;
+    for (std::string word; std::getline(lines, word);) {
+      if (!word.empty()) offers.insert(word);
+    }
+    return offers;
+  }
+};
+
+TEST_F(HelpCommands, EveryOptionIsOnItsPage) {
+  const auto program = run("man");
+  EXPECT_EQ(program.status, 0);
+  for (const auto& command : commands()) {
+    EXPECT_NE(program.output.find(".TP\n\\fB" + command + "\\fR\n"), std::string::npos) << command;
+    const auto page = run("man " + command);
+    EXPECT_EQ(page.status, 0);
+    for (auto option : options_of(command)) {
+      option = std::regex_replace(option, std::regex("-"), "\\-");
+      EXPECT_NE(page.output.find("\\fB" + option + "\\fR"), std::string::npos)
+          << command << ' ' << option;
+    }
+  }
+  EXPECT_EQ(run("man slove").status, 1);
+}
+
+TEST_F(HelpCommands, PagesAreWithoutWarnings) {
+  ASSERT_EQ(run("man --folder " + path("help")).status, 0);
+  if (!is_there("groff")) GTEST_SKIP() << "groff is not installed";
+  auto names = commands();
+  names.insert("");
+  for (const auto& name : names) {
+    const auto page = path("help/flbc" + (name.empty() ? "" : "-" + name) + ".1");
+    ASSERT_EQ(std::system(("groff -man -ww -Tutf8 " + page + " >" + path("page.txt") + " 2>" +
+                           path("warnings.txt"))
+                              .c_str()),
+              0);
+    EXPECT_EQ(slurp(path("warnings.txt")), "") << page;
+    EXPECT_NE(slurp(path("page.txt")).find("wrong usage"), std::string::npos) << page;
+    if (!is_there("mandoc")) continue;
+    EXPECT_EQ(std::system(("mandoc -Tlint -Werror " + page).c_str()), 0) << page;
+  }
+}
+
+TEST_F(HelpCommands, BashCompletesCommandsOptionsAndValues) {
+  EXPECT_EQ(offered({"flbc", "so"}), Words{"solve"});
+  const auto all = offered({"flbc", ""});
+  for (const auto& command : commands()) {
+    EXPECT_EQ(all.count(command), 1U) << command;
+    EXPECT_EQ(offered({"flbc", command, "-"}), options_of(command)) << command;
+  }
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--check"}),
+            (Words{"--checkpoint", "--checkpoint-every"}));
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--phi", ""}),
+            (Words{"square", "linear", "sqrt", "constant"}));
+  EXPECT_EQ(offered({"flbc", "run", "--pictures", "p"}), (Words{"pdf", "png"}));
+  EXPECT_EQ(offered({"flbc", "completion", ""}), (Words{"bash", "zsh"}));
+  EXPECT_EQ(offered({"flbc", "man", "sol"}), Words{"solve"});
+  // Files are bash's own business.
+  EXPECT_EQ(offered({"flbc", "solve", "c"}), Words{});
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "-o", "w"}), Words{});
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--vertices", ""}), Words{});
+}
+
+TEST_F(HelpCommands, ZshKnowsEveryOption) {
+  const auto script = run("completion zsh");
+  ASSERT_EQ(script.status, 0);
+  for (const auto& command : commands()) {
+    const auto begin = script.output.find("\n      " + command + ")\n");
+    ASSERT_NE(begin, std::string::npos) << command;
+    const auto part = script.output.substr(begin, script.output.find(";;", begin) - begin);
+    for (const auto& option : options_of(command)) {
+      EXPECT_NE(part.find(")" + option + "["), std::string::npos) << command << ' ' << option;
+    }
+  }
+  if (!is_there("zsh")) GTEST_SKIP() << "zsh is not installed: its script is not read by it";
+  EXPECT_EQ(std::system(("zsh -n " + file("_flbc", script.output)).c_str()), 0);
+}
+
+TEST_F(HelpCommands, UnknownShellIsWrongUsage) {
+  const auto refused = run("completion fish");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.errors.find("flbc completion: "), 0U) << refused.errors;
+}
+
+TEST_F(HelpCommands, ParserNamesTheCommandAndVersionTheComponents) {
+  for (const auto& command : commands()) {
+    const auto refused = run(command + " --no-such-option");
+    EXPECT_EQ(refused.status, 1) << command;
+    EXPECT_EQ(refused.errors.find("flbc " + command + ": "), 0U) << refused.errors;
+  }
+  const auto version = run("--version").output;
+  for (const char* component : {"\nwith", "CGAL (", "TetGen ("}) {
+    EXPECT_NE(version.find(component), std::string::npos) << version;
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run that stops at any check and goes on from its state is the run that never stopped, to the
+// bit.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flbc/bounding_box.h"
+#include "flbc/editing.h"
+#include "flbc/errors.h"
+#include "flbc/solver.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class ResumeTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ResumeTest, Dimensions);
+
+struct State {
+  int iteration;
+  std::string bytes;
+};
+
+// Keeps the states that are offered.
+template <int Dim>
+Solution solve_and_keep(const Sample<Dim>& sample, SolverOptions options,
+                        const CoarseMesher<Dim>& mesher, std::vector<State>& states) {
+  options.progress = [&](const Progress& progress) {
+    if (!progress.write_state) return true;
+    std::ostringstream out;
+    progress.write_state(out);
+    states.push_back({progress.iteration, out.str()});
+    return true;
+  };
+  return solve(sample.cage, sample.mesh, options, mesher);
+}
+
+bool same_bits(const WeightMatrix& a, const WeightMatrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && (a.array() == b.array()).all();
+}
+
+void expect_same(const Solution& resumed, const Solution& whole) {
+  EXPECT_TRUE(same_bits(resumed.weights, whole.weights));
+  const auto &a = resumed.report, &b = whole.report;
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.criterion, b.criterion);
+  EXPECT_EQ(a.primal_residual, b.primal_residual);
+  EXPECT_EQ(a.dual_residual, b.dual_residual);
+  EXPECT_EQ(a.penalty, b.penalty);
+  EXPECT_EQ(a.objective, b.objective);
+  EXPECT_EQ(a.certificate.relative_gap, b.certificate.relative_gap);
+  EXPECT_EQ(a.state_scalars_per_cell, b.state_scalars_per_cell);
+  EXPECT_EQ(a.distances.source, b.distances.source);
+  EXPECT_EQ(a.distances.phi_error, b.distances.phi_error);
+  ASSERT_EQ(a.coarse_levels.size(), b.coarse_levels.size());
+  for (std::size_t k = 0; k < a.coarse_levels.size(); ++k) {
+    EXPECT_EQ(a.coarse_levels[k].iterations, b.coarse_levels[k].iterations);
+  }
+}
+
+// Goes on from the first state, the last and some between; and once more from one that such a run
+// has left.
+//! \return the run that never stopped
+template <int Dim>
+SolveReport expect_resumable(const Sample<Dim>& sample, const SolverOptions& options,
+                             const CoarseMesher<Dim>& mesher = {}) {
+  std::vector<State> states;
+  const auto whole = solve_and_keep(sample, options, mesher, states);
+  EXPECT_GE(states.size(), 3U);
+  if (states.size() < 3) return whole.report;
+  for (const std::size_t k :
+       {std::size_t{0}, std::size_t{1}, states.size() / 2, states.size() - 2, states.size() - 1}) {
+    SCOPED_TRACE("from iteration " + std::to_string(states[k].iteration));
+    auto going_on = options;
+    going_on.resume_from = states[k].bytes;
+    std::vector<State> later;
+    expect_same(solve_and_keep(sample, going_on, mesher, later), whole);
+    EXPECT_EQ(later.size(), states.size() - k - 1);
+    if (later.empty()) continue;
+    going_on.resume_from = later.front().bytes;
+    expect_same(solve(sample.cage, sample.mesh, going_on, mesher), whole);
+  }
+  return whole.report;
+}
+
+TYPED_TEST(ResumeTest, EveryMethodGoesOnToTheSameBits) {
+  const auto sample = make_sample<TypeParam::value>(Shape::kCorner, 4, 0.2);
+  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+    for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
+      SCOPED_TRACE(static_cast<int>(method));
+      SolverOptions options;
+      options.method = method;
+      options.precision = precision;
+      options.max_iterations = 700;
+      expect_resumable(sample, options);
+    }
+  }
+}
+
+// States from before, between and after the iterations at which the penalty is balanced.
+TYPED_TEST(ResumeTest, BalancedPenaltyGoesOn) {
+  const auto sample = make_sample<TypeParam::value>(Shape::kStar, 4, 0.2);
+  for (const auto non_negative : {NonNegative::kConstraint, NonNegative::kOff}) {
+    SolverOptions options;
+    options.method = Method::kValue;
+    options.non_negative = non_negative;
+    options.check_interval = 3;
+    options.max_iterations = 45;
+    options.tolerance = 1e-12;
+    expect_resumable(sample, options);
+  }
+}
+
+// On enough cells for half precision, which ends with the tolerance or on the way to it.
+TYPED_TEST(ResumeTest, HalfPrecisionGoesOn) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 72 : 12, 0.2);
+  ASSERT_GE(sample.mesh.num_cells(), 10000);
+  double numbers[2] = {};
+  for (const double tolerance : {1e-5, 1e-8}) {
+    SolverOptions options;
+    options.method = Method::kValue;
+    options.precision = Precision::kHalf;
+    options.tolerance = tolerance;
+    options.gap = 0;
+    options.check_interval = 5;
+    options.max_iterations = 120;
+    numbers[tolerance < 1e-6] = expect_resumable(sample, options).state_scalars_per_cell;
+  }
+  EXPECT_LT(numbers[0], numbers[1]);  // the second run has left half precision
+}
+
+TYPED_TEST(ResumeTest, StartFromCoarserMeshesIsNotRepeated) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 6, 0.2);
+  int meshed = 0;
+  const CoarseMesher<kDim> mesher = [&](const Cage<kDim>& cage, Index) {
+    ++meshed;
+    // Where and as large as the cage given, whose first points are a frame.
+    auto coarse = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+    const double scale =
+        bounding_box_diagonal(cage.points) / bounding_box_diagonal(coarse.cage.points);
+    const Vector<kDim> shift = cage.points.col(0) - scale * coarse.cage.points.col(0);
+    coarse.mesh.points = (scale * coarse.mesh.points).colwise() + shift;
+    return coarse.mesh;
+  };
+  SolverOptions options;
+  options.method = Method::kValue;
+  options.coarse_to_fine = CoarseToFine::kOn;
+  options.coarse_levels.coarsest = 10;
+  options.tolerance = 1e-9;
+  options.gap = 0;
+  std::vector<State> states;
+  const auto whole = solve_and_keep(sample, options, mesher, states);
+  ASSERT_FALSE(whole.report.coarse_levels.empty());
+  ASSERT_FALSE(states.empty());
+  const int before = meshed;
+  options.resume_from = states.front().bytes;
+  expect_same(solve(sample.cage, sample.mesh, options, mesher), whole);
+  EXPECT_EQ(meshed, before);
+  options.resume_from = {};
+  expect_resumable(sample, options, mesher);
+}
+
+TYPED_TEST(ResumeTest, LimitAndThreadsMayChange) {
+  const auto sample = make_sample<TypeParam::value>(Shape::kCorner, 4, 0.2);
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  const auto whole = solve(sample.cage, sample.mesh, options);
+  auto limited = options;
+  limited.max_iterations = 64;
+  std::vector<State> states;
+  ASSERT_EQ(solve_and_keep(sample, limited, {}, states).report.status,
+            SolveStatus::kIterationLimit);
+  options.threads = 3;
+  options.resume_from = states.back().bytes;
+  expect_same(solve(sample.cage, sample.mesh, options), whole);
+}
+
+TYPED_TEST(ResumeTest, StateOfAnotherRunIsRefused) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  SolverOptions options;
+  std::vector<State> states;
+  solve_and_keep(sample, options, {}, states);
+  options.resume_from = states.front().bytes;
+  const auto refuses = [](const Sample<kDim>& other, const SolverOptions& changed) {
+    EXPECT_THROW(solve(other.cage, other.mesh, changed), InputError);
+  };
+  auto changed = options;
+  changed.tolerance = 1e-8;
+  refuses(sample, changed);
+  changed = options;
+  changed.method = Method::kGradient;
+  refuses(sample, changed);
+  changed = options;
+  changed.phi = DistanceScheme::kLinear;
+  refuses(sample, changed);
+  refuses(make_sample<kDim>(Shape::kCorner, 5, 0.2), options);
+  auto moved = sample;
+  moved.mesh.points.col(moved.mesh.num_vertices() - 1) *= 1 + 1e-15;
+  moved.cage.points *= 1 + 1e-15;
+  refuses(moved, options);
+}
+
+TYPED_TEST(ResumeTest, StateThatEndsEarlyIsRefused) {
+  const auto sample = make_sample<TypeParam::value>(Shape::kCorner, 4, 0.2);
+  std::vector<State> states;
+  SolverOptions options;
+  solve_and_keep(sample, options, {}, states);
+  const auto& whole = states.front().bytes;
+  for (std::size_t size = 1; size < whole.size(); size += 1 + whole.size() / 50) {
+    const std::string part = whole.substr(0, size);
+    options.resume_from = part;
+    EXPECT_THROW(solve(sample.cage, sample.mesh, options), InputError) << size;
+  }
+  const std::string longer = whole + "x";
+  options.resume_from = longer;
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options), InputError);
+}
+
+TYPED_TEST(ResumeTest, WhoeverElseSolvesRefusesAndOffersNothing) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  SolverOptions options;
+  int told = 0;
+  options.progress = [&](const Progress& progress) {
+    ++told;
+    EXPECT_FALSE(progress.write_state);
+    return true;
+  };
+  solve(problem, options);
+  LbcSolver<kDim>(sample.cage, sample.mesh, options).solve();
+  EXPECT_GT(told, 0);
+  options.resume_from = "state";
+  EXPECT_THROW(solve(problem, options), OptionError);
+  EXPECT_THROW(LbcSolver<kDim>(sample.cage, sample.mesh, options), OptionError);
+  EXPECT_THROW(EditableCoordinates<kDim>(sample.cage, sample.mesh, options), OptionError);
+}
+
+}  // namespace
+}  // namespace flbc::testing
