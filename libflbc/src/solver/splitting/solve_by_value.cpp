@@ -65,6 +65,8 @@ class ValueSolve {
         report_(report),
         storage_(storage),
         warm_start_(warm_start),
+        read_(options.resume_from),
+        front_(take_front(read_)),
         metric_(
             splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint)),
         run_(problem, metric_.cell.sum(), options, is_adaptive(), is_warm(), report) {
