@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <set>
 
-#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -28,8 +27,6 @@ void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::s
     if (Dim == 3) name_faces(defects, soup);
     throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
   }
-  const auto parts = find_separate_parts(cage);
-  if (!parts.empty()) throw InputError(path + ": " + parts.front().message);
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

@@ -91,8 +91,7 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
   print_fact(out, Dim == 2 ? "edges" : "triangles", std::to_string(cage.facets.cols()));
   print_fact(out, Dim == 2 ? "outer loops" : "outer shells",
              std::to_string(facts.parts) +
-                 (facts.parts > 1 ? ": not connected; give each part a file of its own to solve it"
-                                  : ""));
+                 (facts.parts > 1 ? ", not connected: each part is solved by itself" : ""));
   print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
   print_fact(out, "bounding box",
              "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +

@@ -9,6 +9,7 @@
 
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "flbc/cage_parts.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/names.h"
@@ -70,6 +71,26 @@ bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
          (outer.rowwise().maxCoeff().array() > inner.rowwise().maxCoeff().array()).all();
 }
 
+template <int Dim>
+void refuse_history_of_parts(const Cage<Dim>& cage) {
+  const auto count = cage_parts(cage).size();
+  if (count < 2) return;
+  throw OptionError("--history: the cage has " + std::to_string(count) +
+                    " parts, each with an iteration of its own; give the part of interest a file "
+                    "of its own, or leave --history out");
+}
+
+// What a reader of the report needs to tell one part from another.
+template <int Dim>
+nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
+  auto json = nlohmann::ordered_json::array();
+  const auto parts = cage_parts(cage);
+  for (std::size_t p = 0; p < reports.size(); ++p) {
+    json.push_back(part_json(reports[p], parts[p].control_points.front()));
+  }
+  return json;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -84,6 +105,7 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
                      "; are CAGE and MODEL swapped?");
   }
+  if (settings.history) refuse_history_of_parts(cage);
   if (!settings.cache.empty()) cache_.emplace(settings.cache);
 }
 
@@ -182,6 +204,7 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
                        {"on_cage", beside_json(placement_.on_cage)},
                        {"outside", beside_json(placement_.outside)}};
   }
+  if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);
   return json;
 }

@@ -8,6 +8,7 @@
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
 #include "mesh/hilbert_order.h"
 
 namespace flbc {
@@ -100,6 +101,7 @@ template <int Dim>
 void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points) {
   reorder_in_space(mesh, num_input_points);
   normalize_and_validate(mesh);
+  require_connected(mesh);
 }
 
 template PointList<2> collect_input_points<2>(const Cage<2>&, const MeshingOptions<2>&);

@@ -6,10 +6,12 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/cascade.h"
 #include "solver/multilevel/set_up.h"
+#include "solver/solve_parts.h"
 #include "solver/state_storage.h"
 
 namespace flbc {
@@ -89,6 +91,7 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
   require_valid_set_up(options, bool(mesher));
+  if (count_parts(mesh) > 1) return solve_parts<Dim>(cage, mesh, options, mesher);
   const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
   auto ready = set_up(cage, mesh, resolved, mesher);
