@@ -9,6 +9,8 @@
 
 #include <sstream>
 
+#include <Eigen/LU>
+
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/solver.h"
