@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +18,8 @@
 namespace flbc::app {
 namespace {
 
+constexpr const char* kRepair = "; flbc cage --repair may mend it";
+
 template <int Dim>
 void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
   auto defects = find_defects(cage, 1);
@@ -25,7 +28,7 @@ void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::s
 #endif
   if (!defects.empty()) {
     if (Dim == 3) name_faces(defects, soup);
-    throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
+    throw InputError(path + ": " + defects.front().message + kRepair);
   }
 }
 
@@ -58,7 +61,14 @@ io::AnyCage load_cage(const std::string& path) {
 }
 
 io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path) {
-  auto cage = io::to_cage(soup, path);
+  auto cage = [&] {
+    try {
+      return io::to_cage(soup, path);
+    } catch (const InputError& error) {
+      const bool is_mixed = !soup.polygons.empty() && !soup.polylines.empty();
+      throw InputError(error.what() + std::string(is_mixed ? kRepair : ""));
+    }
+  }();
   std::visit([&](const auto& any) { check_cage(any, soup, path); }, cage);
   return cage;
 }
@@ -92,8 +102,19 @@ PointList<Dim> load_model(const std::string& path) {
 }
 
 void require_writable(const std::string& path, const char* extension) {
+  require_writable(path, std::vector<std::string>{extension});
+}
+
+void require_writable(const std::string& path, const std::vector<std::string>& extensions) {
   if (path.empty()) return;
-  if (io::extension_of(path) != extension) fail_extension(path, std::string(".") + extension);
+  const auto found = std::find(extensions.begin(), extensions.end(), io::extension_of(path));
+  if (found == extensions.end()) {
+    std::string names = '.' + extensions.front();
+    for (std::size_t k = 1; k < extensions.size(); ++k) {
+      names += (k + 1 < extensions.size() ? ", ." : " or .") + extensions[k];
+    }
+    fail_extension(path, names);
+  }
   require_writable_folder(path);
 }
 
