@@ -20,6 +20,12 @@ namespace {
 
 constexpr const char* kRepair = "; flbc cage --repair may mend it";
 
+// Not what is wrong with the cage as a whole, or with its numbers.
+template <int Dim>
+bool is_mendable(const Cage<Dim>& cage, const Defect& defect) {
+  return cage.points.allFinite() && !(defect.vertices.empty() && defect.facets.empty());
+}
+
 template <int Dim>
 void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
   auto defects = find_defects(cage, 1);
@@ -28,7 +34,8 @@ void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::s
 #endif
   if (!defects.empty()) {
     if (Dim == 3) name_faces(defects, soup);
-    throw InputError(path + ": " + defects.front().message + kRepair);
+    const char* const advice = is_mendable(cage, defects.front()) ? kRepair : "";
+    throw InputError(path + ": " + defects.front().message + advice);
   }
 }
 

@@ -124,7 +124,7 @@ DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, Mesher asked_for,
       if (asked_for == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
         throw InputError(error.what() + std::string("; or try --mesher netgen"));
       }
-      if (is_last && failures.empty()) throw;
+      if (is_last && (failures.empty() || failures == error.what())) throw;
       add_sentence(failures, error.what());
       if (is_last) throw InputError(failures);
     } catch (const OptionError&) {

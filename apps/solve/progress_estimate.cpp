@@ -57,11 +57,10 @@ ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
 void ProgressEstimate::update(const Progress& progress, double seconds) {
   stage_.clear();
   const double excess = std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
-  const bool is_new_part = !started_ || progress.share_before != last_.share_before;
-  const bool is_new = is_new_part || progress.finer_levels != last_.finer_levels;
-  if (is_new_part) levels_ = progress.finer_levels + 1;
+  const bool is_new = !started_ || progress.finer_levels != last_.finer_levels;
   if (is_new) first_excess_ = std::max(excess, 1e-9);
   if (!started_) {
+    levels_ = progress.finer_levels + 1;
     first_seconds_ = seconds;
   } else {
     interval_ = std::max(interval_, seconds - last_seconds_);
@@ -73,7 +72,7 @@ void ProgressEstimate::update(const Progress& progress, double seconds) {
   const double begin = share_before(progress.finer_levels, levels_);
   const double end = share_before(progress.finer_levels - 1, levels_);
   const double done = begin + (end - begin) * std::clamp(1 - excess / first_excess_, 0.0, 1.0);
-  done_ = std::max(done_, progress.share_before + progress.share * done);
+  done_ = std::max(done_, done);
 }
 
 void ProgressEstimate::update_stage(const std::string& name, double done, double seconds) {

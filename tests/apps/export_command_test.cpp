@@ -356,7 +356,7 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
   };
   refused(model + weights + output, 1, "--cage is required");
   refused(arguments + output + " -k 5", 1, "4 or 8 influences");
-  refused(arguments + " -o " + path("s.gltf"), 1, "must end in .glb, .usda or .py");
+  refused(arguments + " -o " + path("s.gltf"), 1, "must end in .glb");
   refused(arguments + " -o " + path("absent/s.glb"), 4, "absent");
   refused(path("m.fbx") + weights + cage + output, 1, "must end in .obj");
   refused(path("absent.obj") + weights + cage + output, 4, "absent.obj");

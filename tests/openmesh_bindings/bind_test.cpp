@@ -9,8 +9,6 @@
 
 #include <sstream>
 
-#include <Eigen/LU>
-
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/solver.h"

@@ -64,9 +64,6 @@ struct Progress {
   //! Objective of the present weights, in the units of SolveReport::objective; computed when called,
   //! which takes as long as an iteration or two. Empty for methods without weights at hand.
   std::function<double()> objective{};
-  //! Where the cage has several parts (solve()): the share of all unknowns in those solved before.
-  double share_before = 0;
-  double share = 1;  //!< the share of this part
 };
 
 //! What may take long in a solve besides the iteration.

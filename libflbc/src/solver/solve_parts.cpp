@@ -79,18 +79,19 @@ std::vector<Part<Dim>> take_apart(const Cage<Dim>& cage, const DomainMesh<Dim>& 
   return parts;
 }
 
-// Progress of a part as that of a share of the whole.
-SolverOptions telling_whole(SolverOptions options, double before, double share) {
+// Progress of a part as that of the whole, of which so much was done before.
+SolverOptions telling_whole(SolverOptions options, double before, double share, int parts_to_come) {
   if (options.progress) {
-    options.progress = [tell = options.progress, before, share](Progress progress) {
-      progress.share_before = before;
-      progress.share = share;
+    options.progress = [tell = options.progress, parts_to_come](Progress progress) {
+      progress.finer_levels += parts_to_come;
       return tell(progress);
     };
   }
   if (options.stage_progress) {
-    options.stage_progress = [tell = options.stage_progress, before, share](
-                                 Stage stage, double done) { tell(stage, before + share * done); };
+    options.stage_progress = [tell = options.stage_progress, before, share](Stage stage,
+                                                                            double done) {
+      tell(stage, before + share * done);
+    };
   }
   return options;
 }
@@ -167,7 +168,9 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   std::vector<SolveReport> reports;
   for (const auto& part : parts) {
     const double share = unknowns(part) / all;
-    auto solved = solve(part.cage, part.domain.mesh, telling_whole(options, before, share), mesher);
+    const auto to_come = static_cast<int>(parts.size() - reports.size()) - 1;
+    auto solved = solve(part.cage, part.domain.mesh,
+                        telling_whole(options, before, share, to_come), mesher);
     whole.weights(part.control_points, part.domain.vertices) = solved.weights;
     reports.push_back(std::move(solved.report));
     before += share;
