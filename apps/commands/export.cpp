@@ -54,8 +54,7 @@ void check_arguments(ExportArguments& arguments) {
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
   require_mesh_readable(arguments.model);
   const auto extension = io::extension_of(arguments.output);
-  const bool is_other = extension == "usda" || extension == "py";
-  require_writable(arguments.output, is_other ? extension.c_str() : "glb");
+  require_writable(arguments.output, std::vector<std::string>{"glb", "usda", "py"});
   if (extension == "usda") arguments.options.format = gltf::SkinFormat::kUsda;
   if (extension != "py") return;
   if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {

@@ -157,23 +157,33 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   return finish(run);
 }
 
-// The first file of the command line is the model, round which a cage is made.
-int run_model(RunArguments& arguments) {
+void require_model_to_embed(const SolveSettings& settings) {
+  if (!settings.embed || !settings.model.empty()) return;
+  throw OptionError("--embed requires MODEL");
+}
+
+// The first file of the command line is the model, round which a cage is made. A picture is none
+// that could move: with it the mesh of the interior does.
+int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
     throw OptionError("--auto-cage makes a cage round MODEL; leave CAGE out");
   }
-  settings.model = std::exchange(settings.cage, kCage);
+  const bool is_picture = io::extension_of(settings.cage) == "png";
+  auto& file = is_picture ? arguments.picture : settings.model;
+  file = std::exchange(settings.cage, kCage);
+  if (is_picture) refuse_unread_options(command, settings);
+  require_model_to_embed(settings);
   CagingOptions options;
   options.control_points = arguments.cage_control_points;
   const auto run_in_cage = [&](const auto& model) {
     const auto cage = [&] {
       const ProgressBar bar(arguments.quiet, "making a cage");
-      return make_cage(settings.model, model, options).cage;
+      return make_cage(file, model, options).cage;
     }();
     return run_cage(cage, arguments);
   };
-  return std::visit(run_in_cage, load_model_facets(settings.model));
+  return std::visit(run_in_cage, load_model_facets(file));
 }
 
 // Of --auto-cage: a number, or nothing.
@@ -193,11 +203,9 @@ int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArgume
   check_arguments(arguments);
   read_auto_cage(auto_cage, arguments);
   settle_checkpoint(arguments.settings);
-  if (arguments.makes_cage) return run_model(arguments);
+  if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
-  if (arguments.settings.embed && arguments.settings.model.empty()) {
-    throw OptionError("--embed requires MODEL");
-  }
+  require_model_to_embed(arguments.settings);
   const io::ModelFile file(arguments.settings.cage);
   const auto cage = checked_cage(file.model().soup, arguments.settings.cage);
   return std::visit([&](const auto& any) { return run_cage(any, arguments, &file); }, cage);
@@ -207,7 +215,8 @@ int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArgume
 CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
   command
       .add_option("CAGE", settings.cage,
-                  "closed polylines (2D) or surface (3D); with --auto-cage a model")
+                  "closed polylines (2D) or surface (3D); with --auto-cage a model, or a "
+                  ".png with transparent pixels")
       ->required();
   command.add_option("MODEL", settings.model,
                      "what is inside and moves along: .obj .off .ply .stl .om; without it the "

@@ -41,7 +41,9 @@ template <int Dim>
 void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solver,
                    const Quality& delivered) {
   const auto& report = solver.report();
-  std::cerr << arguments.output << ": " << report.control_points << " control points, "
+  std::cerr << arguments.output << ": ";
+  if (!report.parts.empty()) std::cerr << report.parts.size() << " parts, ";
+  std::cerr << report.control_points << " control points, "
             << report.vertices << " vertices, " << report.cells
             << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report) << ", "
             << report.seconds.solve << (solver.is_cached() ? " s, from the cache" : " s")

@@ -3,12 +3,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <set>
 
-#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -18,6 +18,14 @@
 namespace flbc::app {
 namespace {
 
+constexpr const char* kRepair = "; flbc cage --repair may mend it";
+
+// Not what is wrong with the cage as a whole, or with its numbers.
+template <int Dim>
+bool is_mendable(const Cage<Dim>& cage, const Defect& defect) {
+  return cage.points.allFinite() && !(defect.vertices.empty() && defect.facets.empty());
+}
+
 template <int Dim>
 void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
   auto defects = find_defects(cage, 1);
@@ -26,10 +34,9 @@ void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::s
 #endif
   if (!defects.empty()) {
     if (Dim == 3) name_faces(defects, soup);
-    throw InputError(path + ": " + defects.front().message + "; flbc cage --repair may mend it");
+    const char* const advice = is_mendable(cage, defects.front()) ? kRepair : "";
+    throw InputError(path + ": " + defects.front().message + advice);
   }
-  const auto parts = find_separate_parts(cage);
-  if (!parts.empty()) throw InputError(path + ": " + parts.front().message);
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -52,7 +59,14 @@ io::AnyCage load_cage(const std::string& path) {
 }
 
 io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path) {
-  auto cage = io::to_cage(soup, path);
+  auto cage = [&] {
+    try {
+      return io::to_cage(soup, path);
+    } catch (const InputError& error) {
+      const bool is_mixed = !soup.polygons.empty() && !soup.polylines.empty();
+      throw InputError(error.what() + std::string(is_mixed ? kRepair : ""));
+    }
+  }();
   std::visit([&](const auto& any) { check_cage(any, soup, path); }, cage);
   return cage;
 }
@@ -96,8 +110,19 @@ void require_writable_folder(const std::string& path) {
 }
 
 void require_writable(const std::string& path, const char* extension) {
+  require_writable(path, std::vector<std::string>{extension});
+}
+
+void require_writable(const std::string& path, const std::vector<std::string>& extensions) {
   if (path.empty()) return;
-  if (io::extension_of(path) != extension) fail_extension(path, std::string(".") + extension);
+  const auto found = std::find(extensions.begin(), extensions.end(), io::extension_of(path));
+  if (found == extensions.end()) {
+    std::string names = '.' + extensions.front();
+    for (std::size_t k = 1; k < extensions.size(); ++k) {
+      names += (k + 1 < extensions.size() ? ", ." : " or .") + extensions[k];
+    }
+    fail_extension(path, names);
+  }
   require_writable_folder(path);
 }
 

@@ -41,6 +41,7 @@ PointList<Dim> load_model(const std::string& path);
 //! \throws OptionError before any work is done if the file could not be written in the end: unknown
 //! extension; IoError: missing or unwritable folder. Nothing is checked for an empty path.
 void require_writable(const std::string& path, const char* extension);
+void require_writable(const std::string& path, const std::vector<std::string>& extensions);
 void require_writable(const std::string& path, std::initializer_list<io::Content> contents);
 
 //! \throws IoError before any work is done if the file's folder is missing or must not be written in.

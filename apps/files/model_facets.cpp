@@ -135,9 +135,8 @@ void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
 
 template <int Dim>
 void require_cage_writable(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  const bool is_known = Dim == 3 && (extension == "off" || extension == "ply");
-  require_writable(path, is_known ? extension.c_str() : "obj");
+  using Extensions = std::vector<std::string>;
+  require_writable(path, Dim == 2 ? Extensions{"obj"} : Extensions{"obj", "off", "ply"});
 }
 
 template ModelElements<2> load_model_elements(const std::string&);

@@ -71,6 +71,15 @@ void print_error(std::ostream& out, const std::string& name, const Extreme<Dim>&
   print_line(out, name, number(error.value, 3), yes_no(is_fine), place(error));
 }
 
+// \param part  of the cage's size
+template <int Dim>
+std::string describe_thinness(double part) {
+  constexpr double kTooThin = 1e-8;  // for all meshers in 3D
+  if (Dim == 3 && part <= kTooThin) return ": too thin to be meshed";
+  if (part < kThin) return ": so thin that meshing may take long, or not end in time";
+  return "";
+}
+
 template <int Dim>
 void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
   const auto& cage = report.cage;
@@ -91,8 +100,7 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
   print_fact(out, Dim == 2 ? "edges" : "triangles", std::to_string(cage.facets.cols()));
   print_fact(out, Dim == 2 ? "outer loops" : "outer shells",
              std::to_string(facts.parts) +
-                 (facts.parts > 1 ? ": not connected; give each part a file of its own to solve it"
-                                  : ""));
+                 (facts.parts > 1 ? ", not connected: each part is solved by itself" : ""));
   print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
   print_fact(out, "bounding box",
              "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +
@@ -109,9 +117,7 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
              number(thinnest.distance) + ", between control point " +
                  std::to_string(thinnest.control_point) + " and " +
                  (Dim == 2 ? "edge " : "triangle ") + std::to_string(thinnest.facet) +
-                 (thinnest.distance < kThin * facts.size
-                      ? ": so thin that meshing may take long, or not end in time"
-                      : ""));
+                 describe_thinness<Dim>(thinnest.distance / facts.size));
 }
 
 template <int Dim>

@@ -60,6 +60,13 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"cache", settings.cache}};
 }
 
+void add_certificate(const SolveReport& report, nlohmann::ordered_json& json) {
+  if (!is_certified(report)) return;
+  json["lower_bound"] = report.certificate.lower_bound;
+  json["certified_objective"] = report.certificate.objective;
+  json["relative_gap"] = report.certificate.relative_gap;
+}
+
 }  // namespace
 
 bool is_certified(const SolveReport& report) {
@@ -67,9 +74,24 @@ bool is_certified(const SolveReport& report) {
 }
 
 std::string describe_iterations(const SolveReport& report) {
-  return std::to_string(report.iterations) + (report.criterion == Criterion::kGap
-                                                  ? " iterations, ended by the certified gap"
-                                                  : " iterations");
+  return (report.parts.empty() ? "" : "at most ") + std::to_string(report.iterations) +
+         (report.criterion == Criterion::kGap ? " iterations, ended by the certified gap"
+                                              : " iterations");
+}
+
+nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_point) {
+  nlohmann::ordered_json json{{"first_control_point", first_control_point},
+                              {"control_points", report.control_points},
+                              {"vertices", report.vertices},
+                              {"cells", report.cells},
+                              {"iterations", report.iterations},
+                              {"status", name_of(report.status)},
+                              {"criterion", name_of(report.criterion)},
+                              {"objective", report.objective}};
+  add_certificate(report, json);
+  json["seconds"] = report.seconds.setup + report.seconds.solve + report.seconds.recover +
+                    report.seconds.certify;
+  return json;
 }
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
@@ -90,11 +112,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["primal_residual"] = report.primal_residual;
   json["dual_residual"] = report.dual_residual;
   json["objective"] = report.objective;
-  if (is_certified(report)) {
-    json["lower_bound"] = report.certificate.lower_bound;
-    json["certified_objective"] = report.certificate.objective;
-    json["relative_gap"] = report.certificate.relative_gap;
-  }
+  add_certificate(report, json);
   json["seconds"] = {{"mesh", context.mesh_seconds},
                      {"setup", report.seconds.setup},
                      {"solve", report.seconds.solve},

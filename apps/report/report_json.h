@@ -25,6 +25,10 @@ struct RunContext {
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context);
 
+//! The same, shorter, of a part of a cage that has several.
+//! \param first_control_point  by which the part is known
+nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_point);
+
 //! Whether the report has a certificate: asked for, or what ended the iteration.
 bool is_certified(const SolveReport& report);
 

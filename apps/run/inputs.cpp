@@ -41,6 +41,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   inputs.makes_cage = arguments.makes_cage;
   inputs.picture_format = arguments.pictures;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
+  if (!arguments.picture.empty()) inputs.files.push_back(arguments.picture);
   if (arguments.keyframes.empty()) {
     load_deformed(cage, arguments, inputs);
   } else {

@@ -10,8 +10,10 @@
 
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "flbc/cage_parts.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/mesh_parts.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
@@ -82,6 +84,26 @@ bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
          (outer.rowwise().maxCoeff().array() > inner.rowwise().maxCoeff().array()).all();
 }
 
+template <int Dim>
+void refuse_history_of_parts(const Cage<Dim>& cage) {
+  const auto count = cage_parts(cage).size();
+  if (count < 2) return;
+  throw OptionError("--history: the cage has " + std::to_string(count) +
+                    " parts, each with an iteration of its own; give the part of interest a file "
+                    "of its own, or leave --history out");
+}
+
+// What a reader of the report needs to tell one part from another.
+template <int Dim>
+nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
+  auto json = nlohmann::ordered_json::array();
+  const auto parts = cage_parts(cage);
+  for (std::size_t p = 0; p < reports.size(); ++p) {
+    json.push_back(part_json(reports[p], parts[p].control_points.front()));
+  }
+  return json;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -96,6 +118,7 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
                      "; are CAGE and MODEL swapped?");
   }
+  if (settings.history) refuse_history_of_parts(cage);
   if (!settings.cache.empty()) cache_.emplace(settings.cache);
   require_writable_folder(settings.checkpoint.file);
 }
@@ -162,6 +185,10 @@ void CageSolver<Dim>::make_domain(bool quiet) {
     if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     solved_.mesh_seconds = seconds.count();
+  }
+  if (checkpoint_ && count_parts(solved_.domain) > 1) {
+    throw OptionError("--checkpoint: " + settings_.cage +
+                      " has several parts, a solve of which cannot be gone on from; leave it out");
   }
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
@@ -237,6 +264,7 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
                        {"on_cage", beside_json(placement_.on_cage)},
                        {"outside", beside_json(placement_.outside)}};
   }
+  if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);
   return json;
 }
@@ -256,19 +284,6 @@ std::string describe(const Placement<Dim>& placement, double size) {
                                                          : "are extrapolated");
   }
   return text.str();
-}
-
-bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
-  if (report.status == SolveStatus::kConverged) return true;
-  std::cerr << "flbc: not converged within " << settings.options.max_iterations
-            << " iterations; the result was written nevertheless (see --max-iterations, --tolerance and --gap)";
-  std::error_code ignored;
-  if (std::filesystem::exists(settings.checkpoint.file, ignored)) {
-    std::cerr << "; with a larger --max-iterations the solve goes on from "
-              << settings.checkpoint.file;
-  }
-  std::cerr << '\n';
-  return false;
 }
 
 template class CageSolver<2>;

@@ -6,6 +6,7 @@
 
 #include "files/load.h"
 #include "flbc/errors.h"
+#include "flbc/mesh_in_parts.h"
 #include "flbc/tetrahedralize_by_netgen.h"
 
 namespace flbc::app {
@@ -90,32 +91,41 @@ DomainMesh<Dim> fill_or_exceed(Mesher mesher, const Cage<Dim>& cage, MeshingOpti
 std::string note_on_count(Index asked, Index count) {
   constexpr double kTolerance = 1.1;  // promised by MeshingOptions
   if (asked == 0 || count <= kTolerance * asked) return "";
-  return "cells of good shape take " + std::to_string(count) + " vertices in this cage, more than " +
-         std::to_string(asked) + " (--vertices)";
+  return "cells of good shape take " + std::to_string(count) +
+         " vertices in this cage, more than " + std::to_string(asked) + " (--vertices)";
 }
 
-// The first mesher that can; what those before it said goes into the note.
+// What making the parts of a mesh has left to tell.
+struct Making {
+  Mesher mesher = Mesher::kAuto;  // the last one that had to be tried
+  std::string failures{};         // of those before
+};
+
+void add_sentence(std::string& text, const std::string& sentence) {
+  text += (text.empty() ? "" : "; ") + sentence;
+}
+
+// The first mesher that can; what those before it said is added to the failures.
 template <int Dim>
-MadeDomain<Dim> fill_by_any(const DomainRequest<Dim>& request,
-                            const MeshingOptions<Dim>& options) {
-  const auto meshers = meshers_for<Dim>(request.meshing.mesher);
+DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, Mesher asked_for,
+                            const MeshingOptions<Dim>& options, Making& making) {
+  const auto meshers = meshers_for<Dim>(asked_for);
   std::string failures;
   for (const Mesher mesher : meshers) {
     const bool is_last = mesher == meshers.back();
     try {
-      auto mesh = fill_or_exceed(mesher, request.cage, options);
-      auto note = note_on_count(request.vertices, mesh.num_vertices());
+      auto mesh = fill_or_exceed(mesher, cage, options);
       if (!failures.empty()) {
-        note = failures + "; the mesh was made by " + name_of(mesher) + (note.empty() ? "" : "; ") +
-               note;
+        add_sentence(making.failures, failures + "; the mesh was made by " + name_of(mesher));
       }
-      return {std::move(mesh), mesher, note};
+      if (making.mesher == Mesher::kAuto || !failures.empty()) making.mesher = mesher;
+      return mesh;
     } catch (const InputError& error) {
-      if (request.meshing.mesher == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
+      if (asked_for == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
         throw InputError(error.what() + std::string("; or try --mesher netgen"));
       }
-      if (is_last && failures.empty()) throw;
-      failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+      if (is_last && (failures.empty() || failures == error.what())) throw;
+      add_sentence(failures, error.what());
       if (is_last) throw InputError(failures);
     } catch (const OptionError&) {
       if (failures.empty()) throw;  // else this mesher cannot do what the one before could not
@@ -123,6 +133,19 @@ MadeDomain<Dim> fill_by_any(const DomainRequest<Dim>& request,
     }
   }
   return {};
+}
+
+template <int Dim>
+MadeDomain<Dim> fill_parts(const DomainRequest<Dim>& request, const MeshingOptions<Dim>& options) {
+  Making making;
+  auto mesh = mesh_in_parts<Dim>(
+      request.cage, options, [&](const Cage<Dim>& cage, const MeshingOptions<Dim>& of_part) {
+        return fill_by_any(cage, request.meshing.mesher, of_part, making);
+      });
+  auto note = making.failures;
+  const auto on_count = note_on_count(request.vertices, mesh.num_vertices());
+  if (!on_count.empty()) add_sentence(note, on_count);
+  return {std::move(mesh), making.mesher, std::move(note)};
 }
 
 }  // namespace
@@ -137,7 +160,7 @@ MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request) {
   const auto name = request.embedded_file.empty()
                         ? request.cage_file
                         : request.cage_file + " with " + request.embedded_file;
-  return naming(name, [&] { return fill_by_any(request, options); });
+  return naming(name, [&] { return fill_parts(request, options); });
 }
 
 template <int Dim>

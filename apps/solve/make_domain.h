@@ -20,17 +20,17 @@ template <int Dim>
 struct DomainRequest {
   const Cage<Dim>& cage;
   std::string cage_file;
-  Index vertices = 0;             //!< wanted, 0 = kDefaultVertices; where quality demands more, that
+  Index vertices = 0;  //!< wanted, 0 = kDefaultVertices; where quality demands more, that
   MesherSettings meshing{};
-  std::string embedded_file{};    //!< of the model whose points become vertices; empty for none
-  PointList<Dim> embedded{};      //!< these points
+  std::string embedded_file{};  //!< of the model whose points become vertices; empty for none
+  PointList<Dim> embedded{};    //!< these points
 };
 
 //! A mesh that was made.
 template <int Dim>
 struct MadeDomain {
   DomainMesh<Dim> mesh{};
-  Mesher mesher = Mesher::kAuto;  //!< that made it
+  Mesher mesher = Mesher::kAuto;  //!< that made it, or any part of it where the first one failed
   std::string note{};             //!< for the user: it is not quite as asked for, or made otherwise
 };
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kFirstLine = "flbc weights, format 5\n";
+constexpr std::string_view kFirstLine = "flbc weights, format 6\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -42,10 +42,23 @@ void visit_levels(ByteReader& archive, std::vector<LevelReport>& levels) {
 }
 
 template <class Archive, class Report>
+void visit_report(Archive& archive, Report& report);
+
+void visit_parts(ByteWriter& archive, const std::vector<SolveReport>& parts) {
+  archive(static_cast<std::int64_t>(parts.size()));
+  for (const auto& part : parts) visit_report(archive, part);
+}
+
+void visit_parts(ByteReader& archive, std::vector<SolveReport>& parts) {
+  parts.resize(static_cast<std::size_t>(archive.count(1)));
+  for (auto& part : parts) visit_report(archive, part);
+}
+
+template <class Archive, class Report>
 void visit_report(Archive& archive, Report& report) {
   auto& [method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
          dual_residual, penalty, published_penalty, objective, certificate, state_scalars_per_cell,
-         distances, active_pairs, seconds, quality, coarse_levels] = report;
+         distances, active_pairs, seconds, quality, coarse_levels, parts] = report;
   archive(method, status, criterion, control_points, vertices, cells, iterations, primal_residual,
           dual_residual, penalty, published_penalty, objective, state_scalars_per_cell);
   visit_levels(archive, coarse_levels);
@@ -59,6 +72,7 @@ void visit_report(Archive& archive, Report& report) {
   archive(setup, solve, recover, certify);
   auto& [min_weight, partition_error, reproduction_error, influences] = quality;
   archive(min_weight, partition_error, reproduction_error, influences);
+  visit_parts(archive, parts);
 }
 
 template <class Archive, class Solved>

@@ -107,6 +107,8 @@ TEST_F(CageCommand, RefusesWithReason) {
   expect("cage " + square() + out + " --symmetric z", 1, "symmetric across z");
   expect("cage " + square() + out + " --symmetric w", 1, "--symmetric");
   expect("cage " + square() + " -o " + path("out.ply"), 1, ".obj");
+  expect("cage " + sample("3d/limb_model.obj") + " -o " + path("out.stl"), 1,
+         "must end in .obj, .off or .ply");
   expect("cage " + file("dot.obj", "v 1 1 1\n") + out, 2, "dot.obj: the model's size is 0");
   expect("cage " + path("none.obj") + out, 4, "none.obj");
   EXPECT_EQ(slurp(path("out.obj")), "");
@@ -121,6 +123,19 @@ TEST_F(CageCommand, RepairTellsWhatWasDoneAndNumbersThatChanged) {
   EXPECT_NE(told.errors.find("mended.numbers.txt"), std::string::npos);
   EXPECT_EQ(slurp(path("mended.numbers.txt")), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
   expect("mesh " + path("mended.obj") + " -o " + path("mesh.obj") + " -q", 0, "");
+}
+
+TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
+  const auto mixed = file("mixed.obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nl 1 2\n");
+  const auto solve = [&](const std::string& cage) {
+    return "solve " + cage + " --vertices 100 -o " + path("w.npy");
+  };
+  expect(solve(mixed), 2, "has both polygons and polylines");
+  expect(solve(mixed), 2, "flbc cage --repair");
+  expect("cage --repair " + mixed + " -o " + path("mended.obj"), 0, "1 polylines beside");
+  expect(solve(path("mended.obj")), 0, "");
 }
 
 TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {

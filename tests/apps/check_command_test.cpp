@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc check as its users and their scripts see it.
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,39 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.errors.find("and 5 of the file)"), std::string::npos) << refused.errors;
   }
+}
+
+// A cube with another corner so near the last that no mesher tells them apart: known before.
+TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
+  const auto cage = file("thin.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+                         "v 1 0.999999999 1\nf 1 3 4\nf 1 4 2\nf 5 9 8\nf 5 6 9\nf 5 8 7\n"
+                         "f 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\n"
+                         "f 2 8 9\nf 2 9 6\n");
+  expect_check(cage, 0, ": too thin to be meshed");
+  const auto start = std::chrono::steady_clock::now();
+  const auto refused = run("solve " + cage + " -o " + path("w.npy"));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("control point 8 at (1, 1, 1) is too close to triangle"),
+            std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(refused.errors.find("Netgen"), std::string::npos) << refused.errors;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(taken.count(), 20);  // meshers take minutes
+}
+
+TEST_F(CheckCommand, RepairIsAdvisedWhereItHelps) {
+  const auto solve = [&](const std::string& content) {
+    return run("solve " + file("bad.obj", content) + " -o " + path("w.npy")).errors;
+  };
+  const auto huge = solve("v 0 0\nv 1e31 0\nv 0 1e31\n");
+  EXPECT_NE(huge.find("use another unit of length"), std::string::npos) << huge;
+  EXPECT_EQ(huge.find("--repair"), std::string::npos) << huge;
+  const auto far = solve("v 1e12 1e12\nv 1000000000001 1e12\nv 1e12 1000000000001\n");
+  EXPECT_NE(far.find("move it to the origin"), std::string::npos) << far;
+  EXPECT_EQ(far.find("--repair"), std::string::npos) << far;
+  const auto unwelded = solve("v 0 0\nv 1 0\nv 1 1\nv 1 1\nv 0 1\n");
+  EXPECT_NE(unwelded.find("--repair"), std::string::npos) << unwelded;
 }
 
 TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {

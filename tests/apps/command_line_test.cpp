@@ -340,11 +340,6 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4 5 1\n", "(1, 1)");
   refused("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n", "(0.5, 0.5)");
   refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 7 1\n", "bad.obj:4");
-  // Two squares side by side are no one domain.
-  refused(
-      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\n"
-      "l 1 2 3 4 1\nl 5 6 7 8 5\n",
-      "interior is not connected: it has 2 parts, one with control point 0 at");
   // A tetrahedron without one side.
   refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
   // A cube of quadrangles without lid.

@@ -19,6 +19,7 @@
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
 #include "support/io_files.h"
+#include "support/usda_file.h"
 
 namespace flbc::testing {
 namespace {
@@ -213,54 +214,67 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   EXPECT_EQ(GlbFile(example.skin(options).content).json["meshes"][0]["name"], "caf\xef\xbf\xbd");
 }
 
-// All numbers after the name, to the end of its line.
-std::vector<double> numbers_after(const std::string& text, const std::string& name) {
-  const auto begin = text.find(name);
-  EXPECT_NE(begin, std::string::npos) << name;
-  const auto from = begin + name.size();
-  std::string line = text.substr(from, text.find('\n', from) - from);
-  line = line.substr(0, line.find(']') + 1);
-  for (char& c : line) {
-    if (c == '(' || c == ')' || c == '[' || c == ']' || c == ',') c = ' ';
-  }
-  std::istringstream in(line);
-  std::vector<double> numbers;
-  for (double number; in >> number;) numbers.push_back(number);
-  return numbers;
-}
-
+// Read as the schema UsdSkel says, by a reader that takes no liberties.
 TYPED_TEST(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
   constexpr int Dim = TypeParam::value;
-  const Example<Dim> example;
+  Example<Dim> example;
   const auto& cage = example.sample.cage.points;
-  const auto n = cage.cols();
+  const auto count = static_cast<Eigen::Index>(example.surface.sources.size());
+  example.surface.texture_coordinates = Eigen::MatrixXd::Random(2, count);
+  example.surface.colors = Eigen::MatrixXd::Random(3, count).cwiseAbs();
   const auto pose = independent_poses<Dim>(cage, 1)[0];
   gltf::SkinOptions options;
   options.format = gltf::SkinFormat::kUsda;
-  const auto text = example.skin(options, {{0, 1}, {cage, pose}}).content;
-  EXPECT_EQ(text.substr(0, 9), "#usda 1.0");
-  const auto points = numbers_after(text, "point3f[] points = ");
-  const auto rest = numbers_after(text, "bindTransforms = ");
-  const auto moved = numbers_after(text, " 24: ");
-  const auto joints = numbers_after(text, "skel:jointIndices = ");
-  const auto weights = numbers_after(text, "skel:jointWeights = ");
-  const auto num_points = example.sample.mesh.points.cols();
-  ASSERT_EQ(points.size(), 3 * static_cast<std::size_t>(num_points));
-  ASSERT_EQ(rest.size(), 16 * static_cast<std::size_t>(n));
-  ASSERT_EQ(moved.size(), 3 * static_cast<std::size_t>(n));
-  ASSERT_EQ(joints.size(), weights.size());
-  const auto slots = static_cast<Eigen::Index>(joints.size()) / num_points;
+  const UsdaFile still(example.skin(options).content);
+  const Eigen::MatrixXd rest = in_space<Dim>(example.sample.mesh.points);
+  EXPECT_LT((still.skinned() - rest).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_FALSE(still.has("/model/poses.translations"));
+
+  const UsdaFile file(example.skin(options, {{0, 1}, {cage, pose}}).content);
+  EXPECT_EQ(file.metadata().at("defaultPrim").words[0], "model");
+  EXPECT_EQ(file.type_of("/model"), "SkelRoot");
+  EXPECT_EQ(file.type_of("/model/poses"), "SkelAnimation");
+  EXPECT_EQ(file.metadata().at("endTimeCode").numbers[0], 24);
+  const double begin = 0, end = 24;
+  EXPECT_LT((file.skinned(&begin) - rest).cwiseAbs().maxCoeff(), 1e-5);
   const Eigen::MatrixXd expected = in_space<Dim>(deform<Dim>(example.few(8), pose));
-  for (Eigen::Index v = 0; v < num_points; ++v) {
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    for (Eigen::Index k = slots * v; k < slots * (v + 1); ++k) {
-      const auto joint = static_cast<Eigen::Index>(joints[k]);
-      for (int d = 0; d < 3; ++d) {
-        place[d] +=
-            weights[k] * (points[3 * v + d] + moved[3 * joint + d] - rest[16 * joint + 12 + d]);
-      }
-    }
-    EXPECT_LT((place - expected.col(v)).norm(), 1e-5);
+  EXPECT_GT((expected - rest).norm(), 0.1);
+  EXPECT_LT((file.skinned(&end) - expected).cwiseAbs().maxCoeff(), 1e-5);
+  const auto& joints = file["/model/cage.joints"].value.words;
+  ASSERT_EQ(joints.size(), static_cast<std::size_t>(cage.cols()) + 1);
+  EXPECT_EQ(joints[0], "cage");
+  EXPECT_EQ(joints[1], "cage/control_point_0");
+
+  const std::string surface = "/model/surface.";
+  for (const char* name : {"points", "normals", "primvars:st", "primvars:displayColor"}) {
+    EXPECT_EQ(file[surface + name].value.count, static_cast<std::size_t>(count)) << name;
+  }
+  for (const double corner : file[surface + "faceVertexIndices"].value.numbers) {
+    EXPECT_LT(corner, count);
+  }
+  EXPECT_NEAR(file[surface + "primvars:st"].value.numbers[1],
+              1 - example.surface.texture_coordinates(1, 0), 1e-6);
+}
+
+// The reader of these tests does find fault.
+TEST(UsdaFileTest, RefusesWhatTheFormatDoesNotAllow) {
+  gltf::SkinOptions options;
+  options.format = gltf::SkinFormat::kUsda;
+  const auto text = Example<3>().skin(options).content;
+  ASSERT_NO_THROW(UsdaFile(text).skinned());
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    auto other = text;
+    const auto place = other.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return other.replace(place, from.size(), to);
+  };
+  for (const auto& bad : {replaced("#usda 1.0", "#usda 2.0"), replaced("point3f[]", "point4f[]"),
+                          replaced("point3f[]", "texCoord2f[]"), replaced("[3, 3", "[3 3"),
+                          replaced("elementSize = 8", "elementSize = 7"),
+                          replaced("jointIndices = [", "jointIndices = [0.5, "),
+                          replaced("\"cage\", ", "\"cage\", \"other\", "),
+                          replaced("}\n}\n", "}\n"), replaced("</model/cage>", "/model/cage")}) {
+    EXPECT_ANY_THROW(UsdaFile(bad).skinned());
   }
 }
 

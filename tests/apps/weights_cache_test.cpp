@@ -78,6 +78,7 @@ class WeightsCacheOf : public FolderTest {
     report.seconds = {4, 5, 6, 7};
     report.quality = {-1, 8, 9, 10};
     report.coarse_levels = {{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}};
+    report.parts = {{}, report};
     return solved;
   }
 
@@ -96,6 +97,9 @@ class WeightsCacheOf : public FolderTest {
     EXPECT_EQ(a.quality.min_weight, b.quality.min_weight);
     ASSERT_EQ(a.coarse_levels.size(), b.coarse_levels.size());
     EXPECT_EQ(a.coarse_levels.back().solve_seconds, b.coarse_levels.back().solve_seconds);
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    EXPECT_EQ(a.parts.back().iterations, b.parts.back().iterations);
+    EXPECT_EQ(a.parts.back().certificate.lower_bound, b.parts.back().certificate.lower_bound);
   }
 
   static std::string read(const std::string& file) {

@@ -281,7 +281,8 @@ TYPED_TEST(CheckTest, ExtremaCountFromAMarginOn) {
 TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
   constexpr int kDim = TypeParam::value;
   const Weighted<kDim> sound;
-  const auto& [cage, mesh, name] = sound.sample;
+  const auto& cage = sound.sample.cage;
+  const auto& mesh = sound.sample.mesh;
   const auto message = [](const auto& action) -> std::string {
     try {
       action();

@@ -60,6 +60,16 @@ TYPED_TEST(DomainMeshTest, TurnsCellsRound) {
   EXPECT_GT(signed_measure(mesh, 1), 0);
 }
 
+// The second one moved.
+template <int Dim>
+DomainMesh<Dim> joined(const DomainMesh<Dim>& a, const DomainMesh<Dim>& b, double distance) {
+  DomainMesh<Dim> both{PointList<Dim>(Dim, a.num_vertices() + b.num_vertices()),
+                       CellList<Dim>(Dim + 1, a.num_cells() + b.num_cells())};
+  both.points << a.points, (b.points.array() + distance).matrix();
+  both.cells << a.cells, (b.cells.array() + a.num_vertices()).matrix();
+  return both;
+}
+
 TYPED_TEST(DomainMeshTest, NamesDefects) {
   constexpr int kDim = TypeParam::value;
   const auto sound = make_sample<kDim>(Shape::kBox, 2).mesh;
@@ -93,12 +103,25 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   mesh.points.col(inner).setConstant(3);
   expect_refused(mesh, "overlap");
 
-  mesh = sound;  // a second copy beside the first
-  mesh.points.conservativeResize(kDim, 2 * sound.points.cols());
-  mesh.points.rightCols(sound.points.cols()) = sound.points.array() + 10;
-  mesh.cells.conservativeResize(kDim + 1, 2 * sound.cells.cols());
-  mesh.cells.rightCols(sound.cells.cols()) = sound.cells.array() + sound.num_vertices();
-  expect_refused(mesh, "not connected");
+  mesh = joined(sound, sound, 10);  // beside each other: two parts are no defect
+  EXPECT_NO_THROW(normalize_and_validate(mesh));
+
+  mesh = joined(sound, sound, 1);  // they share a corner, and that alone
+  const auto corner = [&](double x) {
+    Index vertex = 0;
+    (mesh.points.colwise() - Vector<kDim>::Constant(x)).colwise().norm().minCoeff(&vertex);
+    return vertex;
+  };
+  const Index first = corner(1);
+  mesh.points.col(first).setConstant(100);
+  const Index second = corner(1);
+  mesh.points.col(first).setConstant(1);
+  for (Index& v : mesh.cells.reshaped()) v = v == second ? first : v;
+  const Index last = mesh.num_vertices() - 1;
+  mesh.points.col(second) = mesh.points.col(last);
+  for (Index& v : mesh.cells.reshaped()) v = v == last ? second : v;
+  mesh.points.conservativeResize(kDim, last);
+  expect_refused(mesh, "merely touch, at (1, 1");
 }
 
 }  // namespace

@@ -165,11 +165,12 @@ TYPED_TEST(WeightSplittingTest, StaysAtTheOptimumWithItsDuals) {
   for (int iteration = 0; iteration < 6000; ++iteration) splitting.iterate();
   const auto optimum = splitting.weights();
   const auto flux = splitting.flux();
+  using Flux = Eigen::Matrix<double, Eigen::Dynamic, kDim>;
   const auto moved = [&](bool with_duals) {
     WeightSplitting<double, kDim> other(problem, metric, penalty, 1.5);
     other.start_from_duals(
         optimum,
-        [&](Index s) -> Eigen::Matrix<double, Eigen::Dynamic, kDim> {
+        [&](Index s) -> Flux {
           const double measure = simplex_measure<kDim>(cell_corners(problem.mesh, s));
           return (with_duals ? 1 / measure : 0) * flux.cell(s).transpose();
         },

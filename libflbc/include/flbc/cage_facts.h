@@ -25,12 +25,6 @@ struct CageFacts {
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
-//! That the interior of a cage has more than one part, which no mesh of it may have.
-//! \param cage  has passed validate() and does not intersect itself
-//! \return one defect that names a control point of each of the first two parts, or none
-template <int Dim>
-std::vector<Defect> find_separate_parts(const Cage<Dim>& cage);
-
 //! The place where a cage comes nearest to itself: a thin wall, or a facet that is nearly a line.
 //! Meshes of good cells need the more of them the thinner it is.
 struct ThinPlace {

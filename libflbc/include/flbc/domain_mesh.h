@@ -65,7 +65,8 @@ double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 //! \param mesh  any
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
 //! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
-//! cells or to two on the same side of it, or the mesh is not connected through facets.
+//! cells or to two on the same side of it, or parts touch without a common facet. The mesh may
+//! have several parts that do not touch (mesh_parts.h).
 template <int Dim>
 void normalize_and_validate(DomainMesh<Dim>& mesh);
 

@@ -30,8 +30,8 @@ struct LbcProblem {
 //! \param cage  n control points
 //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
 //! \param scheme  growth of phi with the geodesic distance
-//! \throws InputError if mesh and cage do not belong together, naming the element; SolverError if
-//! distances cannot be computed
+//! \throws InputError if mesh and cage do not belong together, naming the element, or the mesh has
+//! several parts; SolverError if distances cannot be computed
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme);
 
@@ -53,7 +53,7 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
 //! \param topology  of the mesh
 //! \param boundary  of the mesh
 //! \param scheme  growth of phi with the geodesic distance
-//! \throws SolverError as above
+//! \throws InputError if the mesh has several parts, SolverError as above
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              BoundaryValues<Dim> boundary, DistanceScheme scheme);

@@ -60,7 +60,9 @@ struct LevelReport {
   double solve_seconds = 0;  //!< the start and the iteration
 };
 
-//! Result of solve() beside the weights.
+//! Result of solve() beside the weights. Where the cage has several parts, numbers of elements,
+//! seconds, objectives and bounds are sums, iterations, residuals and phi_error the largest of a part,
+//! and what cannot be added up is that of the part that took most iterations.
 struct SolveReport {
   Method method = Method::kAuto;                 //!< the method used, never kAuto
   SolveStatus status = SolveStatus::kConverged;  //!< how the run ended
@@ -83,6 +85,7 @@ struct SolveReport {
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start
+  std::vector<SolveReport> parts{};          //!< if the cage has several, by their first control points
 };
 
 }  // namespace flbc

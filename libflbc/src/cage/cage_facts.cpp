@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include "base/messages.h"
 #include "cage/facet_distance.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
@@ -14,25 +12,6 @@
 #include "flbc/bounding_box.h"
 
 namespace flbc {
-
-template <int Dim>
-std::vector<Defect> find_separate_parts(const Cage<Dim>& cage) {
-  const OrientedCage<Dim> oriented = orient(cage);
-  std::vector<Index> first_points;  // of the outer shells
-  std::vector<char> is_seen(oriented.is_hole.size(), 0);
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    const Index shell = oriented.shell_of_facet[f];
-    if (is_seen[shell] || oriented.is_hole[shell]) continue;
-    is_seen[shell] = 1;
-    first_points.push_back(cage.facets(0, f));
-  }
-  if (first_points.size() < 2) return {};
-  return {{"the interior is not connected: it has " + std::to_string(first_points.size()) +
-               " parts, one with " + describe_control_point<Dim>(cage.points, first_points[0]) +
-               ", one with " + describe_control_point<Dim>(cage.points, first_points[1]) +
-               "; give each part a file of its own",
-           {first_points[0], first_points[1]}}};
-}
 
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage) {
@@ -98,7 +77,6 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
 #define FLBC_INSTANTIATE(Dim)                             \
   template CageFacts<Dim> measure_cage(const Cage<Dim>&); \
   template ThinPlace thinnest_place(const Cage<Dim>&);    \
-  template std::vector<Defect> find_separate_parts(const Cage<Dim>&); \
   template std::vector<Index> points_outside(const Cage<Dim>&, const PointList<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

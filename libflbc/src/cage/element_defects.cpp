@@ -64,8 +64,7 @@ void check_extent(const Cage<Dim>& cage, DefectList& found) {
   } else if (cage.points.cwiseAbs().maxCoeff() > kFarthest * size && size > 0) {
     found.add({"the cage lies too far from the origin for its size of " + format_number(size) +
                    ", with " + describe_control_point<Dim>(cage.points, 0) +
-                   ": its coordinates have too few digits; move it to the origin",
-               {0}});
+                   ": its coordinates have too few digits; move it to the origin"});
   }
 }
 

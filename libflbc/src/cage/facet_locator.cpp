@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cage/facet_locator.h"
 
-#include <Eigen/LU>
-
 #include "linear/dense.h"
 
 namespace flbc {
@@ -13,7 +11,7 @@ constexpr double kRounding = 1e-12;  // a coordinate below it is taken for zero
 }  // namespace
 
 template <int Dim>
-FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance, FacetProjection projection)
+FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
     : facets_(cage.facets.cols()), tolerance_(tolerance) {
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     auto& facet = facets_[f];
@@ -22,11 +20,7 @@ FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance, FacetPr
     facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
     Eigen::Matrix<double, Dim, Dim - 1> edges;
     for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
-    if (projection == FacetProjection::kNormalEquations) {
-      facet.to_coordinates = (edges.transpose() * edges).inverse() * edges.transpose();
-    } else {
-      facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
-    }
+    facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
   }
 }
 
@@ -44,11 +38,15 @@ FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
     if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
       continue;
     }
+    // One step of refinement: on needles the pseudo-inverse alone would be too inexact.
+    Vector<Dim> coordinates = Vector<Dim>::Unit(0);
+    for (int step = 0; step < 2; ++step) {
+      coordinates.template tail<Dim - 1>() +=
+          facet.to_coordinates * (point - facet.corners * coordinates);
+      coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
+    }
     // Coordinates outside the facet or due to rounding are cut off, so that a point on an edge or at a
     // corner has exact zeros elsewhere.
-    Vector<Dim> coordinates;
-    coordinates.template tail<Dim - 1>() = facet.to_coordinates * (point - facet.corners.col(0));
-    coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
     coordinates = (coordinates.array() < kRounding).select(0, coordinates);
     coordinates /= coordinates.sum();
     const double distance = (facet.corners * coordinates - point).norm();

@@ -17,20 +17,13 @@ struct FacetPlace {
   double distance = std::numeric_limits<double>::infinity();  //!< of the point from the place
 };
 
-//! How the projection of a point on a facet's plane is computed. The two differ by rounding only.
-enum class FacetProjection {
-  kOrthogonal,      //!< by an orthogonal decomposition: also for facets that are nearly degenerate
-  kNormalEquations  //!< by normal equations
-};
-
 //! Finds points that lie on a cage up to rounding. Takes time proportional to the number of facets,
 //! though only few operations for facets that are not near.
 template <int Dim>
 class FacetLocator {
  public:
   //! \param tolerance  largest distance from the cage, in its units; small against its facets
-  FacetLocator(const Cage<Dim>& cage, double tolerance,
-               FacetProjection projection = FacetProjection::kOrthogonal);
+  FacetLocator(const Cage<Dim>& cage, double tolerance);
 
   //! The nearest place, of equally near ones that on the facet with the least number. \return facet
   //! -1 if the point is farther away than the tolerance

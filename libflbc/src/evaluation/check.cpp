@@ -12,6 +12,7 @@
 #include "evaluation/extremes.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "problem/problem_geometry.h"
 
 namespace flbc {
 namespace {
@@ -190,7 +191,7 @@ template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights) {
   check_size(weights, cage.size(), domain.num_vertices());
-  const auto problem = make_problem(cage, domain, DistanceScheme::kConstant);
+  const auto problem = make_geometry(cage, domain);  // which may have several parts
   auto check = check_at_points(cage, domain.points, weights, to_known_weights(problem.boundary));
   check.mesh = check_on_mesh(problem, domain, weights, check.quality.mean_influences);
   return check;

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "base/messages.h"
+#include "base/union_find.h"
 #include "flbc/errors.h"
 
 namespace flbc {
@@ -144,29 +145,24 @@ void check_unfolded(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topolo
   }
 }
 
+// Cells that meet in a vertex must be connected through facets, near it or elsewhere: otherwise two
+// parts only touch there.
 template <int Dim>
-void check_connected(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
-  std::vector<bool> reached(mesh.num_cells(), false);
-  std::vector<Index> front{0};
-  reached[0] = true;
-  while (!front.empty()) {
-    const Index s = front.back();
-    front.pop_back();
-    for (int k = 0; k <= Dim; ++k) {
-      const Index f = topology.cell_facets(k, s);
-      const Index other = topology.sides(0, f) == s ? topology.sides(1, f) : topology.sides(0, f);
-      if (other >= 0 && !reached[other]) {
-        reached[other] = true;
-        front.push_back(other);
-      }
+void check_no_touching(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
+  UnionFind parts(mesh.num_cells());
+  for (const auto& sides : topology.sides.colwise()) {
+    if (sides[1] >= 0) parts.unite(sides[0], sides[1]);
+  }
+  std::vector<Index> cell_at(mesh.num_vertices(), -1);
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    for (const Index v : mesh.cells.col(s)) {
+      if (cell_at[v] < 0) cell_at[v] = s;
+      if (parts.find(cell_at[v]) == parts.find(s)) continue;
+      throw InputError("the domain is not connected: cells " + std::to_string(cell_at[v]) +
+                       " and " + std::to_string(s) + " belong to parts that merely touch, at " +
+                       format_point(mesh.points.col(v)));
     }
   }
-  const auto missed = std::find(reached.begin(), reached.end(), false);
-  if (missed == reached.end()) return;
-  const Index v = mesh.cells(0, missed - reached.begin());
-  throw InputError("the domain is not connected: " + format_point(mesh.points.col(v)) + " and " +
-                   format_point(mesh.points.col(mesh.cells(0, 0))) +
-                   " lie in different parts; give each part a cage of its own");
 }
 
 }  // namespace
@@ -246,7 +242,7 @@ void normalize_and_validate(DomainMesh<Dim>& mesh) {
   check_all_vertices_used(mesh);
   const auto topology = build_topology(mesh);
   check_unfolded(mesh, topology);
-  check_connected(mesh, topology);
+  check_no_touching(mesh, topology);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                    \

@@ -7,7 +7,9 @@
 #include "cage/close_points.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
 #include "mesh/hilbert_order.h"
 
 namespace flbc {
@@ -51,6 +53,17 @@ void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, doubl
   }
 }
 
+// In 3D no mesher tells points and facets apart that are nearer; they would try for minutes.
+void check_thickness(const Cage<3>& cage) {
+  const auto place = thinnest_place(cage);
+  const double part = place.distance / bounding_box_diagonal<3>(cage.points);
+  if (place.facet < 0 || part > kPointTolerance) return;
+  throw InputError(describe_control_point<3>(cage.points, place.control_point) +
+                   " is too close to triangle " + std::to_string(place.facet) + ": " +
+                   format_number(part) + " of the cage's size; a mesh in 3D takes at least " +
+                   format_number(kPointTolerance) + ", so move them apart or merge them");
+}
+
 template <int Dim>
 void check_distinctness(const Cage<Dim>& cage, const PointList<Dim>& input, double tolerance) {
   for (const auto& [first, second] : find_close_pairs<Dim>(input, tolerance, input.cols())) {
@@ -68,6 +81,7 @@ void check_distinctness(const Cage<Dim>& cage, const PointList<Dim>& input, doub
 template <int Dim>
 PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
   check_options(options);
+  if constexpr (Dim == 3) check_thickness(cage);
   const PointList<Dim>& embedded = options.embedded_points;
   PointList<Dim> input(Dim, cage.size() + embedded.cols());
   input << cage.points, embedded;
@@ -100,6 +114,7 @@ template <int Dim>
 void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points) {
   reorder_in_space(mesh, num_input_points);
   normalize_and_validate(mesh);
+  require_connected(mesh);
 }
 
 template PointList<2> collect_input_points<2>(const Cage<2>&, const MeshingOptions<2>&);

@@ -61,7 +61,7 @@ template <int Dim>
 BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                     const MeshTopology<Dim>& topology) {
   const double tolerance = kDistanceTolerance * bounding_box_diagonal(cage.points);
-  const FacetLocator<Dim> facets(cage, tolerance, FacetProjection::kNormalEquations);
+  const FacetLocator<Dim> facets(cage, tolerance);
   const auto on_boundary = boundary_vertices(topology, mesh.num_vertices());
 
   BoundaryValues<Dim> boundary;

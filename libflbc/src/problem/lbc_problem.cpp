@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 
 namespace flbc {
@@ -19,18 +20,21 @@ LbcProblem<Dim> with_phi(LbcProblem<Dim> problem, DistanceScheme scheme) {
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
+  require_connected(mesh);
   return with_phi(make_geometry(std::move(cage), std::move(mesh)), scheme);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme) {
+  require_connected(mesh);
   return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology)), scheme);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              BoundaryValues<Dim> boundary, DistanceScheme scheme) {
+  require_connected(mesh);
   return with_phi(
       make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary)),
       scheme);

@@ -6,11 +6,13 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/cascade.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/run_state.h"
+#include "solver/solve_parts.h"
 #include "solver/state_storage.h"
 
 namespace flbc {
@@ -116,6 +118,7 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
   require_valid_set_up(options, bool(mesher));
+  if (count_parts(mesh) > 1) return solve_parts<Dim>(cage, mesh, options, mesher);
   const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
   if (!resolved.resume_from.empty()) return go_on(cage, mesh, resolved);

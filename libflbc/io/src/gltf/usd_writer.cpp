@@ -49,16 +49,28 @@ std::string repeated(Eigen::Index count, const char* value) {
   return list(count, [&](Eigen::Index) { return value; });
 }
 
+// Some readers want skeletons of one root, which comes before its children: a joint that rests at
+// the origin and never moves.
+constexpr int kRoots = 1;
+
+Eigen::Matrix3Xf with_root(const Eigen::Matrix3Xf& joints) {
+  Eigen::Matrix3Xf all = Eigen::Matrix3Xf::Zero(3, kRoots + joints.cols());
+  all.rightCols(joints.cols()) = joints;
+  return all;
+}
+
 std::string joint_names(const GlbScene& scene) {
-  return list(scene.joints.cols(), [](Eigen::Index i) {
-    return "\"control_point_" + std::to_string(i) + '"';
+  return list(kRoots + scene.joints.cols(), [](Eigen::Index j) -> std::string {
+    if (j < kRoots) return "\"cage\"";
+    return "\"cage/control_point_" + std::to_string(j - kRoots) + '"';
   });
 }
 
 void write_skeleton(std::ostream& text, const GlbScene& scene) {
-  const auto binds = list(scene.joints.cols(), [&](Eigen::Index i) {
+  const auto joints = with_root(scene.joints);
+  const auto binds = list(joints.cols(), [&](Eigen::Index j) {
     return "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), " +
-           tuple(Eigen::Vector4f(scene.joints.col(i).homogeneous())) + ')';
+           tuple(Eigen::Vector4f(joints.col(j).homogeneous())) + ')';
   });
   text << "    def Skeleton \"cage\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
        << "        uniform token[] joints = " << joint_names(scene) << '\n'
@@ -70,7 +82,7 @@ void write_skeleton(std::ostream& text, const GlbScene& scene) {
 
 void write_animation(std::ostream& text, const GlbScene& scene) {
   if (scene.channels.empty()) return;
-  const auto count = scene.joints.cols();
+  const auto count = kRoots + scene.joints.cols();
   text << "    def SkelAnimation \"poses\"\n    {\n"
        << "        uniform token[] joints = " << joint_names(scene) << '\n'
        << "        quatf[] rotations = " << repeated(count, "(1, 0, 0, 0)") << '\n'
@@ -81,7 +93,7 @@ void write_animation(std::ostream& text, const GlbScene& scene) {
     for (const auto& channel : scene.channels) {
       pose.col(channel.joint) = channel.translations.col(static_cast<Eigen::Index>(k));
     }
-    text << "            " << kFrames * scene.times[k] << ": " << columns(pose) << ",\n";
+    text << "            " << kFrames * scene.times[k] << ": " << columns(with_root(pose)) << ",\n";
   }
   text << "        }\n    }\n";
 }
@@ -90,6 +102,7 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
   const auto slots = scene.weights.joints.rows();
   const Eigen::MatrixXf weights =
       (scene.weights.numbers / unit_of(scene.weights.format)).cast<float>();
+  const Eigen::MatrixXi joints = scene.weights.joints.cast<int>().array() + kRoots;
   const std::string per_vertex =
       " (elementSize = " + std::to_string(slots) + "\n            interpolation = \"vertex\")\n";
   text << "    def Mesh \"surface\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
@@ -110,7 +123,7 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
     text << "        color3f[] primvars:displayColor = " << columns(scene.colors)
          << " (interpolation = \"vertex\")\n";
   }
-  text << "        int[] primvars:skel:jointIndices = " << numbers(scene.weights.joints)
+  text << "        int[] primvars:skel:jointIndices = " << numbers(joints)
        << per_vertex << "        float[] primvars:skel:jointWeights = " << numbers(weights)
        << per_vertex
        << "        matrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), "

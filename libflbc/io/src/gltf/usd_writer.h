@@ -9,9 +9,9 @@
 
 namespace flbc::gltf {
 
-//! The content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton "cage"
-//! whose joints are the control points, and if something moves its animation "poses". Its
-//! influences per vertex are not limited to sets of four.
+//! The content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton "cage" and,
+//! if something moves, its animation "poses". Its joints are a root "cage", which never moves, and
+//! its children, the control points. Influences per vertex are not limited to sets of four.
 std::string encode_usda(const GlbScene& scene);
 
 }  // namespace flbc::gltf

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 
 namespace flbc {
@@ -21,6 +22,7 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
     if (kClearly * mesh.num_vertices() > finest || mesh.num_vertices() < kClearly * below)
       return {};
     normalize_and_validate(mesh);
+    require_connected(mesh);
     return mesh;
   } catch (const std::exception&) {
     return {};

@@ -7,6 +7,7 @@
 
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
+#include "flbc/mesh_parts.h"
 #include "mesh/cell_walk.h"
 #include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
@@ -129,6 +130,7 @@ template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
                   const CoarseMesher<Dim>& mesher) {
   Stopwatch watch;
+  require_connected(mesh);
   SetUp<Dim> result{make_geometry(std::move(cage), std::move(mesh))};
   auto& problem = result.problem;
   if (!minimises(options.method)) {

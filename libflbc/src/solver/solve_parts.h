@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Cages whose interior has several parts.
+#pragma once
+
+#include "flbc/solver.h"
+
+namespace flbc {
+
+//! Calls solve() for every part of the mesh with the control points that are its vertices.
+//! \param options  valid
+//! \throws InputError as solve(), and if the parts of mesh and cage are not the same
+template <int Dim>
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                     const SolverOptions& options, const CoarseMesher<Dim>& mesher);
+
+}  // namespace flbc

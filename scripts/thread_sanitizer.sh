@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Usage: scripts/thread_sanitizer.sh [GOOGLETEST_OPTIONS]
+# Builds the tests of the iterations with ThreadSanitizer (preset `tsan`) and runs them with four
+# threads; options go to them, e.g. scripts/thread_sanitizer.sh --gtest_filter='*Single*'. GCC's
+# OpenMP library tells ThreadSanitizer nothing of its barriers, so that all would be a race; clang's
+# does, through the tool archer.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '2,6s/^# //p' scripts/thread_sanitizer.sh
+  exit
+fi
+archer=$(dirname "$(readlink -f "$(command -v clang++ || echo /)")")/../lib/libarcher.so
+if [ ! -e "$archer" ]; then
+  echo "scripts/thread_sanitizer.sh needs clang++ with its runtime libraries:" \
+    "scripts/install_dependencies.sh clang libclang-rt-14-dev libomp-14-dev" >&2
+  exit 1
+fi
+export OMP_TOOL_LIBRARIES=$archer OMP_NUM_THREADS=4 OMP_WAIT_POLICY=passive
+# What is not instrumented, as CHOLMOD, is not looked at.
+export TSAN_OPTIONS="ignore_noninstrumented_modules=1 ${TSAN_OPTIONS:-}"
+
+# Whether the net holds: a race is seen, and what a barrier separates is none.
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cat >"$folder/net.cpp" <<'END'
+int main(int count, char**) {
+  int numbers[2] = {0, 0};
+#pragma omp parallel
+  {
+#pragma omp for
+    for (int k = 0; k < 2; ++k) numbers[k] = k;
+#pragma omp for
+    for (int k = 0; k < 2; ++k) {
+#pragma omp atomic
+      numbers[0] += numbers[1];
+    }
+    if (count > 1) ++numbers[0];
+  }
+  return 0;
+}
+END
+clang++ -fsanitize=thread -fopenmp -g -O1 "$folder/net.cpp" -o "$folder/net"
+if ! "$folder/net" 2>"$folder/log" || "$folder/net" race 2>"$folder/log"; then
+  cat "$folder/log" >&2
+  echo "scripts/thread_sanitizer.sh: ThreadSanitizer does not understand OpenMP here" >&2
+  exit 1
+fi
+
+cmake --preset tsan >/dev/null
+cmake --build --preset tsan
+status=0
+for name in compact_splitting gradient_admm weight_splitting; do
+  build/tsan/tests/solver/${name}_test "$@" || status=1
+done
+exit $status

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cages of several parts in one file: every command takes them, and each part is as if alone.
+#include <png.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flbc/io/weights_io.h"
+#include "support/code_cages.h"
+#include "support/command_line.h"
+
+namespace flbc::testing {
+namespace {
+
+template <int Dim>
+std::string text_of(const Cage<Dim>& cage) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& point : cage.points.colwise()) {
+    text << "v " << point.transpose() << (Dim == 2 ? " 0\n" : "\n");
+  }
+  for (const auto& facet : cage.facets.colwise()) {
+    text << (Dim == 2 ? "l " : "f ") << (facet.array() + 1).transpose() << '\n';
+  }
+  return text.str();
+}
+
+template <class Dimension>
+class PartsCommand : public CommandLineTest {
+ protected:
+  static constexpr int Dim = Dimension::value;
+  // Of the whole, of the small and of the large part, by area or volume.
+  static constexpr int kVertices = Dim == 2 ? 1000 : 1800;
+  static constexpr int kOfSmall = kVertices / (1 + (1 << Dim));
+
+  Ended expect(const std::string& arguments, int status, const std::string& words = "") const {
+    SCOPED_TRACE(arguments);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    return result;
+  }
+  nlohmann::json report(const std::string& name) const {
+    return nlohmann::json::parse(slurp(path(name)));
+  }
+  static Cage<Dim> small() { return box_cage<Dim>(0.5); }
+  static Cage<Dim> large() {
+    return box_cage<Dim>(Vector<Dim>::Constant(2), Vector<Dim>::Constant(4));
+  }
+  std::string both() const { return file("both.obj", text_of(join(small(), large()))); }
+  std::string domain() const { return path(Dim == 2 ? "domain.obj" : "domain.mesh"); }
+  std::string vertices(int count = kVertices) const {
+    return " --vertices " + std::to_string(count) + ' ';
+  }
+  // Two small boxes, one in each part, moved by so much along the first axis.
+  std::string model(double shift = 0) const {
+    auto low = box_cage<Dim>(0.3), high = large();
+    high.points = (0.5 * high.points.array() + 1.5).matrix();
+    auto boxes = join(low, high);
+    boxes.points.row(0).array() += shift;
+    std::string text = text_of(boxes);
+    if (Dim == 2) text += "f 1 2 4 3\nf 5 6 8 7\n";
+    return file("model.obj", text);
+  }
+};
+
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PartsCommand, Dimensions);
+
+TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
+  constexpr int n = 1 << TypeParam::value;
+  const auto cage = this->both();
+  EXPECT_NE(this->expect("check " + cage, 0).output.find("each part is solved by itself"),
+            std::string::npos);
+  this->expect("solve " + cage + this->vertices() + "--certify --save-domain " + this->domain() +
+                   " -o " + this->path("w.npy") + " --report " + this->path("report.json"),
+               0, "2 parts, " + std::to_string(2 * n) + " control points");
+  this->expect(
+      "check " + cage + " --domain " + this->domain() + " --weights " + this->path("w.npy"), 0);
+  const auto weights = io::read_weights(this->path("w.npy"));
+  const auto report = this->report("report.json");
+  ASSERT_EQ(report["parts"].size(), 2u);
+  Index next = 2 * n;
+  double objective = 0;
+  for (int k = 0; k < 2; ++k) {
+    const auto alone = this->file("alone.obj", text_of(k == 0 ? this->small() : this->large()));
+    const int share = k == 0 ? this->kOfSmall : this->kVertices - this->kOfSmall;
+    this->expect("solve " + alone + this->vertices(share) + "--certify -q -o " +
+                     this->path("alone.npy") + " --report " + this->path("alone.json"),
+                 0);
+    const auto expected = io::read_weights(this->path("alone.npy"));
+    std::vector<Index> vertices;
+    for (Index v = 0; v < expected.cols(); ++v) vertices.push_back(v < n ? k * n + v : next++);
+    const WeightMatrix rows = weights(Eigen::all, vertices);
+    EXPECT_EQ(WeightMatrix(rows.middleRows(k * n, n)), expected);
+    EXPECT_EQ(rows.middleRows((1 - k) * n, n).cwiseAbs().maxCoeff(), 0);
+    const auto alone_report = this->report("alone.json");
+    for (const char* name : {"control_points", "vertices", "iterations", "objective", "lower_bound",
+                             "relative_gap", "criterion"}) {
+      EXPECT_EQ(report["parts"][k][name], alone_report[name]) << name;
+    }
+    objective += alone_report["objective"].template get<double>();
+    EXPECT_EQ(report["parts"][k]["first_control_point"], k * n);
+  }
+  EXPECT_EQ(next, weights.cols());
+  EXPECT_EQ(report["objective"], objective);
+  EXPECT_TRUE(report["converged"]);
+  EXPECT_LE(report["relative_gap"], 1e-3);
+}
+
+TYPED_TEST(PartsCommand, MeshFirstThenSolve) {
+  const auto cage = this->both();
+  this->expect("mesh " + cage + this->vertices() + "-o " + this->domain(), 0);
+  this->expect("solve " + cage + " --domain " + this->domain() + " -q -o " + this->path("a.npy"),
+               0);
+  this->expect("solve " + cage + this->vertices() + "-q -o " + this->path("b.npy"), 0);
+  const auto a = io::read_weights(this->path("a.npy")), b = io::read_weights(this->path("b.npy"));
+  ASSERT_EQ(a.cols(), b.cols());
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6);  // files have 15 to 17 digits
+}
+
+TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
+  const auto cage = this->both(), of = this->model();
+  auto moved = join(this->small(), this->large());
+  moved.points.row(0).rightCols(this->large().size()).array() += 1;
+  const auto pose = this->file("pose.obj", text_of(moved));
+  const auto out = this->path("out");
+  this->expect(
+      "run " + cage + ' ' + of + this->vertices() + "--certify --deformed " + pose + " -o " + out,
+      0, ", 2 parts");
+  const auto report = this->report("out/report.json");
+  EXPECT_TRUE(report["check"]["fine"]);
+  EXPECT_EQ(report["solve"]["parts"].size(), 2u);
+  // The small part stays where it is, the large one moves by 1.
+  const auto weights = out + "/weights.npy";
+  this->expect("deform " + of + " --weights " + weights + " --cage " + pose + " --rest " + cage +
+                   " -o " + this->path("moved.obj"),
+               0);
+  std::istringstream before(slurp(of)), after(slurp(this->path("moved.obj")));
+  int number = 0;
+  for (std::string word; before >> word;) {
+    std::string other;
+    after >> other;
+    if (word != "v") continue;
+    double x = 0, y = 0;
+    before >> x;
+    after >> y;
+    EXPECT_NEAR(y - x, number < this->small().size() ? 0 : 1, 1e-12) << number;
+    ++number;
+  }
+  EXPECT_EQ(number, 2 * this->small().size());
+  for (const std::string& command :
+       {"sparsify " + weights + " --cage " + cage + " --points " + of + " -k 4 -o " +
+            this->path("few.npy"),
+        "export " + of + " --weights " + weights + " --cage " + cage + " -o " +
+            this->path("skin.glb"),
+        "view " + of + " --weights " + weights + " --cage " + cage + " -o " +
+            this->path("page.html"),
+        "draw " + out + (TypeParam::value == 2 ? "/domain.obj" : "/domain.mesh") + " --weights " +
+            out + "/domain_weights.npy --cage " + cage + " --control-point 1 -o " +
+            this->path("picture.png"),
+        "check " + cage + " --model " + of + " --weights " + weights}) {
+    this->expect(command, 0);
+  }
+}
+
+TYPED_TEST(PartsCommand, EmbedsEachVertexInItsPart) {
+  const auto cage = this->both(), of = this->model();
+  this->expect(
+      "solve " + cage + this->vertices() + "--model " + of + " --embed -o " + this->path("w.npy"),
+      0);
+  this->expect("check " + cage + " --model " + of + " --weights " + this->path("w.npy"), 0);
+  const auto weights = io::read_weights(this->path("w.npy"));
+  constexpr int n = 1 << TypeParam::value;
+  EXPECT_EQ(weights.topRightCorner(n, n).cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
+}
+
+// The vertices of the small box leave its part on one side; they follow that part, not the other.
+TYPED_TEST(PartsCommand, OutsideOfAllParts) {
+  const auto cage = this->both(), of = this->model(0.4);
+  constexpr int n = 1 << TypeParam::value;
+  const auto solve = [&](const std::string& policy) {
+    return "solve " + cage + this->vertices() + "--model " + of + " --outside " + policy + " -o " +
+           this->path("w.npy");
+  };
+  this->expect(
+      solve("fail"), 2,
+      std::to_string(n / 2) + " of " + std::to_string(2 * n) + " points lie outside the cage");
+  for (const std::string policy : {"nearest", "extend"}) {
+    this->expect(solve(policy), 0, "vertices outside the cage");
+    const auto weights = io::read_weights(this->path("w.npy"));
+    EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
+    EXPECT_LT((weights.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+  }
+}
+
+TYPED_TEST(PartsCommand, WhatWantsOnePartSaysSo) {
+  const auto cage = this->both();
+  this->expect("solve " + cage + " --history -o " + this->path("w.npy"), 1,
+               "--history: the cage has 2 parts");
+  this->expect("view --serve " + cage, 2, "the domain is not connected: it has 2 parts");
+}
+
+TYPED_TEST(PartsCommand, CacheKeepsTheParts) {
+  const auto cage = this->both();
+  const auto solve = "solve " + cage + this->vertices() + "--cache " + this->path("cache") +
+                     " -o " + this->path("w.npy") + " --report " + this->path("report.json");
+  this->expect(solve, 0);
+  const auto first = this->report("report.json");
+  this->expect(solve, 0, "from the cache");
+  EXPECT_EQ(this->report("report.json")["parts"], first["parts"]);
+}
+
+using PartsOfPicture = CommandLineTest;
+
+// Two discs, one of them a ring with a third disc in it.
+TEST_F(PartsOfPicture, SilhouetteInPiecesRuns) {
+  constexpr int kWidth = 160, kHeight = 90;
+  const auto within = [](int x, int y, int cx, double low, double high) {
+    const double radius = std::hypot(x - cx, y - 45);
+    return radius >= low && radius <= high;
+  };
+  std::vector<png_byte> bytes(4 * kWidth * kHeight, 0);
+  for (int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
+    const int x = pixel % kWidth, y = pixel / kWidth;
+    const bool is_seen =
+        within(x, y, 125, 0, 25) || within(x, y, 45, 28, 40) || within(x, y, 45, 0, 8);
+    bytes[4 * pixel + 3] = is_seen ? 255 : 0;
+  }
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.format = PNG_FORMAT_RGBA;
+  const auto picture = path("rings.png");
+  ASSERT_NE(png_image_write_to_file(&image, picture.c_str(), 0, bytes.data(), 0, nullptr), 0);
+
+  const auto cage = run("cage " + picture + " --offset 2 -o " + path("cage.obj"));
+  ASSERT_EQ(cage.status, 0) << cage.errors;
+  const auto check = nlohmann::json::parse(run("check " + path("cage.obj") + " --json -").output);
+  EXPECT_GE(check["cage"]["parts"], 2);
+  const auto solved = run("solve " + path("cage.obj") + " --vertices 2000 -o " + path("w.npy"));
+  EXPECT_EQ(solved.status, 0) << solved.errors;
+  const auto done = run("run " + picture + " --auto-cage --vertices 2000 -o " + path("out"));
+  EXPECT_EQ(done.status, 0) << done.errors;
+  const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
+  EXPECT_EQ(report["solve"]["parts"].size(), report["check"]["cage"]["parts"]);
+  EXPECT_TRUE(report["check"]["fine"]);
+  EXPECT_EQ(report["inputs"], nlohmann::json::array({picture}));
+  for (const std::string option : {"--embed", "--outside nearest"}) {
+    EXPECT_EQ(run("run " + picture + " --auto-cage " + option + " -o " + path("none")).status, 1);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

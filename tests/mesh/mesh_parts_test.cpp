@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/mesh_parts.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/errors.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class MeshPartsTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(MeshPartsTest, Dimensions);
+
+template <int Dim>
+DomainMesh<Dim> moved(DomainMesh<Dim> mesh, double distance) {
+  mesh.points.array() += distance;
+  return mesh;
+}
+
+// Three meshes whose vertices take turns: v of mesh p is number 3 v + p as long as all have one.
+template <int Dim>
+std::vector<MeshPart<Dim>> three_parts() {
+  std::vector<MeshPart<Dim>> parts{{moved(make_sample<Dim>(Shape::kBox, 3, 0.1).mesh, 0), {}},
+                                   {moved(make_sample<Dim>(Shape::kSimplex, 4).mesh, 10), {}},
+                                   {moved(make_sample<Dim>(Shape::kRing, 1).mesh, 20), {}}};
+  Index next = 0, left = 3;
+  for (Index v = 0; left > 0; ++v) {
+    left = 0;
+    for (auto& [mesh, vertices] : parts) {
+      if (v >= mesh.num_vertices()) continue;
+      vertices.push_back(next++);
+      ++left;
+    }
+  }
+  return parts;
+}
+
+TYPED_TEST(MeshPartsTest, PartsOfTheJoinedAreTheParts) {
+  constexpr int kDim = TypeParam::value;
+  const auto parts = three_parts<kDim>();
+  auto whole = join_parts(parts);
+  EXPECT_EQ(count_parts(whole), 3);
+  ASSERT_NO_THROW(normalize_and_validate(whole));
+  const auto found = mesh_parts(whole);
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_EQ(found[p].vertices, parts[p].vertices);
+    EXPECT_EQ(found[p].mesh.points, parts[p].mesh.points);
+    auto expected = parts[p].mesh;
+    normalize_and_validate(expected);  // the whole's cells were turned
+    EXPECT_EQ(found[p].mesh.cells, expected.cells);
+  }
+}
+
+TYPED_TEST(MeshPartsTest, OnePartIsTheWhole) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    EXPECT_EQ(count_parts(sample.mesh), 1);
+    const auto parts = mesh_parts(sample.mesh);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].mesh.points, sample.mesh.points);
+    EXPECT_EQ(parts[0].mesh.cells, sample.mesh.cells);
+    EXPECT_NO_THROW(require_connected(sample.mesh));
+  }
+}
+
+TYPED_TEST(MeshPartsTest, RefusalNamesAPlaceInEachOfTwoParts) {
+  constexpr int kDim = TypeParam::value;
+  try {
+    require_connected(join_parts(three_parts<kDim>()));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("3 parts, one with (0, 0"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find(", one with (10, 10"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/mesh_in_parts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/cage_facts.h"
+#include "flbc/cage_parts.h"
+#include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
+#include "flbc/meshing.h"
+#include "support/code_cages.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class T>
+class MeshInPartsTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(MeshInPartsTest, Dimensions);
+
+template <int Dim>
+DomainMesh<Dim> fill(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
+  if constexpr (Dim == 2) {
+    return triangulate(cage, options);
+  } else {
+    return tetrahedralize(cage, options);
+  }
+}
+
+template <int Dim>
+Cage<Dim> box_beside(double low, double high) {
+  return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
+}
+
+// A box with a hole in which there is another box; and a large box beside.
+template <int Dim>
+Cage<Dim> three_parts() {
+  return join(join(join(box_cage<Dim>(0.3), box_cage<Dim>(1)), reversed(box_cage<Dim>(0.6))),
+              box_beside<Dim>(3, 6));
+}
+
+template <int Dim>
+double measure_of(const DomainMesh<Dim>& mesh) {
+  double sum = 0;
+  for (Index s = 0; s < mesh.num_cells(); ++s) sum += signed_measure(mesh, s);
+  return sum;
+}
+
+TYPED_TEST(MeshInPartsTest, PartsAreThoseMadeAlone) {
+  constexpr int Dim = TypeParam::value;
+  const auto cage = three_parts<Dim>();
+  MeshingOptions<Dim> options;
+  options.vertices = Dim == 2 ? 2000 : 6000;
+  auto mesh = mesh_in_parts<Dim>(cage, options, fill<Dim>);
+  EXPECT_NO_THROW(normalize_and_validate(mesh));
+  const double measure = measure_cage(cage).measure;
+  EXPECT_NEAR(measure_of(mesh), measure, 1e-10 * measure);
+  EXPECT_EQ(PointList<Dim>(mesh.points.leftCols(cage.size())), cage.points);
+  EXPECT_NEAR(mesh.num_vertices(), options.vertices, 0.15 * options.vertices);
+
+  const auto parts = mesh_parts(mesh);
+  const auto cages = cage_parts(cage);
+  ASSERT_EQ(parts.size(), cages.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double share = measure_of(parts[p].mesh) / measure;
+    MeshingOptions<Dim> alone;
+    alone.vertices = static_cast<Index>(std::lround(share * options.vertices));
+    const auto expected = fill<Dim>(cages[p].cage, alone);
+    EXPECT_EQ(parts[p].mesh.points, expected.points) << p;
+    EXPECT_EQ(parts[p].mesh.cells, expected.cells) << p;
+  }
+}
+
+// They follow all control points in the order given, whichever part they are in.
+TYPED_TEST(MeshInPartsTest, EmbedsEachPointInItsPart) {
+  constexpr int Dim = TypeParam::value;
+  const auto cage = three_parts<Dim>();
+  MeshingOptions<Dim> options;
+  options.embedded_points.resize(Dim, 5);
+  const double places[] = {4.1, 0.11, 0.81, -0.13, 5.3};
+  for (int i = 0; i < 5; ++i) options.embedded_points.col(i).setConstant(places[i]);
+  auto mesh = mesh_in_parts<Dim>(cage, options, fill<Dim>);
+  EXPECT_NO_THROW(normalize_and_validate(mesh));
+  EXPECT_EQ(PointList<Dim>(mesh.points.middleCols(cage.size(), 5)), options.embedded_points);
+
+  options.embedded_points.col(3).setConstant(0.45);  // in the hole
+  try {
+    mesh_in_parts<Dim>(cage, options, fill<Dim>);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 8), "point 3 ") << error.what();
+  }
+}
+
+TYPED_TEST(MeshInPartsTest, NamesThePartThatFails) {
+  constexpr int Dim = TypeParam::value;
+  const auto cage = three_parts<Dim>();
+  const PartMesher<Dim> failing = [](const Cage<Dim>& part, const MeshingOptions<Dim>& options) {
+    if (part.points.minCoeff() > 1) throw InputError("no");
+    return fill<Dim>(part, options);
+  };
+  try {
+    mesh_in_parts<Dim>(cage, {}, failing);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const auto first = std::to_string(3 << Dim);
+    EXPECT_EQ(message.substr(0, message.find(" at (")), "part 3 of 3, with control point " + first);
+    EXPECT_EQ(message.substr(message.size() - 4), ": no");
+  }
+}
+
+TYPED_TEST(MeshInPartsTest, MeshersAloneTakeOnePart) {
+  constexpr int Dim = TypeParam::value;
+  EXPECT_THROW(fill<Dim>(three_parts<Dim>(), {}), InputError);
+}
+
+}  // namespace
+}  // namespace flbc::testing

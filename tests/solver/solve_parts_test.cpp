@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cages of several parts: each part as if it were alone, whatever the numbering.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flbc/check.h"
+#include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
+#include "flbc/solver.h"
+#include "flbc/violations.h"
+#include "support/hollow_sample.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class SolvePartsTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SolvePartsTest, Dimensions);
+
+// The number of element k of the second of two lists that take turns as long as both have any; of
+// the first list with `first`.
+Index in_turn(Index k, Index own_size, Index other_size, bool first) {
+  const Index both = std::min(own_size, other_size);
+  return k < both ? 2 * k + (first ? 0 : 1) : both + k;
+}
+
+std::vector<Index> in_turns(Index own_size, Index other_size, bool first) {
+  std::vector<Index> numbers;
+  for (Index k = 0; k < own_size; ++k) numbers.push_back(in_turn(k, own_size, other_size, first));
+  return numbers;
+}
+
+// Two samples beside each other, or one in the other's hole, as one cage and mesh.
+template <int Dim>
+struct Pair {
+  std::vector<Sample<Dim>> alone;
+  std::vector<std::vector<Index>> control_points{}, vertices{};  // of each in the whole
+  Sample<Dim> whole{};
+
+  Pair(Sample<Dim> a, Sample<Dim> b) : alone{std::move(a), std::move(b)} {
+    std::vector<MeshPart<Dim>> parts;
+    whole.cage.points.resize(Dim, alone[0].cage.size() + alone[1].cage.size());
+    Index num_facets = 0;
+    for (int k = 0; k < 2; ++k) {
+      const auto& [own, other] = std::tie(alone[k], alone[1 - k]);
+      normalize_and_validate(alone[k].mesh);
+      control_points.push_back(in_turns(own.cage.size(), other.cage.size(), k == 0));
+      vertices.push_back(in_turns(own.mesh.num_vertices(), other.mesh.num_vertices(), k == 0));
+      parts.push_back({own.mesh, vertices[k]});
+      whole.cage.points(Eigen::all, control_points[k]) = own.cage.points;
+      num_facets += static_cast<Index>(own.cage.facets.cols());
+    }
+    whole.mesh = join_parts(parts);
+    whole.cage.facets.resize(Dim, num_facets);
+    num_facets = 0;
+    for (int k = 0; k < 2; ++k) {
+      for (const auto& facet : alone[k].cage.facets.colwise()) {
+        for (int c = 0; c < Dim; ++c) {
+          whole.cage.facets(c, num_facets) = control_points[k][facet[c]];
+        }
+        ++num_facets;
+      }
+    }
+  }
+};
+
+template <int Dim>
+Sample<Dim> scaled(Sample<Dim> sample, double factor, double offset) {
+  sample.cage.points = (sample.cage.points.array() * factor + offset).matrix();
+  sample.mesh.points = (sample.mesh.points.array() * factor + offset).matrix();
+  return sample;
+}
+
+template <int Dim>
+std::vector<Pair<Dim>> pairs() {
+  std::vector<Pair<Dim>> result;
+  result.emplace_back(make_sample<Dim>(Shape::kCorner, 4, 0.2),
+                      scaled(make_sample<Dim>(Shape::kStar, 4, 0.2), 3, 20));
+  // A star in a hole, of which nothing touches the other.
+  result.emplace_back(scaled(make_sample<Dim>(Shape::kStar, 3), 0.01, 0.3),
+                      make_sample<Dim>(Shape::kRing, 3, 0.1));
+  auto hollow = make_hollow_sample<Dim>();
+  const Index n = hollow.cage.size() / 2;  // the first half of them bounds the hole from outside
+  const Vector<Dim> middle = hollow.cage.points.rightCols(n).rowwise().mean();
+  auto core = scaled(make_sample<Dim>(Shape::kBox, 3, 0.1), 0.05, 0);
+  const Vector<Dim> shift = middle - Vector<Dim>::Constant(0.025);
+  core.cage.points.colwise() += shift;
+  core.mesh.points.colwise() += shift;
+  result.emplace_back(std::move(hollow), std::move(core));
+  return result;
+}
+
+template <int Dim>
+void expect_as_alone(const Pair<Dim>& pair, const Solution& whole, const SolverOptions& options) {
+  ASSERT_EQ(whole.report.parts.size(), 2u);
+  double objective = 0, bound = 0;
+  int iterations = 0;
+  for (int k = 0; k < 2; ++k) {
+    const auto alone = solve(pair.alone[k].cage, pair.alone[k].mesh, options);
+    const auto& vertices = pair.vertices[k];
+    EXPECT_EQ(WeightMatrix(whole.weights(pair.control_points[k], vertices)), alone.weights);
+    EXPECT_EQ(
+        WeightMatrix(whole.weights(pair.control_points[1 - k], vertices)).cwiseAbs().maxCoeff(),
+        0.0);
+    const auto& part = whole.report.parts[k];
+    EXPECT_EQ(part.iterations, alone.report.iterations);
+    EXPECT_EQ(part.vertices, alone.report.vertices);
+    objective += alone.report.objective;
+    bound += alone.report.certificate.lower_bound;
+    iterations = std::max(iterations, alone.report.iterations);
+  }
+  const auto& report = whole.report;
+  EXPECT_EQ(report.control_points, pair.whole.cage.size());
+  EXPECT_EQ(report.vertices, pair.whole.mesh.num_vertices());
+  EXPECT_EQ(report.cells, pair.whole.mesh.num_cells());
+  EXPECT_EQ(report.iterations, iterations);
+  if (options.method == Method::kHarmonic || options.method == Method::kMeanValue) return;
+  EXPECT_EQ(report.objective, objective);
+  EXPECT_EQ(report.certificate.lower_bound, bound);
+  if (options.certify) {
+    EXPECT_NEAR(report.certificate.relative_gap, 1 - bound / report.certificate.objective, 1e-12);
+  }
+}
+
+TYPED_TEST(SolvePartsTest, EachIsAsAlone) {
+  constexpr int kDim = TypeParam::value;
+  int number = 0;
+  for (const auto& pair : pairs<kDim>()) {
+    SCOPED_TRACE(number++);
+    for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014,
+                              Method::kHarmonic, Method::kMeanValue}) {
+      SCOPED_TRACE(static_cast<int>(method));
+      SolverOptions options;
+      options.method = method;
+      options.max_iterations = 40;
+      options.certify = method == Method::kValue;
+      const auto solution = solve(pair.whole.cage, pair.whole.mesh, options);
+      expect_as_alone(pair, solution, options);
+      const auto check = check_weights(pair.whole.cage, pair.whole.mesh, solution.weights);
+      EXPECT_TRUE(find_violations(check).empty());
+    }
+  }
+}
+
+// The objective of the joined weights, which the library adds up cell by cell, is the sum.
+TYPED_TEST(SolvePartsTest, TotalVariationAddsUp) {
+  constexpr int kDim = TypeParam::value;
+  const auto pair = std::move(pairs<kDim>().front());
+  SolverOptions options;
+  options.phi = DistanceScheme::kConstant;
+  const auto [weights, report] = solve(pair.whole.cage, pair.whole.mesh, options);
+  EXPECT_EQ(report.status, SolveStatus::kConverged);
+  EXPECT_NEAR(total_variation(pair.whole.mesh, weights), report.objective,
+              1e-10 * report.objective);
+}
+
+TYPED_TEST(SolvePartsTest, ProgressIsThatOfTheWhole) {
+  constexpr int kDim = TypeParam::value;
+  const auto pair = std::move(pairs<kDim>().front());
+  SolverOptions options;
+  std::vector<int> to_come;
+  std::vector<double> stages;
+  options.progress = [&](const Progress& progress) {
+    to_come.push_back(progress.finer_levels);
+    return true;
+  };
+  options.stage_progress = [&](Stage, double done) { stages.push_back(done); };
+  options.certify = true;
+  solve(pair.whole.cage, pair.whole.mesh, options);
+  ASSERT_FALSE(to_come.empty());
+  EXPECT_EQ(to_come.front(), 1);
+  EXPECT_EQ(to_come.back(), 0);
+  EXPECT_TRUE(std::is_sorted(to_come.rbegin(), to_come.rend()));
+  ASSERT_FALSE(stages.empty());
+  EXPECT_NEAR(*std::max_element(stages.begin(), stages.end()), 1, 1e-12);
+
+  int calls = 0;
+  options.progress = [&](const Progress&) { return ++calls < 2; };
+  const auto stopped = solve(pair.whole.cage, pair.whole.mesh, options);
+  EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
+  EXPECT_EQ(stopped.report.criterion, Criterion::kNone);
+  EXPECT_TRUE(
+      find_violations(check_weights(pair.whole.cage, pair.whole.mesh, stopped.weights)).empty());
+}
+
+template <int Dim, class Action>
+void expect_refused(const Action& action, const std::string& words) {
+  try {
+    action();
+    ADD_FAILURE() << "not refused: " << words;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TYPED_TEST(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
+  constexpr int kDim = TypeParam::value;
+  const auto pair = std::move(pairs<kDim>().front());
+  const auto& [alone, control_points, vertices, whole] = pair;
+  // A mesh of one part only.
+  expect_refused<kDim>([&] { solve(whole.cage, alone[0].mesh); }, "control point 1");
+  // A cage of one part only.
+  expect_refused<kDim>([&] { solve(alone[0].cage, whole.mesh); }, "vertex");
+  // What iterates on and on holds one part.
+  expect_refused<kDim>([&] { LbcSolver<kDim>(whole.cage, whole.mesh); }, "not connected");
+  expect_refused<kDim>([&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); },
+                       "2 parts");
+}
+
+}  // namespace
+}  // namespace flbc::testing
