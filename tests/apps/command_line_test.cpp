@@ -202,15 +202,11 @@ TEST_F(CommandLine, ALostOutputIsAFailure) {
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
   const auto cage = sample("3d/limb_cage.obj");
-  for (const std::string& arguments :
-       {"solve " + cage + " -o " + path("w.npy"), "run " + cage + " -o " + path("out")}) {
-    const auto command = "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) + " " +
-                         arguments + " --vertices 40000 --mesher tetgen -q >/dev/null 2>" +
-                         path("errors.txt");
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5) << arguments;
-    EXPECT_NE(slurp(path("errors.txt")).find("out of memory"), std::string::npos) << arguments;
-  }
-  EXPECT_FALSE(std::filesystem::exists(path("w.npy")));
+  const auto command = "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
+                       " run " + cage + " -o " + path("out") +
+                       " --vertices 40000 --mesher tetgen -q >/dev/null 2>" + path("errors.txt");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
+  EXPECT_NE(slurp(path("errors.txt")).find("out of memory"), std::string::npos);
   EXPECT_NE(slurp(path("out/report.json")).find("\"failed\": \"out of memory\""),
             std::string::npos);
 }
@@ -226,7 +222,7 @@ TEST_F(CommandLine, StlThatEndsEarlyIsStatus2) {
       {"solid\nendsolid\n", "no triangles"},
       {counted + std::string(4, '\0'), "no triangles"},
       {counted + std::string("\2\0\0\0", 4) + std::string(60, '\0'), "after 1 of 2 triangles"},
-      {"solid\n" + facet.substr(0, 40), "ends within a facet"},
+      {"solid\n" + facet.substr(0, 43), "ends within a facet"},
       {"solid\n" + facet, "\"endsolid\" is missing"}};
   const auto cage = sample("3d/limb_cage.obj");
   for (const auto& [content, reason] : files) {
