@@ -173,6 +173,7 @@ SolveReport join(std::vector<SolveReport> parts) {
 template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                      const SolverOptions& options, const CoarseMesher<Dim>& mesher) {
+  refuse_state(options);
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {
     return static_cast<double>(part.cage.size()) * part.domain.mesh.num_vertices();
