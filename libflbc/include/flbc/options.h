@@ -66,7 +66,7 @@ struct Progress {
   std::function<double()> objective{};
 };
 
-//! What may take long in a solve besides the iteration.
+//! Parts of a solve besides the iteration that may take long.
 enum class Stage {
   kDistances,   //!< those behind phi
   kCertificate  //!< the lower bound at the end
