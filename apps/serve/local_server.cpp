@@ -87,7 +87,7 @@ class Worker {
     task();
   }
 
-  // What is left is done, nothing new accepted.
+  // Requests that wait are answered, new ones are not accepted.
   void close() {
     {
       const std::lock_guard lock(mutex_);

@@ -24,7 +24,7 @@ class LocalServer {
   //! Of the page: http://127.0.0.1:PORT/TOKEN/
   std::string address() const;
 
-  //! What the page is. \param make_page  called for every request, by the thread that serves
+  //! Sets the page. \param make_page  called for every request, by the thread that serves
   void set_page(std::function<std::string()> make_page);
 
   //! An answer in JSON to what the page posts to NAME beside its address. One is made at a time, by

@@ -132,7 +132,7 @@ TEST_F(ExportCommand, QuadranglesWithATexture) {
   EXPECT_EQ(expect_export(arguments + " -q -o " + path("s.glb"), 0, "").errors, "");
 }
 
-// What the smallest picture in the world is like; nobody decodes it here.
+// A picture by its first bytes alone: nobody decodes it here.
 constexpr char kPicture[] = "\x89PNG\r\n\x1a\nand so on";
 
 TEST_F(ExportCommand, MaterialsAndPicturesOfObj) {

@@ -96,7 +96,7 @@ function statusOf(address, headers, method = "GET") {
   });
 }
 
-// What is compressed for a page on the same machine takes longer than all the rest.
+// Compressing for a page on the same machine takes longer than all the rest.
 function encodingOf(address) {
   return new Promise((done, fail) => {
     request(address, { headers: { "Accept-Encoding": "gzip, br" } }, (reply) => {

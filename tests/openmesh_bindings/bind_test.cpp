@@ -3,6 +3,8 @@
 #include "flbc/openmesh/bind.h"
 
 #include <gtest/gtest.h>
+
+#include <Eigen/LU>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

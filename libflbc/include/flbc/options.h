@@ -81,7 +81,7 @@ struct Progress {
   std::function<void(std::ostream&)> write_state{};
 };
 
-//! What may take long in a solve besides the iteration.
+//! Parts of a solve besides the iteration that may take long.
 enum class Stage {
   kDistances,    //!< those behind phi
   kNonNegative,  //!< weights of the last iteration are projected

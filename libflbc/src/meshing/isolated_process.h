@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flbc {
@@ -23,6 +25,28 @@ struct ProcessOutcome {
   ProcessEnd end = ProcessEnd::kFinished;
   int signal = 0;            //!< for kCrashed
   std::vector<char> output;  //!< what came through the sink, perhaps incomplete unless kFinished
+};
+
+//! Takes apart what came through a sink, in the order in which it was written.
+class ByteSource {
+ public:
+  //! \param bytes  outlive this \param refuse  is called where they end early, and must throw
+  ByteSource(const std::vector<char>& bytes, std::function<void()> refuse)
+      : bytes_(bytes), refuse_(std::move(refuse)) {}
+
+  //! Copies the next `count` elements.
+  template <class T>
+  void take(T* target, std::size_t count) {
+    const std::size_t size = sizeof(T) * count;
+    if (bytes_.size() - position_ < size) refuse_();
+    if (size > 0) std::memcpy(target, bytes_.data() + position_, size);
+    position_ += size;
+  }
+
+ private:
+  const std::vector<char>& bytes_;
+  std::function<void()> refuse_;
+  std::size_t position_ = 0;
 };
 
 //! Runs `work` in a forked child that sees the parent's memory as it is now and changes nothing in

@@ -153,14 +153,6 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
   }
 }
 
-template <class T>
-void take(const std::vector<char>& bytes, std::size_t& position, T* target, std::size_t count) {
-  const std::size_t size = sizeof(T) * count;
-  if (bytes.size() - position < size) fail("sent an incomplete result");
-  if (size > 0) std::memcpy(target, bytes.data() + position, size);
-  position += size;
-}
-
 }  // namespace
 
 DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double time_limit) {
@@ -168,21 +160,21 @@ DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double time_lim
       [&](const ByteSink& send) { mesh_and_send(surface, longest, send); }, time_limit);
   refuse_failure(outcome, time_limit);
 
-  std::size_t position = 0;
+  ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
   Header header{};
-  take(outcome.output, position, &header, 1);
+  source.take(&header, 1);
   if (header.end == NetgenEnd::kGaveUp) fail("gave up");
   if (header.end == NetgenEnd::kNoLibrary) {
     std::string complaint(std::size_t(header.num_points), ' ');
-    take(outcome.output, position, complaint.data(), complaint.size());
+    source.take(complaint.data(), complaint.size());
     throw InputError("Netgen's library cannot be loaded (Debian's package libnglib-6.2): " +
                      complaint);
   }
   DomainMesh<3> mesh;
   mesh.points.resize(3, header.num_points);
   mesh.cells.resize(4, header.num_cells);
-  take(outcome.output, position, mesh.points.data(), 3 * std::size_t(header.num_points));
-  take(outcome.output, position, mesh.cells.data(), 4 * std::size_t(header.num_cells));
+  source.take(mesh.points.data(), 3 * std::size_t(header.num_points));
+  source.take(mesh.cells.data(), 4 * std::size_t(header.num_cells));
   return mesh;
 }
 

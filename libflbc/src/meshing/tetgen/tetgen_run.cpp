@@ -114,31 +114,22 @@ ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& s
   return outcome;
 }
 
-// Copies the next `count` elements and advances; the child's output may end early.
-template <class T>
-void take(const std::vector<char>& bytes, std::size_t& position, T* target, std::size_t count) {
-  const std::size_t size = sizeof(T) * count;
-  if (bytes.size() - position < size) fail("sent an incomplete result");
-  if (size > 0) std::memcpy(target, bytes.data() + position, size);
-  position += size;
-}
-
 }  // namespace
 
 TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches, double time_limit) {
   const ProcessOutcome outcome = run_with_fallbacks(input, switches, time_limit);
   refuse_failure(outcome, time_limit);
 
-  std::size_t position = 0;
+  ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
   Header header{};
-  take(outcome.output, position, &header, 1);
+  source.take(&header, 1);
   TetgenOutput result;
   result.mesh.points.resize(3, header.num_points);
   result.mesh.cells.resize(4, header.num_cells);
   result.regions.resize(std::size_t(header.num_cells));
-  take(outcome.output, position, result.mesh.points.data(), 3 * std::size_t(header.num_points));
-  take(outcome.output, position, result.mesh.cells.data(), 4 * std::size_t(header.num_cells));
-  take(outcome.output, position, result.regions.data(), result.regions.size());
+  source.take(result.mesh.points.data(), 3 * std::size_t(header.num_points));
+  source.take(result.mesh.cells.data(), 4 * std::size_t(header.num_cells));
+  source.take(result.regions.data(), result.regions.size());
   return result;
 }
 
