@@ -272,12 +272,15 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
           "--precision single", "--max-iterations 9", "--distances exact",
-          "--coarse-to-fine off", "--linear-solver direct"}) {
+          "--coarse-to-fine off", "--linear-solver direct", "--active off"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_failure(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not read it");
     }
   }
+  expect_failure(solve + "--method gradient --active off", 1,
+                 "--active: the method gradient does not read it");
+  expect_failure(solve + "--active on --checkpoint " + path("state"), 1, "--checkpoint: a run with");
   expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
   expect_failure(solve + "--outside nearest", 1, "--outside: there is no model");
   expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,
