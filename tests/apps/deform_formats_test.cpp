@@ -293,7 +293,8 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
   const auto odd = file("odd.stl",
                         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                         "vertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
-                        "vertex 1e-39 0 0\nvertex 1 0 0\nvertex 0 -1 0\nendloop\nendfacet\n");
+                        "vertex 1e-39 0 0\nvertex 1 0 0\nvertex 0 -1 0\nendloop\nendfacet\n"
+                        "endsolid\n");
   WeightMatrix weights(4, 5);
   weights.setConstant(0.25);
   io::write_weights(path("w.npy"), weights);

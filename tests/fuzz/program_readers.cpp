@@ -10,7 +10,7 @@
 #include "flbc/errors.h"
 #include "fuzz/reader.h"
 #include "report/history.h"
-#include "solve/byte_archive.h"
+#include "flbc/byte_archive.h"
 #include "solve/weights_cache.h"
 
 namespace flbc::fuzz {
@@ -82,7 +82,7 @@ std::string kept_weights() {
 }
 
 std::string with_hash(std::string content) {
-  const auto hash = app::hash_of(content);
+  const auto hash = hash_of(content);
   char bytes[sizeof hash];
   std::memcpy(bytes, &hash, sizeof hash);
   return content.append(bytes, sizeof bytes);

@@ -298,9 +298,13 @@ TEST(Supports, AreForManyControlPointsIn3D) {
   };
   const auto few = make_fine_problem<3>(Shape::kBox);
   ASSERT_LT(few.num_control_points(), 80);
-  const auto many_sample = with_fine_cage<3>(Shape::kBox, 4, 4);
-  const auto many = make_problem(many_sample.cage, many_sample.mesh, DistanceScheme::kSquare);
+  const auto many_on = [](Index subdivisions) {
+    const auto sample = with_fine_cage<3>(Shape::kBox, 8, subdivisions);
+    return make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  };
+  const auto many = many_on(16);
   ASSERT_GE(many.num_control_points(), 80);
+  EXPECT_FALSE(serve(many_on(8), ActivePairs::kAuto, false));
   EXPECT_FALSE(serve(few, ActivePairs::kAuto, false));
   EXPECT_TRUE(serve(many, ActivePairs::kAuto, false));
   EXPECT_FALSE(serve(many, ActivePairs::kAuto, true));

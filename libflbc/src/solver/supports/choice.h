@@ -19,6 +19,9 @@ bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options, bool fr
   const Index n = problem.num_control_points();
   if (options.method != Method::kValue || n > kMostControlPoints) return false;
   if (options.active_pairs != ActivePairs::kAuto) return options.active_pairs == ActivePairs::kOn;
+  // Small meshes are fast as they are.
+  constexpr double kFewestPairs = 4e5;
+  if (static_cast<double>(n) * problem.mesh.num_vertices() < kFewestPairs) return false;
   // Few iterations are left where the weights themselves have to tell, and the wanted error is
   // large.
   constexpr double kMany = 1e-6;
