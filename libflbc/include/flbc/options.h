@@ -54,10 +54,10 @@ enum class Distances {
 //! Whether an iteration works on all pairs of vertices and control points, or on those alone whose
 //! weights may be positive at the optimum: on supports that it finds, extends and checks.
 enum class ActivePairs {
-  kAuto,  //!< supports in 3D from 80 control points on, unless a certificate or a state is asked
-          //!< for
-  kOn,    //!< supports; a certificate is left to some last iterations on all pairs
-  kOff    //!< all pairs
+  kAuto,  //!< supports in 3D from 80 control points and 400,000 pairs on, unless a certificate or a
+          //!< state is asked for
+  kOn,  //!< supports; a certificate is left to some last iterations on all pairs
+  kOff  //!< all pairs
 };
 
 //! How weights are recovered from gradients.
@@ -76,8 +76,8 @@ struct Progress {
   //! Objective of the present weights, in the units of SolveReport::objective; computed when
   //! called, which takes as long as an iteration or two. Empty for methods without weights at hand.
   std::function<double()> objective{};
-  //! Writes the state of the whole run, for SolverOptions::resume_from; to be called by the callback
-  //! or not at all. Empty on coarser meshes, and where solve() was given a problem.
+  //! Writes the state of the whole run, for SolverOptions::resume_from; to be called by the
+  //! callback or not at all. Empty on coarser meshes, and where solve() was given a problem.
   std::function<void(std::ostream&)> write_state{};
 };
 
@@ -181,8 +181,8 @@ struct SolverOptions {
   //! State that Progress::write_state has written in a run of the same cage, mesh and options, but
   //! for threads, max_iterations and callbacks, by the same version of the library. The run goes on
   //! from there and ends with the same bits as if it had never stopped. The bytes must stay until
-  //! solve() returns. Read by solve() of a cage and a mesh, refused by whoever else solves; empty to
-  //! start afresh.
+  //! solve() returns. Read by solve() of a cage and a mesh, refused by whoever else solves; empty
+  //! to start afresh.
   std::string_view resume_from{};
 
   //! Called by the calling thread now and then during such a stage, with the part of it in [0, 1]

@@ -162,11 +162,11 @@ class ValueSolve {
   // \return nothing if it has to go on with all pairs: the start is then where it is
   template <class Stored>
   std::optional<MethodResult> on_supports_of_start() {
+    run_.offer_no_state();
     const double threshold = supports::threshold_for(options_.tolerance);
     auto lists = warm_start_.from ? supports::supports_from(problem_, *warm_start_.from, threshold)
                                   : supports::supports_of(problem_, start_->weights, threshold);
     if (!supports::pay(problem_, options_, lists)) return {};
-    run_.offer_no_state();
     supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
     // Where fewer weights move a smaller penalty serves, and a yet smaller one where they are
     // nearly right already; as measured.
