@@ -18,7 +18,7 @@ if [ ! -e "$archer" ]; then
   exit 1
 fi
 export OMP_TOOL_LIBRARIES=$archer OMP_NUM_THREADS=4 OMP_WAIT_POLICY=passive
-# What is not instrumented, as CHOLMOD, is not looked at.
+# Libraries that are not instrumented, as CHOLMOD, are not looked at.
 export TSAN_OPTIONS="ignore_noninstrumented_modules=1 ${TSAN_OPTIONS:-}"
 
 # Whether the net holds: a race is seen, and what a barrier separates is none.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What the program understands, as a table: manual pages and completion are made of it, so that
+//! The program's commands and options as a table: manual pages and completion are made of it, so that
 //! they cannot differ from it.
 #pragma once
 

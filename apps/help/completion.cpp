@@ -26,7 +26,7 @@ std::string names_of_options(const std::vector<OptionEntry>& options) {
   return joined(names, " ");
 }
 
-// What may follow an option of a command, if the shell knows: "command:--option") values.
+// Values of an option of a command, if the shell knows them: "command:--option") values.
 void add_values(std::ostream& script, const std::string& command, const OptionEntry& option) {
   if (option.value.empty()) return;
   std::vector<std::string> patterns;
@@ -50,7 +50,7 @@ std::string quoted(const std::string& text) {
   return result;
 }
 
-// What zsh is to offer for a value.
+// The action of zsh for a value.
 std::string action_of(const OptionEntry& option) {
   if (!option.choices.empty()) return "(" + joined(option.choices, " ") + ")";
   return option.value == "N" ? " " : "_files";
@@ -69,7 +69,7 @@ void add_option(std::ostream& script, const OptionEntry& option) {
   }
 }
 
-// What zsh is to offer for the arguments of a command.
+// The actions of zsh for the arguments of a command.
 std::string arguments_of(const CommandTable& table, const CommandEntry& command) {
   if (command.name == "completion") return "(bash zsh)";
   return command.name == "man" ? "(" + names_of_commands(table) + ")" : "_files";

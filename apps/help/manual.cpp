@@ -11,7 +11,7 @@
 namespace flbc::app {
 namespace {
 
-// What stands for itself in the language of manual pages.
+// Text with the characters escaped that mean something in the language of manual pages.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char letter : text) {

@@ -31,7 +31,7 @@ class HistoryRecorder {
 
   void note(const Progress& progress);
 
-  //! What was noted so far.
+  //! Entries noted so far.
   const std::vector<HistoryEntry>& entries() const { return entries_; }
 
   //! Goes on with what another recorder had noted of the same solve.

@@ -93,7 +93,7 @@ void refuse_history_of_parts(const Cage<Dim>& cage) {
                     "of its own, or leave --history out");
 }
 
-// What a reader of the report needs to tell one part from another.
+// Where a part is, for readers of the report to tell it from the others.
 template <int Dim>
 nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
   auto json = nlohmann::ordered_json::array();

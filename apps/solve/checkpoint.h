@@ -17,7 +17,7 @@
 
 namespace flbc::app {
 
-//! What a solve had come to.
+//! Mesh, state and history of a solve that was interrupted.
 template <int Dim>
 struct KeptRun {
   SolvedDomain<Dim> solved{};  //!< without weights

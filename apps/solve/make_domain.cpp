@@ -95,7 +95,7 @@ std::string note_on_count(Index asked, Index count) {
          " vertices in this cage, more than " + std::to_string(asked) + " (--vertices)";
 }
 
-// What making the parts of a mesh has left to tell.
+// Notes for the user from meshing the parts.
 struct Making {
   Mesher mesher = Mesher::kAuto;  // the last one that had to be tried
   std::string failures{};         // of those before

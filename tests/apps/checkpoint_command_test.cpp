@@ -26,7 +26,7 @@ class CheckpointCommand : public CommandLineTest {
     return " --checkpoint " + path("state") + " --checkpoint-every 0 ";
   }
 
-  // What a shell calls the exit status of a run that a signal may end.
+  // The exit status, as a shell gives it, of a run that a signal may end.
   int run_until(double seconds, int signal, const std::string& arguments) const {
     std::ostringstream command;
     command << "timeout --preserve-status -s " << signal << " " << seconds << " " << FLBC_PROGRAM

@@ -47,7 +47,7 @@ class HelpCommands : public CommandLineTest {
     return words;
   }
 
-  // What bash offers for the last of these words.
+  // The completions by bash of the last of these words.
   Words offered(const std::vector<std::string>& words) const {
     std::string line;
     for (const auto& word : words) line += " '" + word + "'";

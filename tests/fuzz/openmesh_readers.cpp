@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the bindings to OpenMesh read.
+// Readers of the bindings to OpenMesh.
 #include <cstring>
 #include <sstream>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program alone reads: silhouettes, reports, weights that it kept.
+// Readers of the program alone: silhouettes, reports, weights that it kept.
 #include <png.h>
 
 #include <cstring>

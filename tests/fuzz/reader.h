@@ -11,7 +11,7 @@
 
 namespace flbc::fuzz {
 
-//! What a reader hands back breaks a promise. No flbc::Error, so that it is a finding.
+//! A reader's result breaks a promise. No flbc::Error, so that it is a finding.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -67,7 +67,7 @@ void put_file(const std::string& path, const char* bytes, std::size_t size);
 //! The content of a file.
 std::string get_file(const std::string& path);
 
-//! What `write` puts into a file of this name.
+//! The content of a file of this name that `write` has written.
 template <class Write>
 std::string written(const std::string& name, const Write& write) {
   const Folder folder;

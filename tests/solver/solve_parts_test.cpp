@@ -208,7 +208,7 @@ TYPED_TEST(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
   expect_refused<kDim>([&] { solve(whole.cage, alone[0].mesh); }, "control point 1");
   // A cage of one part only.
   expect_refused<kDim>([&] { solve(alone[0].cage, whole.mesh); }, "vertex");
-  // What iterates on and on holds one part.
+  // Classes that keep a state hold one part.
   expect_refused<kDim>([&] { LbcSolver<kDim>(whole.cage, whole.mesh); }, "not connected");
   expect_refused<kDim>([&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); },
                        "2 parts");

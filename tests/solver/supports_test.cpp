@@ -147,7 +147,7 @@ TYPED_TEST(SupportsTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
   const LinearStep<kDim> step(problem, supports_of_harmonic(problem, 0.02));
   const DenseSpace<kDim> space(
-      problem, supports::reordered(step.matrix, step.order.position, step.order.position),
+      problem, reordered(step.matrix, step.order.position, step.order.position),
       step.lists, step.vertices);
   ASSERT_GT(space.basis.cols(), 20);
   for (const auto* kernel : kernels<kDim>()) {

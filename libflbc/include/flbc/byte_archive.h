@@ -104,7 +104,7 @@ class ByteReader {
       if constexpr (kIsMatrix<Value>) {
         resize(value);
       } else {
-        // What has a size already may be memory of someone else, who wants the numbers there.
+        // An array with a size may be memory of someone else, who wants the numbers there.
         const auto size = static_cast<std::size_t>(count(sizeof *value.data()));
         if (value.size() > 0 && size != value.size()) refuse_size();
         if (value.size() == 0) value = Value(size);

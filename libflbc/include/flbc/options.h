@@ -128,9 +128,9 @@ struct SolverOptions {
   //! How accurate, > 0; 0 = by method.
   //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
   //!   iteration changes them; 1e-7 by default.
-  //! - kGradient: the same, of the optimum without non-negativity, as estimated from weights that
-  //! are
-  //!   recovered every 40 iterations or so; 1e-6 by default.
+  //! - kGradient: the same, of the optimum without non-negativity, as estimated from
+  //!   weights that are recovered every 40 iterations
+  //!   or so; 1e-6 by default.
   //! - kPaper, kLbc2014: as section 5 of the paper says, norms at most N_p tolerance and 10 N_d
   //!   tolerance; by default the paper's 1e-7.
   //! - kHarmonic, kMeanValue do not read it.

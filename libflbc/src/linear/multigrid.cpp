@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/multigrid.h"
 
+#include <numeric>
 #include <utility>
 
 namespace flbc {
@@ -11,51 +12,29 @@ constexpr Index kCoarsest = 2000;
 
 // Columns into the order of the direct solver, which has its own.
 RowMatrix with_columns_at(const RowMatrix& matrix, const std::vector<Index>& position) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(matrix.nonZeros());
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      entries.emplace_back(row, position[it.col()], it.value());
-    }
-  }
-  RowMatrix moved(matrix.rows(), matrix.cols());
-  moved.setFromTriplets(entries.begin(), entries.end());
-  return moved;
+  std::vector<Index> rows(matrix.rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  return reordered(matrix, rows, position);
 }
 
 }  // namespace
 
 template <class Scalar>
-Multigrid<Scalar>::LevelData::LevelData(const RowMatrix& matrix, const RowMatrix& prolongation)
-    : starts{0}, prolongation_starts{0}, coarse_size(static_cast<Index>(prolongation.cols())) {
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      const auto column = static_cast<Index>(it.col());
-      if (column == row) {
-        inverse_diagonal.push_back(static_cast<Scalar>(1 / it.value()));
-        upper.push_back(static_cast<Index>(columns.size()));
-        continue;
-      }
-      columns.push_back(column);
-      values.push_back(static_cast<Scalar>(it.value()));
-    }
-    starts.push_back(static_cast<Index>(columns.size()));
-    for (RowMatrix::InnerIterator it(prolongation, row); it; ++it) {
-      prolongation_columns.push_back(static_cast<Index>(it.col()));
-      prolongation_values.push_back(static_cast<Scalar>(it.value()));
-    }
-    prolongation_starts.push_back(static_cast<Index>(prolongation_columns.size()));
-  }
+Multigrid<Scalar>::LevelData::LevelData(const RowMatrix& fine, const RowMatrix& to_fine)
+    : matrix(fine), prolongation(to_fine), coarse_size(static_cast<Index>(to_fine.cols())) {
 }
 
 template <class Scalar>
 multigrid::Level<Scalar> Multigrid<Scalar>::LevelData::view() const {
-  return {static_cast<Index>(inverse_diagonal.size()),
+  const auto rows = [](const MatrixArrays<Scalar>& arrays) -> multigrid::Rows<Scalar> {
+    return {arrays.starts.data(), arrays.columns.data(), arrays.values.data()};
+  };
+  return {static_cast<Index>(matrix.inverse_diagonal.size()),
           coarse_size,
-          {starts.data(), columns.data(), values.data()},
-          upper.data(),
-          inverse_diagonal.data(),
-          {prolongation_starts.data(), prolongation_columns.data(), prolongation_values.data()}};
+          rows(matrix.off_diagonal),
+          matrix.upper.data(),
+          matrix.inverse_diagonal.data(),
+          rows(prolongation)};
 }
 
 template <class Scalar>

@@ -11,7 +11,7 @@
 
 #include "base/aligned_array.h"
 #include "flbc/types.h"
-#include "linear/aggregation.h"
+#include "linear/matrix_arrays.h"
 #include "linear/multigrid_kernel.h"
 #include "linear/panel_cholesky.h"
 
@@ -40,15 +40,13 @@ class Multigrid {
 
  private:
   struct LevelData {
-    std::vector<Index> starts, columns, upper;
-    std::vector<Scalar> values, inverse_diagonal;
-    std::vector<Index> prolongation_starts, prolongation_columns;
-    std::vector<Scalar> prolongation_values;
+    SweepArrays<Scalar> matrix;
+    MatrixArrays<Scalar> prolongation;
     Index coarse_size;
     AlignedArray<Scalar> right_side;  // none on the finest level
     AlignedArray<Scalar> solution;
 
-    LevelData(const RowMatrix& matrix, const RowMatrix& prolongation);
+    LevelData(const RowMatrix& fine, const RowMatrix& to_fine);
     multigrid::Level<Scalar> view() const;
   };
 

@@ -15,7 +15,7 @@
 
 namespace flbc {
 
-//! What a run has come to besides the iteration.
+//! State of a run besides that of the iteration.
 struct RunRecord {
   Eigen::MatrixXd distances{};  //!< behind phi, n x V; empty for kConstant
   DistanceReport source{};
@@ -30,10 +30,10 @@ SolverOptions offering(SolverOptions options, std::function<void(ByteWriter&)> w
 //! Options by which nothing is offered.
 SolverOptions offering_nothing(SolverOptions options);
 
-//! What coarser meshes add in front, where a state is offered.
+//! Options by which reports of coarser meshes go in front of a state that is offered.
 SolverOptions offering_levels(SolverOptions options, std::vector<LevelReport> levels);
 
-//! What solve() adds in front of that.
+//! Options by which the record of solve() goes in front of that.
 //! \param distances  outlive the run; the seconds go on from now
 template <int Dim>
 SolverOptions offering_record(SolverOptions options, const Cage<Dim>& cage,

@@ -14,7 +14,7 @@
 namespace flbc {
 namespace {
 
-// What belongs to one part of the mesh.
+// One part of the mesh with its cage.
 template <int Dim>
 struct Part {
   MeshPart<Dim> domain;

@@ -78,8 +78,6 @@ template <class Scalar, class Stored, int Dim>
 void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
                   std::size_t stride, const Kernel<Scalar, Stored, Dim>& kernel,
                   CompactData<Scalar, Stored, Dim>& data) {
-  // A cell's phi may be as good as zero, which must not take radii into the denormal range.
-  constexpr double kSmallestPhi = 1e-10;
   const Index n = problem.num_control_points();
   data.radius = AlignedArray<Stored>(data.cells.size() * stride);
 #pragma omp parallel
@@ -88,8 +86,7 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
       const Index s = data.cell_index[k];
-      const double scale =
-          unit * cell_geometry(problem.mesh, s).measure / std::sqrt(metric.cell[s]);
+      const double scale = dual_scale(problem, metric, unit, s);
       const Eigen::VectorXd phi = problem.phi.col(s);
       for (Index i = 0; i < n; ++i) {
         row[i] = static_cast<Scalar>(scale * std::max(phi[i], kSmallestPhi));

@@ -3,10 +3,12 @@
 //! What stays the same during the compact splitting, as the inner loops want it.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
+#include "mesh/cell_geometry.h"
 #include "solver/splitting/compact_kernel.h"
 #include "solver/splitting/splitting_data.h"
 
@@ -28,6 +30,16 @@ struct CompactData {
 //! u, by which radii are of about 8, and of no more than 1000: they keep P within half precision.
 template <int Dim>
 double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric);
+
+//! P of a cell relative to its flux density p / A, u A / sqrt(m); times phi it is the radius.
+template <int Dim>
+double dual_scale(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+                  Index cell) {
+  return unit * cell_geometry(problem.mesh, cell).measure / std::sqrt(metric.cell[cell]);
+}
+
+//! A cell's phi may be as good as zero, which must not take radii into the denormal range.
+constexpr double kSmallestPhi = 1e-10;
 
 //! Rows and cells alone. \param position  the row of every unknown in the linear solver's arrays
 //! \param unit  as below

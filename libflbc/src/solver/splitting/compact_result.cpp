@@ -52,8 +52,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>
   AlignedArray<Scalar> rows(Dim * stride_);
   kernel_.decode(cell_dual_.data() + static_cast<std::size_t>(cell) * Dim * stride_, rows.data(),
                  Dim * stride_);
-  const double scale =
-      std::sqrt(metric_.cell[cell]) / (unit_ * cell_geometry(problem_.mesh, cell).measure);
+  const double scale = 1 / dual_scale(problem_, metric_, unit_, cell);
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density(n_, Dim);
   for (int d = 0; d < Dim; ++d) {
     for (Index i = 0; i < n_; ++i) density(i, d) = scale * rows[d * stride_ + i];

@@ -118,8 +118,7 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const VectorsAt<1>&
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < data_.cells.size(); ++k) {
       const Index s = data_.cell_index[k];
-      const double scale =
-          unit_ * cell_geometry(problem_.mesh, s).measure / std::sqrt(metric_.cell[s]);
+      const double scale = dual_scale(problem_, metric_, unit_, s);
       const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
       for (int d = 0; d < Dim; ++d) {
         for (Index i = 0; i < n_; ++i) {

@@ -94,9 +94,7 @@ class ValueSolve {
   using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
   bool is_warm() const { return front_ ? front_->warm : warm_start_.from != nullptr; }
-  bool is_adaptive() const {
-    return options_.penalty == 0 && !resumes(storage_) && !is_warm();
-  }
+  bool is_adaptive() const { return options_.penalty == 0 && !resumes(storage_) && !is_warm(); }
 
   // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
   double choose_penalty() const {
@@ -107,7 +105,7 @@ class ValueSolve {
     return bounding_box_diagonal(problem_.cage.points) / 40;
   }
 
-  // What the start refers to is not needed any more.
+  // Frees the coarser mesh's state or the other iteration, which the start refers to.
   void forget_start() {
     start_.reset();
     if (warm_start_.started) warm_start_.started();

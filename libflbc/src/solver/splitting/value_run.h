@@ -108,7 +108,7 @@ class ValueRun {
                      padded(static_cast<std::size_t>(problem_.num_control_points())));
   }
 
-  // What the progress callback may ask for.
+  // Options whose progress callback may ask for the objective and the state.
   template <class Splitting>
   SolverOptions told(Splitting& splitting) {
     auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });

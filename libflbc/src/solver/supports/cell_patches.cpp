@@ -64,7 +64,6 @@ template <class Scalar, class Stored, int Dim>
 void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
                   const compact::Kernel<Scalar, Stored, Dim>& kernel,
                   CellPatches<Scalar, Stored, Dim>& result) {
-  constexpr double kSmallestPhi = 1e-10;  // as in compact_data.cpp
   const Patch& last = result.patches.back();
   result.radius =
       AlignedArray<Stored>(last.first_number + (last.end_cell - last.first_cell) * last.stride);
@@ -76,13 +75,14 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
       const Patch& patch = result.patches[p];
       for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
         const Index s = result.cell_index[k];
-        const double scale =
-            unit * cell_geometry(problem.mesh, s).measure / std::sqrt(metric.cell[s]);
+        const double scale = compact::dual_scale(problem, metric, unit, s);
         for (std::size_t j = 0; j < patch.stride; ++j) {
           const Index i = result.items[patch.first_item + j];
           const bool pads = i >= problem.num_control_points();
-          radii[j] = pads ? Scalar(0)
-                          : static_cast<Scalar>(scale * std::max(problem.phi(i, s), kSmallestPhi));
+          radii[j] =
+              pads
+                  ? Scalar(0)
+                  : static_cast<Scalar>(scale * std::max(problem.phi(i, s), compact::kSmallestPhi));
         }
         kernel.encode(
             radii.data(),

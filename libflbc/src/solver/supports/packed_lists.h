@@ -15,7 +15,7 @@ namespace flbc::supports {
 //! Rows that a thread takes at a time.
 constexpr Index kRowBlock = 64;
 
-//! What Lists point to.
+//! The arrays that Lists point to.
 struct PackedLists {
   std::vector<std::size_t> starts{0};
   std::vector<std::int32_t> counts;

@@ -14,22 +14,9 @@ namespace {
 constexpr Index kCoarsest = 16;
 
 template <class Scalar>
-void set_entries(const RowMatrix& matrix, std::vector<Index>& starts, std::vector<Index>& columns,
-                 std::vector<Scalar>& values) {
-  starts.assign(1, 0);
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      columns.push_back(static_cast<Index>(it.col()));
-      values.push_back(static_cast<Scalar>(it.value()));
-    }
-    starts.push_back(static_cast<Index>(columns.size()));
-  }
-}
-
-template <class Scalar>
-Entries<Scalar> all_of(const std::vector<Index>& starts, const std::vector<Index>& columns,
-                       const std::vector<Scalar>& values) {
-  return {starts.data(), starts.data() + 1, columns.data(), values.data()};
+Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
+  return {arrays.starts.data(), arrays.starts.data() + 1, arrays.columns.data(),
+          arrays.values.data()};
 }
 
 }  // namespace
@@ -49,7 +36,8 @@ SupportMultigrid<Scalar, Dim>::SupportMultigrid(RowMatrix matrix, SweepOrder ord
   level.order = std::move(order);
   for (;;) {
     const PackedLists& fine = levels_.empty() ? lists_ : level.own_lists;
-    set_matrix(reordered(matrix, level.order.position, level.order.position), level);
+    level.matrix =
+        SweepArrays<Scalar>(reordered(matrix, level.order.position, level.order.position));
     level.solution = AlignedArray<Scalar>(fine.size());
     LevelData next = coarsen(matrix, fine, level);
     const bool is_last = next.own_lists.size() == 0;
@@ -76,32 +64,12 @@ typename SupportMultigrid<Scalar, Dim>::LevelData SupportMultigrid<Scalar, Dim>:
   const RowMatrix restriction = moved.transpose();
   next.own_lists = coarse_lists(lists, restriction);
   if (next.own_lists.size() == 0) return next;
-  set_entries(moved, level.prolongation_starts, level.prolongation_columns,
-              level.prolongation_values);
-  set_entries(restriction, level.restriction_starts, level.restriction_columns,
-              level.restriction_values);
+  level.prolongation = MatrixArrays<Scalar>(moved);
+  level.restriction = MatrixArrays<Scalar>(restriction);
   next.right_side = AlignedArray<Scalar>(next.own_lists.size());
   level.rest = AlignedArray<Scalar>(lists.size());
   matrix = std::move(coarse);
   return next;
-}
-
-template <class Scalar, int Dim>
-void SupportMultigrid<Scalar, Dim>::set_matrix(const RowMatrix& matrix, LevelData& level) const {
-  level.starts.assign(1, 0);
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      const auto column = static_cast<Index>(it.col());
-      if (column == row) {
-        level.inverse_diagonal.push_back(static_cast<Scalar>(1 / it.value()));
-        level.upper.push_back(static_cast<Index>(level.columns.size()));
-        continue;
-      }
-      level.columns.push_back(column);
-      level.values.push_back(static_cast<Scalar>(it.value()));
-    }
-    level.starts.push_back(static_cast<Index>(level.columns.size()));
-  }
 }
 
 // The control points that are active at every vertex of a coarse unknown's function; none where
@@ -134,10 +102,11 @@ Level<Scalar> SupportMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* r
   LevelData& level = levels_[l];
   Level<Scalar> view;
   view.lists = l == 0 ? lists_.view() : level.own_lists.view();
-  view.lower = {level.starts.data(), level.upper.data(), level.columns.data(), level.values.data()};
-  view.upper = {level.upper.data(), level.starts.data() + 1, level.columns.data(),
-                level.values.data()};
-  view.inverse_diagonal = level.inverse_diagonal.data();
+  const auto& rows = level.matrix.off_diagonal;
+  const Index* upper = level.matrix.upper.data();
+  view.lower = {rows.starts.data(), upper, rows.columns.data(), rows.values.data()};
+  view.upper = {upper, rows.starts.data() + 1, rows.columns.data(), rows.values.data()};
+  view.inverse_diagonal = level.matrix.inverse_diagonal.data();
   view.basis = l == 0 ? basis_.data() : level.own_basis.data();
   view.right_side = l == 0 ? right_side : level.right_side.data();
   view.solution = level.solution.data();
@@ -170,7 +139,7 @@ void SupportMultigrid<Scalar, Dim>::descend(std::size_t l, const Scalar* right_s
     });
   }
   if (l + 1 == levels_.size()) return;
-  const auto num_rows = static_cast<Index>(level.inverse_diagonal.size());
+  const auto num_rows = static_cast<Index>(level.matrix.inverse_diagonal.size());
 #pragma omp for schedule(static)
   for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
     kernel_.multiply(fine.upper, fine.lists, fine.lists, -1, fine.solution, false,
@@ -178,13 +147,12 @@ void SupportMultigrid<Scalar, Dim>::descend(std::size_t l, const Scalar* right_s
                      work);
   }
   LevelData& coarse = levels_[l + 1];
-  const auto num_coarse = static_cast<Index>(coarse.inverse_diagonal.size());
+  const auto num_coarse = static_cast<Index>(coarse.matrix.inverse_diagonal.size());
 #pragma omp for schedule(static)
   for (Index begin = 0; begin < num_coarse; begin += kRowBlock) {
-    kernel_.multiply(
-        all_of(level.restriction_starts, level.restriction_columns, level.restriction_values),
-        coarse.own_lists.view(), fine.lists, 1, level.rest.data(), false, coarse.right_side.data(),
-        begin, std::min(num_coarse, begin + kRowBlock), work_size_, work);
+    kernel_.multiply(all_of(level.restriction), coarse.own_lists.view(), fine.lists, 1,
+                     level.rest.data(), false, coarse.right_side.data(), begin,
+                     std::min(num_coarse, begin + kRowBlock), work_size_, work);
   }
 }
 
@@ -194,13 +162,12 @@ void SupportMultigrid<Scalar, Dim>::ascend(std::size_t l, const Scalar* right_si
   const auto fine = view(l, right_side);
   if (l + 1 < levels_.size()) {
     const LevelData& coarse = levels_[l + 1];
-    const auto num_rows = static_cast<Index>(level.inverse_diagonal.size());
+    const auto num_rows = static_cast<Index>(level.matrix.inverse_diagonal.size());
 #pragma omp for schedule(static)
     for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
-      kernel_.multiply(
-          all_of(level.prolongation_starts, level.prolongation_columns, level.prolongation_values),
-          fine.lists, coarse.own_lists.view(), 1, coarse.solution.data(), true, fine.solution,
-          begin, std::min(num_rows, begin + kRowBlock), work_size_, work);
+      kernel_.multiply(all_of(level.prolongation), fine.lists, coarse.own_lists.view(), 1,
+                       coarse.solution.data(), true, fine.solution, begin,
+                       std::min(num_rows, begin + kRowBlock), work_size_, work);
     }
   }
   for (std::size_t colour = level.order.colour_starts.size() - 1; colour-- > 0;) {
@@ -218,7 +185,7 @@ void SupportMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
     for (std::size_t l = 0; l < levels_.size(); ++l) descend(l, rows, work.data());
     for (std::size_t l = levels_.size(); l-- > 0;) ascend(l, rows, work.data());
   }
-  const auto num_unknowns = levels_.front().inverse_diagonal.size();
+  const auto num_unknowns = levels_.front().matrix.inverse_diagonal.size();
   std::copy_n(levels_.front().solution.data(), lists_.starts[num_unknowns], rows);
 }
 

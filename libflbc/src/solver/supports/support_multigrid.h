@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/aligned_array.h"
-#include "linear/aggregation.h"
+#include "linear/matrix_arrays.h"
 #include "solver/supports/packed_lists.h"
 #include "solver/supports/sweep_order.h"
 
@@ -40,19 +40,14 @@ class SupportMultigrid {
  private:
   struct LevelData {
     SweepOrder order;
-    std::vector<Index> starts, columns, upper;
-    std::vector<Scalar> values, inverse_diagonal;
-    std::vector<Index> prolongation_starts, prolongation_columns;
-    std::vector<Scalar> prolongation_values;
-    std::vector<Index> restriction_starts, restriction_columns;
-    std::vector<Scalar> restriction_values;
+    SweepArrays<Scalar> matrix;
+    MatrixArrays<Scalar> prolongation, restriction;
     PackedLists own_lists;  // of coarse levels
     AlignedArray<Scalar> own_basis;
     AlignedArray<Scalar> right_side, solution, rest;
   };
 
   LevelData coarsen(RowMatrix& matrix, const PackedLists& lists, LevelData& level) const;
-  void set_matrix(const RowMatrix& matrix, LevelData& level) const;
   PackedLists coarse_lists(const PackedLists& fine, const RowMatrix& restriction) const;
   Level<Scalar> view(std::size_t l, const Scalar* right_side);
   template <class Body>

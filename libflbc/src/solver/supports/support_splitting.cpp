@@ -37,7 +37,7 @@ struct PatchRows {
 // Cells of a patch by their place in it.
 const std::int32_t* places_in_patch() {
   static const auto places = [] {
-    std::array<std::int32_t, 1024> numbers;
+    std::array<std::int32_t, kPatchCells> numbers;
     std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
   }();
@@ -50,6 +50,15 @@ template <class Scalar, class Stored, int Dim>
 SupportSplitting<Scalar, Stored, Dim>::SupportSplitting(const LbcProblem<Dim>& problem,
                                                         splitting::Metric metric, double penalty,
                                                         double relaxation, SupportLists supports)
+    : SupportSplitting(problem, metric, penalty, relaxation, std::move(supports),
+                       both_triangles(problem, metric)) {
+}
+
+template <class Scalar, class Stored, int Dim>
+SupportSplitting<Scalar, Stored, Dim>::SupportSplitting(const LbcProblem<Dim>& problem,
+                                                        splitting::Metric metric, double penalty,
+                                                        double relaxation, SupportLists supports,
+                                                        const RowMatrix& system)
     : problem_(problem),
       kernel_(select_kernel<compact::Kernel<Scalar, Stored, Dim>>()),
       list_kernel_(select_kernel<Kernel<Scalar, Dim>>()),
@@ -59,13 +68,12 @@ SupportSplitting<Scalar, Stored, Dim>::SupportSplitting(const LbcProblem<Dim>& p
       penalty_(penalty),
       relaxation_(relaxation),
       supports_(std::move(supports)),
-      order_(sweep_order(both_triangles(problem, metric_))),
+      order_(sweep_order(system)),
       data_(compact::make_rows_and_cells<Scalar, Stored>(problem, metric_, order_.position, unit_)),
       lists_(lists_of_rows()),
       bases_(row_bases<Scalar, Dim>(lists_, problem.cage.points, points_of_rows(), &targets_)),
       patches_(make_patches(problem, metric_, unit_, data_, lists_, kernel_)),
-      multigrid_(both_triangles(problem, metric_), order_, lists_, bases_, problem.cage.points,
-                 list_kernel_),
+      multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
       extrapolated_(lists_.size()),
       relaxed_(num_interior_numbers()),
       vertex_dual_(metric_.vertex.size() > 0 ? num_interior_numbers() : 0),

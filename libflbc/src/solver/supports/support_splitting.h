@@ -69,6 +69,9 @@ class SupportSplitting {
   double state_scalars_per_cell() const;
 
  private:
+  SupportSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
+                   double relaxation, SupportLists supports, const RowMatrix& system);
+
   using State = compact::Arrays<Scalar, Stored, Dim>;
   using RowLoop = typename compact::Kernel<Scalar, Stored, Dim>::RowLoop;
 
@@ -83,6 +86,8 @@ class SupportSplitting {
   void collect_divergence();
   compact::RowSums pass_rows(RowLoop loop);
   compact::Step step(bool measures);
+  template <class NumberAt>
+  Eigen::VectorXd spread(Index vertex, const NumberAt& number_at) const;
   void set_weights(const VectorsAt<1>& weights);
   void set_cell_dual(const VectorsAt<Dim>& flux_density);
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);

@@ -27,7 +27,7 @@ void SupportSplitting<Scalar, Stored, Dim>::set_weights(const VectorsAt<1>& weig
       extrapolated_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
     }
   }
-  // What was cut off has to come back elsewhere.
+  // Weights cut off have to come back elsewhere in the row.
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
   pass_rows(kernel_.correct);
   std::copy_n(extrapolated_.data(), relaxed_.size(), relaxed_.data());
@@ -44,8 +44,7 @@ void SupportSplitting<Scalar, Stored, Dim>::set_cell_dual(const VectorsAt<Dim>& 
       const Patch& patch = patches_.patches[p];
       for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
         const Index s = patches_.cell_index[k];
-        const double scale =
-            unit_ * cell_geometry(problem_.mesh, s).measure / std::sqrt(metric_.cell[s]);
+        const double scale = compact::dual_scale(problem_, metric_, unit_, s);
         const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
         for (std::size_t j = 0; j < patch.stride; ++j) {
           const Index i = patches_.items[patch.first_item + j];
@@ -96,28 +95,32 @@ void SupportSplitting<Scalar, Stored, Dim>::start_from_duals(const VectorsAt<1>&
   pass_rows(kernel_.w_step);
 }
 
+// A vertex's numbers for all control points, zero outside its support.
 template <class Scalar, class Stored, int Dim>
-Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::weights_at(Index vertex) const {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n_);
+template <class NumberAt>
+Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::spread(Index vertex,
+                                                              const NumberAt& number_at) const {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
   const Index row = data_.row_of[vertex];
   const std::size_t start = lists_.starts[row];
   for (Index j = 0; j < lists_.counts[row]; ++j) {
-    weights[lists_.items[start + j]] = weight_at(start + j);
+    numbers[lists_.items[start + j]] = number_at(start + j);
   }
-  return weights;
+  return numbers;
+}
+
+template <class Scalar, class Stored, int Dim>
+Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::weights_at(Index vertex) const {
+  return spread(vertex, [&](std::size_t place) { return weight_at(place); });
 }
 
 template <class Scalar, class Stored, int Dim>
 Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::vertex_dual_at(Index vertex) const {
-  Eigen::VectorXd dual = Eigen::VectorXd::Zero(n_);
-  const Index row = data_.row_of[vertex];
-  const std::size_t start = lists_.starts[row];
-  for (Index j = 0; j < lists_.counts[row]; ++j) {
+  return spread(vertex, [&](std::size_t place) {
     const double difference =
-        static_cast<double>(extrapolated_[start + j]) - static_cast<double>(relaxed_[start + j]);
-    dual[lists_.items[start + j]] = (vertex_dual_[start + j] - 0.5 * difference) / sigma();
-  }
-  return dual;
+        static_cast<double>(extrapolated_[place]) - static_cast<double>(relaxed_[place]);
+    return (vertex_dual_[place] - 0.5 * difference) / sigma();
+  });
 }
 
 template <class Scalar, class Stored, int Dim>
@@ -131,8 +134,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> SupportSplitting<Scalar, Stored, Dim>
   AlignedArray<Scalar> rows(Dim * patch.stride);
   const std::size_t first = patch.first_number + (k - patch.first_cell) * patch.stride;
   kernel_.decode(cell_dual_.data() + Dim * first, rows.data(), Dim * patch.stride);
-  const double scale =
-      std::sqrt(metric_.cell[cell]) / (unit_ * cell_geometry(problem_.mesh, cell).measure);
+  const double scale = 1 / compact::dual_scale(problem_, metric_, unit_, cell);
   for (std::size_t j = 0; j < patch.stride; ++j) {
     const Index i = patches_.items[patch.first_item + j];
     if (i >= n_) break;

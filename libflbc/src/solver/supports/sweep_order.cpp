@@ -57,18 +57,4 @@ SweepOrder sweep_order(const RowMatrix& matrix) {
   return order;
 }
 
-RowMatrix reordered(const RowMatrix& matrix, const std::vector<Index>& rows,
-                    const std::vector<Index>& columns) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(matrix.nonZeros());
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      entries.emplace_back(rows[row], columns[it.col()], it.value());
-    }
-  }
-  RowMatrix moved(matrix.rows(), matrix.cols());
-  moved.setFromTriplets(entries.begin(), entries.end());
-  return moved;
-}
-
 }  // namespace flbc::supports

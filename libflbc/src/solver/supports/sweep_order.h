@@ -20,8 +20,4 @@ struct SweepOrder {
 //! Unknowns that follow each other stay together. \param matrix  symmetric
 SweepOrder sweep_order(const RowMatrix& matrix);
 
-//! The matrix with row and column i at position[i].
-RowMatrix reordered(const RowMatrix& matrix, const std::vector<Index>& rows,
-                    const std::vector<Index>& columns);
-
 }  // namespace flbc::supports
