@@ -300,6 +300,9 @@ TEST_F(DeformCommand, Keyframes) {
   const auto none = file("none.txt", "k 0\nk 1\n" + zeros);
   expect_deform(command + none + " --rest " + rest + output, 2,
                 "keyframe 1 has no displacements");
+  const auto back = file("back.txt", "k 1.5\n" + zeros + "# then\nk 0.5\nc 1 0 0 0\n");
+  expect_deform(command + back + " --rest " + rest + output, 2,
+                "back.txt:7: keyframe 1 at 0.5 comes before keyframe 0 at 1.5");
   const auto unknown = file("unknown.txt", "k 0\n" + zeros + "c 1 0 0 0\n");
   expect_deform(command + unknown + " --rest " + rest + output, 2, "unknown.txt:6: ");
   EXPECT_FALSE(std::filesystem::exists(path("k_0.obj")));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Weights and animations.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,9 +17,8 @@ constexpr Eigen::Index kSmall = 256;
 
 void read_weights(const std::string& path) {
   const auto weights = io::read_weights(path);
-  if (weights.size() == 0) return;  // maybe of a billion points: Eigen would go through them
   require(weights.allFinite(), "weights are finite");
-  if (weights.size() > kSmall) return;
+  if (std::max(weights.rows(), weights.cols()) > kSmall) return;
   io::write_weights(path, weights);
   require(io::read_weights(path) == weights, "what is written is read back");
 }
@@ -42,6 +42,9 @@ void read_keyframes(const std::string& path) {
     require(std::isfinite(keyframe.time) && keyframe.displacements.allFinite(), "all is finite");
     require(controls > 0 && keyframe.displacements.cols() == controls, "all have the same size");
   }
+  require(std::is_sorted(keyframes.begin(), keyframes.end(),
+                         [](const auto& a, const auto& b) { return a.time < b.time; }),
+          "times never decrease");
 }
 
 std::string file_of_weights(const std::string& name) {

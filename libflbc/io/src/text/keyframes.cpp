@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/keyframes.h"
 
+#include "base/messages.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "text/text_reader.h"
@@ -14,6 +15,15 @@ struct Line {
   std::int64_t keyframe;
   Vector<3> displacement;
 };
+
+// The last keyframe does not come before the one above it.
+void require_order(const TextReader& reader, const std::vector<Keyframe>& keyframes) {
+  const std::size_t last = keyframes.size() - 1;
+  if (last == 0 || keyframes[last].time >= keyframes[last - 1].time) return;
+  reader.fail("keyframe " + std::to_string(last) + " at " + format_number(keyframes[last].time) +
+              " comes before keyframe " + std::to_string(last - 1) + " at " +
+              format_number(keyframes[last - 1].time));
+}
 
 void require_equal_sizes(const TextReader& reader, const std::vector<Keyframe>& keyframes) {
   const auto expected = keyframes.front().displacements.cols();
@@ -38,6 +48,7 @@ std::vector<Keyframe> read_keyframes(const std::string& path) {
     const std::string_view keyword = reader.word();
     if (keyword == "k") {
       keyframes.push_back({reader.number(), {}});
+      require_order(reader, keyframes);
     } else if (keyword == "c") {
       const std::int64_t keyframe = reader.integer();
       lines.push_back({reader.line(), keyframe, reader.point()});

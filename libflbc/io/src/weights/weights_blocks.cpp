@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blocks of numbers as several weight formats have them.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,8 +12,17 @@
 
 namespace flbc::io {
 
+bool is_absurd(std::int64_t num_points, std::int64_t num_controls) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 24;
+  return std::min(num_points, num_controls) == 0 && std::max(num_points, num_controls) > kMost;
+}
+
 WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls) {
   const std::int64_t elements = std::int64_t{num_points} * num_controls;
+  if (is_absurd(num_points, num_controls)) {
+    reader.fail(std::to_string(num_points) + " rows and " + std::to_string(num_controls) +
+                " columns are declared, which are no weights");
+  }
   if (static_cast<std::size_t>(elements) > (reader.bytes_left() + 1) / 2) {
     reader.fail(std::to_string(num_points) + " rows and " + std::to_string(num_controls) +
                 " columns are declared, but the file is too short to hold them");
@@ -38,6 +48,7 @@ void BinaryBlock::check_size(std::int64_t num_points, std::int64_t num_controls,
                                std::to_string(num_controls) + " control points are declared";
   constexpr std::int64_t kMaxIndex = std::numeric_limits<Index>::max();
   if (num_points < 0 || num_controls < 0) fail(0, declared + "; numbers cannot be negative");
+  if (is_absurd(num_points, num_controls)) fail(offset, declared + ", which are no weights");
   if (num_points > kMaxIndex || num_controls > kMaxIndex) {
     fail(0, declared + ", more than this program can handle");
   }

@@ -31,6 +31,10 @@ void write_mtx(std::ostream& out, const WeightMatrix& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
 
+//! Whether a header declares no weights, but more points or control points than anybody has: only
+//! damage does, and no length of the file would give it away.
+bool is_absurd(std::int64_t num_points, std::int64_t num_controls);
+
 //! Reads #points x n numbers, control point by control point, up to the end of the file.
 WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls);
 

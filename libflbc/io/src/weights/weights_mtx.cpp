@@ -54,7 +54,8 @@ WeightMatrix allocate(const TextReader& reader, const Size& size, Index num_entr
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
   const std::string declared =
       std::to_string(size.points) + " x " + std::to_string(size.controls) + " elements";
-  if (elements > kHarmless && num_entries < std::max(size.points, size.controls)) {
+  const bool is_large = elements > kHarmless || is_absurd(size.points, size.controls);
+  if (is_large && num_entries < std::max(size.points, size.controls)) {
     reader.fail(declared + " are declared with only " + std::to_string(num_entries) + " entries");
   }
   try {
