@@ -88,6 +88,8 @@ TEST_F(IsolatedProcessTest, ExceptionsEndTheChildOnly) {
   EXPECT_EQ(run_isolated(throw_int, 60).end, ProcessEnd::kThrew);
   const auto throw_error = [](const ByteSink&) { throw std::runtime_error("x"); };
   EXPECT_EQ(run_isolated(throw_error, 60).end, ProcessEnd::kThrew);
+  const auto run_out = [](const ByteSink&) { throw std::bad_alloc(); };
+  EXPECT_THROW(run_isolated(run_out, 60), std::bad_alloc);
 }
 
 TEST_F(IsolatedProcessTest, TimeLimitStopsASleeperAndABusyWriter) {

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstring>
 #include <mutex>
+#include <new>
 
 #ifdef __linux__
 #include <sys/prctl.h>
@@ -26,6 +27,7 @@ namespace {
 
 constexpr int kExitThrew = 1;
 constexpr int kExitNoReader = 2;
+constexpr int kExitOutOfMemory = 3;
 
 using Clock = std::chrono::steady_clock;
 
@@ -76,6 +78,8 @@ void write_all(int descriptor, const void* data, std::size_t size) {
   detach_from_parent();
   try {
     work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
+  } catch (const std::bad_alloc&) {
+    _exit(kExitOutOfMemory);
   } catch (...) {
     _exit(kExitThrew);
   }
@@ -176,6 +180,8 @@ ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, do
   if (WIFSIGNALED(status)) {
     outcome.end = ProcessEnd::kCrashed;
     outcome.signal = WTERMSIG(status);
+  } else if (WIFEXITED(status) && WEXITSTATUS(status) == kExitOutOfMemory) {
+    throw std::bad_alloc();
   } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     outcome.end = ProcessEnd::kThrew;
   }

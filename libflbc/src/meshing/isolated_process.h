@@ -52,7 +52,7 @@ class ByteSource {
 //! Runs `work` in a forked child that sees the parent's memory as it is now and changes nothing in
 //! it. What it prints is discarded, and it dumps no core. No process and no file descriptor is left
 //! behind, whatever happens. \param time_limit  in seconds, > 0 \throws Error if the system refuses
-//! a process or a pipe
+//! a process or a pipe, std::bad_alloc if `work` did
 ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit);
 
 //! "signal 11 (Segmentation fault)".

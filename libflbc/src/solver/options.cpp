@@ -44,7 +44,8 @@ void validate_gap(const SolverOptions& options, bool iterative) {
   if (gap == 0) return;
   if (!iterative) throw OptionError("gap needs a method that minimises, which this one does not");
   if (resolved_non_negative(options) == NonNegative::kOff) {
-    throw OptionError("gap proves nothing of weights that may be negative; see non_negative");
+    throw OptionError("gap (--gap) proves nothing of weights that may be negative; choose "
+                      "non_negative (--non-negative) constraint or project");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <new>
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -58,7 +59,13 @@ void tetrahedralize_and_send(const TetgenInput& input, std::string switches, con
   fill_points(input.points, in);
   fill_facets(input.triangles, in);
   fill_holes(input.holes, in);
-  ::tetrahedralize(switches.data(), &in, &out);
+  try {
+    ::tetrahedralize(switches.data(), &in, &out);
+  } catch (int reason) {
+    constexpr int kOutOfMemory = 1;  // of terminatetetgen()
+    if (reason == kOutOfMemory) throw std::bad_alloc();
+    throw;
+  }
 
   const Header header{out.numberofpoints, out.numberoftetrahedra};
   std::vector<std::int32_t> regions(std::size_t(out.numberoftetrahedra), 0);
