@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::string> columns() {
   return joined({mesh_columns(),
-                 {"non_negative", "tolerance", "iterations", "converged", "interior_vertices",
+                 {"non_negative", "run", "tolerance", "iterations", "converged", "interior_vertices",
                   "functions_with_minima", "minima", "deepest_minimum", "functions_with_maxima",
                   "maxima", "highest_maximum", "min_weight", "relative_gap"}});
 }
@@ -38,6 +38,7 @@ Row measure(const Setting<Dim>& setting, const SolverOptions& options) {
   const auto& report = solution.report;
   auto row = mesh_row(setting);
   row["non_negative"] = options.non_negative == NonNegative::kOff ? "0" : "1";
+  row["run"] = options.precision == Precision::kDouble ? "optimum" : "default";
   row["tolerance"] = number(resolve(options).tolerance);
   row["iterations"] = std::to_string(report.iterations);
   row["converged"] = report.status == SolveStatus::kConverged ? "1" : "0";

@@ -14,75 +14,20 @@ import re
 import shutil
 import sys
 
+import doc_tables
 import results
-import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
 PAGE = ROOT / "docs" / "results.md"
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
-SHORT = {"lbc2014": "lbc2014", "lbc2014-tuned": "tuned", "paper": "paper", "gradient": "gradient",
-         "gradient-local": "gradient, no linear system", "value": "**value**"}
-
-
-def race(rows):
-    """Seconds to the error, in brackets iterations; a line per model."""
-    names = [name for name, _, _, _ in results.METHODS if any(r["method"] == name for r in rows)]
-    body = []
-    for model in results.in_order(r["model"] for r in rows):
-        cells = []
-        for name in names:
-            found = [r for r in rows if r["model"] == model and r["method"] == name]
-            if not found:
-                cells.append("-")
-                continue
-            row = found[0]
-            reached = "" if row["converged"] == "1" else "not within "
-            cells.append(f"{results.value(row, 'total_seconds'):.2f} "
-                         f"({reached}{results.thousands(row['iterations'])})")
-        body.append([model] + cells)
-    return ["model"] + [SHORT[name].strip("*") for name in names], body
-
-
-def table2(rows):
-    header = ["model", "method", "iterations", "s", "error", "gap", "min", "infl"]
-    body = []
-    for row in rows:
-        title = f"{row['model']}, n = {row['control_points']}, {results.thousands(row['vertices'])} V"
-        if row["paper_lbc_error"]:
-            title += (f" ({results.value(row, 'paper_lbc_error'):.1e} / "
-                      f"{results.value(row, 'paper_flbc_error'):.1e})")
-        first = not body or row["model"] != last_model
-        last_model = row["model"]
-        limit = "" if row["converged"] == "1" else " (limit)"
-        body.append([title if first else "", SHORT[row["method"]], row["iterations"] + limit] +
-                    [tables.text(results.value(row, c), form) for c, form in
-                     (("total_seconds", ".2f"), ("error", ".1e"), ("relative_gap", ".1e"),
-                      ("min_weight", ".1e"), ("mean_influences", ".1f"))])
-    return header, body
-
-
-def plain(rows):
-    """Every column of the file, numbers in three digits."""
-    columns = [c for c in rows[0] if any(r[c] for r in rows)]
-    return [c.replace("_", " ") for c in columns], [[brief(r[c]) for c in columns] for r in rows]
-
-
-def brief(cell):
-    try:
-        number = float(cell)
-    except ValueError:
-        return cell
-    return f"{int(number):,}" if number == int(number) and abs(number) < 1e9 else f"{number:.3g}"
-
-
-TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows, "figure3": tables.growth_rows}
+UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
 def written(name):
     """The table of a stored result, with the commit that made it."""
     rows, comments = results.read(STORED, name)
-    header, body = TABLES.get(name, plain)(rows)
+    header, body = doc_tables.TABLES.get(name, doc_tables.plain)(rows)
     lines = ["| " + " | ".join(header) + " |", "|---" * len(header) + "|"]
     lines += ["| " + " | ".join(row) + " |" for row in body]
     commit = next((c for c in comments if c.startswith("commit ")), "commit unknown")
@@ -113,8 +58,8 @@ def take_over(out):
     STORED.mkdir(exist_ok=True)
     for name in {m[2] for m in MARKED.finditer(PAGE.read_text())}:
         _, comments = results.read(out, name)
-        if any("quick" in c or "incomplete" in c for c in comments):
-            sys.exit(f"docs.py: {name}.csv is of a quick or incomplete run; nothing was taken over")
+        if any(c.startswith(UNFIT) for c in comments):
+            sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
     PAGE.write_text(with_tables(PAGE.read_text()))

@@ -28,6 +28,7 @@ bool run_figure3(const Context& context);    //!< time and memory against resolu
 bool run_figure4(const Context& context);    //!< slices of 3D functions
 bool run_figure5(const Context& context);    //!< error against time
 bool run_figure6(const Context& context);    //!< the same on large meshes
+bool run_lbc2014(const Context& context);    //!< open details of the 2014 solver, one by one
 bool run_speed(const Context& context);      //!< total time to an error of 1e-5, beside others
 bool run_race(const Context& context);       //!< iterations and time to a true error of 1e-5
 bool run_growth(const Context& context);     //!< time and memory up to millions of cells

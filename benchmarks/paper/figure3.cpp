@@ -42,11 +42,12 @@ std::vector<Index> resolutions(const Context& context, int dim) {
 
 template <int Dim>
 Row measure(const Context& context, const Setting<Dim>& setting, const Curve& curve) {
+  constexpr int kMostIterations = 5000;
   constexpr int kQuickIterations = 200;
   const auto& method = curve.method;
   auto options = method.options(setting.problem, context.threads);
   options.linear_solver = curve.linear_solver;
-  if (context.quick) options.max_iterations = kQuickIterations;
+  options.max_iterations = context.quick ? kQuickIterations : kMostIterations;
 
   const double problem_memory = resident_mebibytes();
   const double setup_peak = peak_mebibytes();

@@ -22,8 +22,8 @@ struct Model {
   const char* name;
   int dim;
   const char* cage;     //!< file under the models folder
-  Index small_size;     //!< vertices for table 1
-  Index paper_size;     //!< vertices for table 2
+  Index small_size;     //!< vertices for conjecture 1 and figure 1
+  Index paper_size;     //!< vertices for tables 1 and 2
   Index control_point;  //!< the one whose coordinate function is drawn
   PaperNumbers paper{};
 };

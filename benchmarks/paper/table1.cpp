@@ -48,7 +48,7 @@ Row compare(const Context& context, const Setting<Dim>& setting) {
 bool run_table1(const Context& context) {
   ResultTable table(context, "table1", columns());
   for (const auto& model : models()) {
-    const Index vertices = context.quick ? model.small_size * 2 / 3 : model.small_size;
+    const Index vertices = context.size(model.dim, model.paper_size);
     table.add(in_setting(context, "table1", model, vertices, [&](const auto& setting) {
       return table.line(compare(context, setting));
     }));

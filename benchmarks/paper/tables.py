@@ -20,6 +20,8 @@ def write(out):
 
 
 def text(number, form):
+    if number == 0:
+        return "0"
     return "-" if math.isnan(number) else format(number, form)
 
 
@@ -83,23 +85,41 @@ def growth(out):
 def growth_rows(rows):
     """Header and body."""
     header = ["model", "method", "V", "iterations", "solve, s", "recover, s",
-              "recovery in iterations", "total, s", "grows as V to the power"]
+              "recovery in iterations", "total, s", "MiB beyond the problem",
+              "time, memory grow as V to the power"]
     body = []
     for model in results.in_order(row["model"] for row in rows):
         for name, label, _, _ in results.METHODS:
             curve = [r for r in rows if r["model"] == model and r["method"] == name]
             for row in curve:
-                solve, recover, total = (results.value(row, c) for c in
-                                         ("solve_seconds", "recover_seconds", "total_seconds"))
+                solve, recover, total, memory = (
+                    results.value(row, c) for c in ("solve_seconds", "recover_seconds",
+                                                    "total_seconds", "solve_mebibytes"))
                 per_iteration = solve / max(1, int(row["iterations"]))
                 last = row is curve[-1] and len(curve) > 1
-                body.append([model, label, results.thousands(row["vertices"]), row["iterations"],
+                body.append([model, label, results.thousands(row["vertices"]), iterations(row),
                              text(solve, ".3f"), text(recover, ".3f"),
                              text(recover / per_iteration, ".1f"), text(total, ".3f"),
-                             text(results.exponent([results.value(r, "vertices") for r in curve],
-                                                   [results.value(r, "total_seconds")
-                                                    for r in curve]), ".2f") if last else ""])
+                             text(memory, ",.0f"),
+                             powers(curve, ("total_seconds", "solve_mebibytes")) if last else ""])
     return header, body
+
+
+def iterations(row):
+    """Those on the given mesh, whether they are the limit, and on how many coarser meshes before."""
+    parts = [results.thousands(row["iterations"])]
+    if row.get("coarse_levels", "0") not in ("", "0"):
+        parts.append(f"+ {row['coarse_levels']} level" + "s" * (row["coarse_levels"] != "1"))
+    if row.get("converged") == "0":
+        parts.append("(limit)")
+    return " ".join(parts)
+
+
+def powers(curve, columns):
+    """How the columns grow with the number of vertices."""
+    vertices = [results.value(r, "vertices") for r in curve]
+    found = [results.exponent(vertices, [results.value(r, c) for r in curve]) for c in columns]
+    return ", ".join("-" if power is None else f"{power:.2f}" for power in found)
 
 
 def papers_numbers(row):
@@ -126,34 +146,40 @@ def reach(rows, threshold, column):
 
 
 def time_to_error(out):
-    header = ["figure", "model", "V", "method"]
-    header += [f"to {threshold:.0e}: iterations, s" for threshold in THRESHOLDS]
     body, comments = [], []
     for figure in ("figure5", "figure6"):
         rows, notes = results.read(out, figure)
         if not rows:
             continue
         comments = notes[1:]
-        for model in results.in_order(row["model"] for row in rows):
-            for name, label, _, _ in results.METHODS:
-                curve = [r for r in rows if r["model"] == model and r["method"] == name]
-                for row in curve:
-                    row["time"] = str(after_setup(row))
-                if not curve:
-                    continue
-                cells = []
-                for threshold in THRESHOLDS:
-                    iterations = reach(curve, threshold, "iterations")
-                    seconds = reach(curve, threshold, "time")
-                    cells.append("-" if math.isnan(iterations) else
-                                 f"{iterations:.0f}, {seconds:.2g}")
-                body.append([figure[-1], model, results.thousands(curve[0]["vertices"]), label] +
-                            cells)
+        header, lines = time_to_error_rows(rows)
+        body += [[figure[-1]] + line for line in lines]
     if not body:
         return None
     comments = ["From the curves of figures 5 and 6, interpolated between their points; seconds of "
                 "solve and recovery."] + comments
-    return markdown("Iterations and seconds to an error", comments, header, body)
+    return markdown("Iterations and seconds to an error", comments, ["figure"] + header, body)
+
+
+def time_to_error_rows(rows):
+    """Header and body, of one figure."""
+    header = ["model", "V", "method"]
+    header += [f"to {threshold:.0e}: iterations, s" for threshold in THRESHOLDS]
+    body = []
+    for model in results.in_order(row["model"] for row in rows):
+        for name, label, _, _ in results.METHODS:
+            curve = [dict(r, time=str(after_setup(r))) for r in rows
+                     if r["model"] == model and r["method"] == name]
+            if not curve:
+                continue
+            cells = []
+            for threshold in THRESHOLDS:
+                iterations = reach(curve, threshold, "iterations")
+                seconds = reach(curve, threshold, "time")
+                cells.append("-" if math.isnan(iterations) else
+                             f"{iterations:.0f}, {seconds:.2g}")
+            body.append([model, results.thousands(curve[0]["vertices"]), label] + cells)
+    return header, body
 
 
 def after_setup(row):

@@ -61,7 +61,8 @@ Row measure_gradient(const Context& context, const Setting<Dim>& setting, double
   const double state =
       2.0 * Dim * problem.mesh.num_cells() + (Dim - 1.0) * problem.topology.num_facets();
   const double numbers = 2 * state + problem.mesh.num_cells();
-  return row_of(copy, std::string("gradient iteration: ") + setting.model.name,
+  return row_of(copy, std::string("gradient iteration: ") + setting.model.name + " " +
+                    std::to_string(problem.mesh.num_vertices()) + " V",
                 numbers * problem.num_control_points() * sizeof(float),
                 iteration_seconds(problem, Method::kGradient, context.threads));
 }

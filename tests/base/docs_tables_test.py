@@ -10,6 +10,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper"))
+import doc_tables  # noqa: E402
 import docs  # noqa: E402
 
 CSV = """# a race
@@ -45,15 +46,50 @@ def notices_changes():
         assert quietly(docs.check) == 0
         (docs.STORED / "table9.csv").write_text(CSV)
         assert quietly(docs.check) == 1, "a result without a table went unnoticed"
-        (folder / "race.csv").write_text("# quick run: small\n" + CSV)
-        try:
-            quietly(lambda: docs.take_over(folder))
-        except SystemExit:
-            return
-        raise AssertionError("a quick run was taken over")
+        for unfit in ("quick run: small", "only models that were asked for", "incomplete: some"):
+            (folder / "race.csv").write_text(f"# {unfit}\n" + CSV)
+            try:
+                quietly(lambda: docs.take_over(folder))
+            except SystemExit:
+                continue
+            raise AssertionError(f"taken over: {unfit}")
+
+
+def table(name, lines):
+    """Body of the table of a result, cells as one string per row."""
+    columns, *rows = (line.split(",") for line in lines.split())
+    header, body = doc_tables.TABLES[name]([dict(zip(columns, row)) for row in rows])
+    assert all(len(row) == len(header) for row in body), name
+    return [" | ".join(row) for row in body]
+
+
+def shows_the_numbers():
+    growth = table("growth", """
+model,control_points,vertices,cells,coarse_levels,iterations,setup_seconds,solve_seconds,total_seconds,peak_mebibytes,bytes_per_cell
+horse,51,1000,4000,0,61,0.1,0.9,1,10,2500
+horse,51,10000,40000,1,62,1,9,10,100,2500""")
+    assert growth[1] == "horse | 51 | 10,000 | 40,000 | 2 | 62 | 1.00 + 9.00 | 100 | 2,500 | 1.00, 1.00"
+    speed = table("speed", """
+model,control_points,vertices,coarse_levels,iterations,iterations_to_wanted,setup_seconds,solve_seconds,total_seconds,error,harmonic_seconds,over_harmonic,total_over_gradient_iteration,total_over_lbc2014_iteration
+woody,26,1000,2,13,,0.3,1.1,1.4,,0.35,4,115,48""")
+    assert speed == ["woody | 26 | 1,000 | 13 + 2 levels | 0.300 + 1.100 = 1.400 | - | 0.350 | 4.0 | 115 | 48"]
+    conjecture = table("conjecture1", """
+model,control_points,vertices,non_negative,run,iterations,converged,minima,deepest_minimum,maxima,highest_maximum,min_weight,relative_gap
+shark,24,2084,0,optimum,20000,0,7,0.0014,0,,-0.007,3e-05""")
+    assert conjecture == ["shark | 24 | 2,084 | no | optimum | 20,000 (limit) | 7 (1.4e-03) | 0 | -7.0e-03 | 3.0e-05"]
+    bandwidth = table("bandwidth", """
+what,gigabytes,seconds,gigabytes_per_second,of_copy
+copying,2.5,0.1,25,0.84""")
+    assert bandwidth == ["copying | 2.50 | 0.1000 | 25.0 | 84%"]
+    lbc2014 = table("lbc2014", """
+model,vertices,variant,iterations,error,error_100,error_300,error_1000
+woody,1000,plain,100,0.001,0.001,0.0003,2e-05
+horse,2000,plain,,,0.0003,0.0002,""")
+    assert lbc2014 == ["plain | 100, 1.0e-03 | 1.0e-03 / 3.0e-04 / 2.0e-05 | not within 2,000 | 3.0e-04 / 2.0e-04 / -"]
 
 
 if __name__ == "__main__":
     result = docs.check()
     notices_changes()
+    shows_the_numbers()
     sys.exit(result)

@@ -60,6 +60,33 @@ TYPED_TEST(WeightSplittingTest, EqualsTheTextbookIterateByIterate) {
   }
 }
 
+// All duals zero at first and W at most some weight, which benchmarks/paper/lbc2014.cpp tries.
+TYPED_TEST(WeightSplittingTest, WithoutDualsAndBoundedEqualsTheTextbook) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto start = harmonic_coordinates(problem);
+  const auto after = [&](double largest_weight) {
+    auto metric = make_metric(problem, 1, true);
+    metric.largest_weight = largest_weight;
+    const double penalty = make_penalty(problem, metric);
+    auto input = textbook_input(problem, metric, penalty, 1.65, start);
+    input.initial_z_dual.setZero();
+    TextbookLbc2014<kDim> textbook(input);
+    WeightSplitting<double, kDim> splitting(problem, metric, penalty, 1.65);
+    splitting.start_without_duals(start);
+    for (int iteration = 0; iteration < 15; ++iteration) {
+      textbook.iterate();
+      splitting.iterate();
+    }
+    EXPECT_LT((splitting.weights() - textbook.weights()).cwiseAbs().maxCoeff(), 1e-10);
+    EXPECT_GT((splitting.weights() - start).cwiseAbs().maxCoeff(), 1e-3);
+    return splitting.weights();
+  };
+  // A bound that is met, unlike 1, to see that there is one.
+  EXPECT_GT((after(0.3) - after(1)).cwiseAbs().maxCoeff(), 1e-3);
+}
+
 // kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh
 // their squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
 TYPED_TEST(WeightSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {

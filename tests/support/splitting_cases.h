@@ -39,8 +39,8 @@ double make_penalty(const LbcProblem<Dim>& problem, const splitting::Metric& met
 }
 
 template <int Dim>
-TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
-                                  double penalty, double relaxation, const WeightMatrix& start) {
+Lbc2014Input<Dim> textbook_input(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                                 double penalty, double relaxation, const WeightMatrix& start) {
   Lbc2014Input<Dim> input;
   input.control_points = problem.cage.points;
   input.mesh = problem.mesh;
@@ -49,6 +49,7 @@ TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splittin
   input.interior = problem.boundary.interior_vertices();
   input.cell_metric = metric.cell;
   input.vertex_metric = metric.vertex;
+  input.largest_weight = metric.largest_weight;
   input.penalty = penalty;
   input.relaxation = relaxation;
   // The library starts with y = z + u = 0, so that u = -grad w.
@@ -59,7 +60,13 @@ TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splittin
     input.initial_z_dual.middleCols(Dim * s, Dim) =
         -linear_gradients<Dim>(cell_corners(problem.mesh, s), corner_weights).transpose();
   }
-  return TextbookLbc2014<Dim>(std::move(input));
+  return input;
+}
+
+template <int Dim>
+TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                                  double penalty, double relaxation, const WeightMatrix& start) {
+  return TextbookLbc2014<Dim>(textbook_input(problem, metric, penalty, relaxation, start));
 }
 
 }  // namespace flbc::testing

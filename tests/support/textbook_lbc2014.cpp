@@ -68,9 +68,9 @@ template <int Dim>
 void TextbookLbc2014<Dim>::iterate() {
   const Eigen::MatrixXd w = Y_ * M_ + H_;
   const Eigen::MatrixXd grad = gradients(w);
-  // 1. W: nearest non-negative matrix; Z: shrinkage of each gradient.
+  // 1. W: nearest matrix within its bounds; Z: shrinkage of each gradient.
   const bool has_w = input_.vertex_metric.size() > 0;
-  W_ = has_w ? Eigen::MatrixXd((w - dual_w_).cwiseMax(0)) : w;
+  W_ = has_w ? Eigen::MatrixXd((w - dual_w_).cwiseMax(0).cwiseMin(input_.largest_weight)) : w;
   Z_ = grad - dual_z_;
   for (Index s = 0; s < input_.mesh.cells.cols(); ++s) {
     const double measure = simplex_measure<Dim>(cell_corners(input_.mesh, s));

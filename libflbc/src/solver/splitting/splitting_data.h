@@ -3,6 +3,7 @@
 //! Constant data of the splitting on the weights, as the inner loops want it.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -17,6 +18,8 @@ namespace flbc::splitting {
 struct Metric {
   Eigen::VectorXd cell;    //!< m_s > 0 of |z_s - grad w|^2, F
   Eigen::VectorXd vertex;  //!< k_v > 0 of |u_v - w_v|^2, V; empty: w may be negative
+  //! Of u, which is at least 0. Weights that are not negative and sum up to 1 need none.
+  double largest_weight = std::numeric_limits<double>::infinity();
 };
 
 //! A_s of every cell, F.

@@ -39,6 +39,7 @@ struct Arrays {
   const Scalar* radius_scale;     // F: A_s / (rho m_s)
   const Scalar* basis;            // (Dim + 1): orthonormal basis Q of [1; c]
   const Scalar* row_target;       // m x (Dim + 1): Q^T w of every row that is feasible
+  Scalar largest_weight;
   Scalar relaxation;
 };
 

@@ -105,7 +105,8 @@ inline void z_step_at(const Arrays<Scalar, Dim>& arrays, const Cell<Scalar, Dim>
   scatter_divergence<Scalar, Dim, Lanes>(cell, i, y);
 }
 
-// W-step and dual step: u = max(0, 2 w - q), q += relaxation (u - w).
+// W-step and dual step: u = 2 w - q, at least 0 and at most the largest weight,
+// q += relaxation (u - w).
 template <class Scalar, int Dim, bool Measured, int Lanes>
 inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row, std::size_t i) {
   using Numbers = PackN<Scalar, Lanes>;
@@ -114,8 +115,10 @@ inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row, std::s
   Scalar* state = arrays.vertex_state + vertex;
   const Numbers w = load_pack<Lanes>(arrays.weights + vertex);
   Numbers q = load_pack<Lanes>(state);
-  const Numbers reflected = Scalar(2) * w - q;
-  const Numbers step = (reflected > Numbers{} ? reflected : Numbers{}) - w;
+  const Numbers most = Numbers{} + arrays.largest_weight;
+  Numbers copy = Scalar(2) * w - q;
+  copy = copy > Numbers{} ? copy : Numbers{};
+  const Numbers step = (copy < most ? copy : most) - w;
   q += arrays.relaxation * step;
   store_pack<Lanes>(state, q);
   store_pack<Lanes>(arrays.residual + row * arrays.stride + i, metric * (q - w));

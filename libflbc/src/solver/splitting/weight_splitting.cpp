@@ -62,6 +62,7 @@ Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays() {
   arrays.radius_scale = data_.radius_scale.data();
   arrays.basis = data_.constraints.basis.data();
   arrays.row_target = data_.constraints.target.data();
+  arrays.largest_weight = static_cast<Scalar>(metric_.largest_weight);
   arrays.relaxation = static_cast<Scalar>(relaxation_);
   return arrays;
 }
@@ -211,18 +212,17 @@ double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const {
   return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                         \
-  template WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>&, Metric,      \
-                                                         double, double, LinearSolver,        \
-                                                         StateStorage*);                      \
-  template Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays();                        \
-  template double WeightSplitting<Scalar, Dim>::run(const SliceLoop&);                        \
-  template double WeightSplitting<Scalar, Dim>::iterate();                                    \
-  template Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals();                  \
-  template double WeightSplitting<Scalar, Dim>::num_residual_components() const;              \
-  template WeightMatrix WeightSplitting<Scalar, Dim>::weights() const;                        \
-  template WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const;                    \
-  template CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux();                   \
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                            \
+  template WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>&, Metric, double, \
+                                                         double, LinearSolver, StateStorage*);   \
+  template Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays();                           \
+  template double WeightSplitting<Scalar, Dim>::run(const SliceLoop&);                           \
+  template double WeightSplitting<Scalar, Dim>::iterate();                                       \
+  template Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals();                     \
+  template double WeightSplitting<Scalar, Dim>::num_residual_components() const;                 \
+  template WeightMatrix WeightSplitting<Scalar, Dim>::weights() const;                           \
+  template WeightMatrix WeightSplitting<Scalar, Dim>::vertex_dual() const;                       \
+  template CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux();                      \
   template double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const;
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)

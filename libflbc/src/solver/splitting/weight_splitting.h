@@ -54,6 +54,9 @@ class WeightSplitting {
   //! they no longer move or `steps` are done.
   void start_from_harmonic(int steps);
 
+  //! Starts from weights n x V with all duals zero: z = y = grad w.
+  void start_without_duals(const WeightMatrix& weights);
+
   //! Starts from weights and duals found elsewhere, balanced as an iteration leaves them: the first
   //! Y-step finds nothing to correct.
   //! \param weights  n x V, feasible

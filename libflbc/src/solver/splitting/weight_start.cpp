@@ -33,6 +33,13 @@ void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weight
   std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
 }
 
+template <class Scalar, int Dim>
+void WeightSplitting<Scalar, Dim>::start_without_duals(const WeightMatrix& weights) {
+  using Flux = Eigen::Matrix<double, Eigen::Dynamic, Dim>;
+  set_weights(weights);
+  set_states([this](Index) -> Flux { return Flux::Zero(n_, Dim); }, {});
+}
+
 // A Y-step alone, for the states there are. \return squared change of the weights
 template <class Scalar, int Dim>
 double WeightSplitting<Scalar, Dim>::correct_weights() {
@@ -129,6 +136,7 @@ void WeightSplitting<Scalar, Dim>::take_back_correction() {
 #define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
   template void WeightSplitting<Scalar, Dim>::resume();                                   \
   template void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix&);    \
+  template void WeightSplitting<Scalar, Dim>::start_without_duals(const WeightMatrix&);   \
   template void WeightSplitting<Scalar, Dim>::start_from_harmonic(int);                   \
   template void WeightSplitting<Scalar, Dim>::start_from_duals(                           \
       const WeightMatrix&, const VectorsAt<Dim>&, const WeightMatrix&);

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of docs/results.md and docs/method.md as header and body, from rows of the CSV files."""
+
+import results
+import tables
+
+SHORT = {"lbc2014": "lbc2014", "lbc2014-tuned": "tuned", "paper": "paper", "gradient": "gradient",
+         "gradient-local": "gradient, no linear system", "value": "**value**"}
+
+
+def race(rows):
+    """Seconds to the error, in brackets iterations; a line per model."""
+    names = [name for name, _, _, _ in results.METHODS if any(r["method"] == name for r in rows)]
+    body = []
+    for model in results.in_order(r["model"] for r in rows):
+        cells = []
+        for name in names:
+            found = [r for r in rows if r["model"] == model and r["method"] == name]
+            if not found:
+                cells.append("-")
+                continue
+            row = found[0]
+            reached = "" if row["converged"] == "1" else "not within "
+            cells.append(f"{results.value(row, 'total_seconds'):.2f} "
+                         f"({reached}{results.thousands(row['iterations'])})")
+        body.append([model] + cells)
+    return ["model"] + [SHORT[name].strip("*") for name in names], body
+
+
+def table2(rows):
+    header = ["model", "method", "iterations", "s", "error", "gap", "min", "infl"]
+    body = []
+    last_model = None
+    for row in rows:
+        title = f"{row['model']}, n = {row['control_points']}, {results.thousands(row['vertices'])} V"
+        if row["paper_lbc_error"]:
+            title += (f" ({results.value(row, 'paper_lbc_error'):.1e} / "
+                      f"{results.value(row, 'paper_flbc_error'):.1e})")
+        first = row["model"] != last_model
+        last_model = row["model"]
+        body.append([title if first else "", SHORT[row["method"]], tables.iterations(row)] +
+                    formatted(row, [("total_seconds", ".2f"), ("error", ".1e"),
+                                    ("relative_gap", ".1e"), ("min_weight", ".1e"),
+                                    ("mean_influences", ".1f")]))
+    return header, body
+
+
+def conjecture1(rows):
+    header = ["model", "n", "V", "w >= 0", "run", "iterations", "minima", "maxima",
+              "smallest weight", "gap"]
+    body = []
+    for row in rows:
+        extrema = [f"{results.thousands(row[count])} ({results.value(row, size):.1e})"
+                   if row[count] != "0" else "0" for count, size in
+                   (("minima", "deepest_minimum"), ("maxima", "highest_maximum"))]
+        body.append([row["model"], row["control_points"], results.thousands(row["vertices"]),
+                     "yes" if row["non_negative"] == "1" else "no",
+                     "optimum" if row["run"] == "optimum" else "default", tables.iterations(row)] +
+                    extrema + formatted(row, [("min_weight", ".1e"), ("relative_gap", ".1e")]))
+    return header, body
+
+
+def speed(rows):
+    header = ["model", "n", "V", "iterations", "set-up + solve = total, s", "true error",
+              "harmonic, s", "ratio", "in iterations of `gradient`",
+              "in iterations of tuned `lbc2014`"]
+    body = []
+    for row in rows:
+        counted = tables.iterations(row)
+        if row["iterations_to_wanted"]:
+            counted += f" ({row['iterations_to_wanted']})"
+        parts = formatted(row, [(c, ".3f") for c in
+                                ("setup_seconds", "solve_seconds", "total_seconds")])
+        body.append([row["model"], row["control_points"], results.thousands(row["vertices"]),
+                     counted, "{} + {} = {}".format(*parts)] +
+                    formatted(row, [("error", ".1e"), ("harmonic_seconds", ".3f"),
+                                    ("over_harmonic", ".1f"),
+                                    ("total_over_gradient_iteration", ".0f"),
+                                    ("total_over_lbc2014_iteration", ".0f")]))
+    return header, body
+
+
+def growth(rows):
+    header = ["model", "n", "V", "cells", "levels", "iterations", "set-up + solve, s", "peak MiB",
+              "bytes per cell", "time, memory grow as V to the power"]
+    body = []
+    for model in results.in_order(row["model"] for row in rows):
+        curve = [row for row in rows if row["model"] == model]
+        for row in curve:
+            parts = formatted(row, [("setup_seconds", ".2f"), ("solve_seconds", ".2f")])
+            last = row is curve[-1] and len(curve) > 1
+            body.append([model, row["control_points"], results.thousands(row["vertices"]),
+                         results.thousands(row["cells"]), str(int(row["coarse_levels"]) + 1),
+                         row["iterations"], " + ".join(parts)] +
+                        formatted(row, [("peak_mebibytes", ",.0f"), ("bytes_per_cell", ",.0f")]) +
+                        [tables.powers(curve, ("total_seconds", "peak_mebibytes")) if last else ""])
+    return header, body
+
+
+def bandwidth(rows):
+    header = ["what", "GB moved at least", "s", "GB/s", "of copying"]
+    return header, [[row["what"]] +
+                    formatted(row, [("gigabytes", ".2f"), ("seconds", ".4f"),
+                                    ("gigabytes_per_second", ".1f"), ("of_copy", ".0%")])
+                    for row in rows]
+
+
+def lbc2014(rows):
+    """A line per variant, models side by side."""
+    models = results.in_order(row["model"] for row in rows)
+    header = [""]
+    for model in models:
+        first = next(row for row in rows if row["model"] == model)
+        header += [f"{model}, {results.thousands(first['vertices'])} V: stops at, error",
+                   "after 100 / 300 / 1000"]
+    body = []
+    for variant in results.in_order(row["variant"] for row in rows):
+        line = [variant]
+        for model in models:
+            row = next(r for r in rows if r["model"] == model and r["variant"] == variant)
+            stop = f"{row['iterations']}, {results.value(row, 'error'):.1e}"
+            line += [stop if row["iterations"] else "not within 2,000",
+                     " / ".join(formatted(row, [(f"error_{k}", ".1e") for k in (100, 300, 1000)]))]
+        body.append(line)
+    return header, body
+
+
+def formatted(row, columns):
+    """Cells of the given columns, each with its format."""
+    return [tables.text(results.value(row, column), form) for column, form in columns]
+
+
+def plain(rows):
+    """Every column of the file, numbers in three digits."""
+    columns = [c for c in rows[0] if any(r[c] for r in rows)]
+    return [c.replace("_", " ") for c in columns], [[brief(r[c]) for c in columns] for r in rows]
+
+
+def brief(cell):
+    try:
+        number = float(cell)
+    except ValueError:
+        return cell
+    return f"{int(number):,}" if number == int(number) and abs(number) < 1e9 else f"{number:.3g}"
+
+
+TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows,
+          "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
+          "growth": growth, "bandwidth": bandwidth, "lbc2014": lbc2014,
+          "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows}
