@@ -1,45 +1,51 @@
 # What `cmake --install` puts where; included when all targets are known. Nothing that is installed
-# knows the prefix, so that a tree may be moved.
+# knows the prefix, so that a tree may be moved. Install components are the packages (package.cmake):
+# core, meshers and openmesh what runs, core_dev, meshers_dev and openmesh_dev what is compiled and
+# linked with, and program.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)
 
-# An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that a
-# distribution may put the components with copyleft licences into packages of their own.
-function(flbc_install_component component)
+# An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that the
+# components with copyleft licences may be in packages of their own.
+function(flbc_install_component component package)
   foreach(target IN LISTS ARGN)
     if(NOT TARGET ${target})
       return()
     endif()
     install(TARGETS ${target} EXPORT flbc_${component}
+      LIBRARY COMPONENT ${package} NAMELINK_COMPONENT ${package}_dev
+      ARCHIVE COMPONENT ${package}_dev
       INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endforeach()
   install(EXPORT flbc_${component} NAMESPACE flbc:: FILE flbc-${component}.cmake
-    DESTINATION ${package_dir})
+    DESTINATION ${package_dir} COMPONENT ${package}_dev)
 endfunction()
-flbc_install_component(core flbc flbc_io)
-flbc_install_component(cgal flbc_cgal)
-flbc_install_component(tetgen flbc_tetgen)
-flbc_install_component(netgen flbc_netgen)
-flbc_install_component(openmesh flbc_openmesh flbc_gltf)
+flbc_install_component(core core flbc flbc_io)
+flbc_install_component(cgal meshers flbc_cgal)
+flbc_install_component(tetgen meshers flbc_tetgen)
+flbc_install_component(netgen meshers flbc_netgen)
+flbc_install_component(openmesh openmesh flbc_openmesh flbc_gltf)
 if(TARGET flbc_app)
-  install(TARGETS flbc_app)
+  install(TARGETS flbc_app COMPONENT program)
   set(help ${PROJECT_BINARY_DIR}/help)
-  install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+  install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
+    FILES_MATCHING PATTERN "*.1")
   install(FILES ${help}/flbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    RENAME flbc)
-  install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    RENAME flbc COMPONENT program)
+  install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+    COMPONENT program)
 endif()
 
 # ---- headers -------------------------------------------------------------------------------------
 install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc
   $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core_dev FILES_MATCHING PATTERN "*.h")
 if(TARGET flbc_openmesh)
   install(DIRECTORY openmesh_bindings/include/flbc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.h")
+    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.h")
   install(DIRECTORY openmesh_bindings/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
-    FILES_MATCHING PATTERN "*.cpp")
+    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.cpp")
 endif()
 
 # ---- the CMake package ---------------------------------------------------------------------------
@@ -48,8 +54,9 @@ configure_package_config_file(cmake/flbcConfig.cmake.in flbcConfig.cmake
 write_basic_package_version_file(flbcConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/flbcConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/flbcConfigVersion.cmake
-  DESTINATION ${package_dir})
-install(FILES cmake/FindCHOLMOD.cmake cmake/FindTetGen.cmake DESTINATION ${package_dir}/modules)
+  DESTINATION ${package_dir} COMPONENT core_dev)
+install(FILES cmake/FindCHOLMOD.cmake cmake/FindTetGen.cmake DESTINATION ${package_dir}/modules
+  COMPONENT core_dev)
 
 # ---- pkg-config ----------------------------------------------------------------------------------
 file(RELATIVE_PATH FLBC_PC_PREFIX
@@ -68,6 +75,7 @@ if(FLBC_WITH_CHOLMOD)
   string(APPEND FLBC_PC_LIBS_PRIVATE " -lcholmod")
 endif()
 configure_file(cmake/flbc.pc.in flbc.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT core_dev)
 
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT core_dev)

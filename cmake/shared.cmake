@@ -1,0 +1,85 @@
+# Shared libraries, with -DBUILD_SHARED_LIBS=ON: they carry their version, find each other wherever
+# the tree is moved, and export what a public header names and nothing else. The linker sees to that
+# by the list of names that is made here: visibility attributes would have to stand at every
+# function, because those of a namespace do not reach templates that are defined in source files.
+if(NOT BUILD_SHARED_LIBS)
+  return()
+endif()
+if(FLBC_BUILD_TESTS)
+  message(FATAL_ERROR "The tests call what shared libraries do not export: \
+-DFLBC_BUILD_TESTS=OFF, or build static libraries")
+endif()
+include(GNUInstallDirs)
+
+set(shared_libraries flbc flbc_io flbc_cgal flbc_tetgen flbc_netgen flbc_openmesh)
+# What libraries beside the core call of its inside.
+set(shared_inside
+  cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
+  meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
+
+# The words of headers in the form of mangled names: length, word.
+function(flbc_words_of headers result)
+  set(words)
+  foreach(header IN LISTS headers)
+    file(READ ${header} text)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*" found "${text}")
+    list(APPEND words ${found})
+  endforeach()
+  list(REMOVE_DUPLICATES words)
+  # Namespaces: the names in them are told one by one, or are nobody's business.
+  list(REMOVE_ITEM words flbc io openmesh distance)
+  set(mangled)
+  foreach(word IN LISTS words)
+    string(LENGTH ${word} length)
+    list(APPEND mangled ${length}${word})
+  endforeach()
+  set(${result} ${mangled} PARENT_SCOPE)
+endfunction()
+
+# Functions and variables, const functions, and what belongs to types.
+function(flbc_list_exports namespace headers)
+  flbc_words_of("${headers}" words)
+  foreach(kind N NK TIN TSN TVN TTN)
+    foreach(word IN LISTS words)
+      string(APPEND exports "    _Z${kind}${namespace}${word}*;\n")
+    endforeach()
+  endforeach()
+  string(APPEND exports "    _ZN${namespace}[a-z]*;\n")  # operators
+  set(exports "${exports}" PARENT_SCOPE)
+endfunction()
+
+set(exports)
+file(GLOB core libflbc/include/flbc/*.h)
+foreach(name IN LISTS shared_inside)
+  list(APPEND core ${PROJECT_SOURCE_DIR}/libflbc/src/${name}.h)
+endforeach()
+file(GLOB io libflbc/io/include/flbc/io/*.h)
+file(GLOB openmesh openmesh_bindings/include/flbc/openmesh/*.h)
+flbc_list_exports(4flbc "${core}")
+flbc_list_exports(4flbc2io "${io}")
+flbc_list_exports(4flbc8openmesh "${openmesh}")
+file(CONFIGURE OUTPUT exports.map CONTENT "{\n  global:\n@exports@  local: *;\n};\n" @ONLY)
+
+foreach(target IN LISTS shared_libraries)
+  if(NOT TARGET ${target})
+    continue()
+  endif()
+  # An interface may change with every minor version, as write_basic_package_version_file() says.
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH "$ORIGIN")
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  target_link_options(${target} PRIVATE
+    -Wl,--version-script=${CMAKE_CURRENT_BINARY_DIR}/exports.map)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS
+    ${CMAKE_CURRENT_BINARY_DIR}/exports.map)
+endforeach()
+if(TARGET flbc_gltf)
+  set_target_properties(flbc_gltf PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endif()
+if(TARGET flbc_app)
+  file(RELATIVE_PATH to_libraries /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(flbc_app PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+endif()

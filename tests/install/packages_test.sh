@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Usage: packages_test.sh BUILD SOURCE WORK
+# Makes the packages of a build, installs them with what they depend on, and nothing else, into a
+# Debian of their own, and uses them there: the program solves and runs on a sample, then a
+# stranger's project and an example are compiled. Skipped (77) where no such Debian can be made.
+set -euo pipefail
+build=$1 source=$2 work=$3
+
+skip() {
+  echo "$1"
+  exit 77
+}
+[ "$(id -u)" = 0 ] || skip "only root makes a root"
+for tool in mmdebstrap dpkg-shlibdeps cpack; do
+  command -v $tool >/dev/null || skip "$tool is missing"
+done
+
+rm -rf "$work"
+mkdir -p "$work/debs"
+cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/debs" >"$work/cpack.log" ||
+  { cat "$work/cpack.log"; exit 1; }
+rm -rf "$work/debs/_CPack_Packages"
+packages=("$work"/debs/*.deb)
+
+field() { dpkg-deb -f "$1" "$2"; }
+# What packages depend on, but for each other.
+depends_of() {
+  local all=""
+  for package in "${packages[@]}"; do all+=" $(field "$package" Package) "; done
+  for package in "$@"; do field "$package" Depends | tr ',' '\n'; done |
+    sed 's/|.*//; s/(.*//; s/ //g' | sort -u | while read -r name; do
+    [[ -z $name || $all == *" $name "* ]] || echo "$name"
+  done | paste -sd,
+}
+# Makes a root of what the packages need and of further packages, and installs them in it.
+make_root() {
+  local root=$1 further=$2
+  shift 2
+  local include
+  include=$(depends_of "$@")
+  mmdebstrap --quiet --mode=root --variant=apt --include="$include${further:+,$further}" \
+    "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" >"$root.log" 2>&1 ||
+    { cat "$root.log"; skip "no Debian to be had"; }
+  mkdir "$root/debs"
+  cp "$@" "$root/debs"
+  chroot "$root" sh -c 'dpkg -i debs/*.deb' >"$root.dpkg" 2>&1 || { cat "$root.dpkg"; exit 1; }
+  cp -r "$source/meshes" "$root/meshes"
+}
+
+# ---- the program, with what runs alone -----------------------------------------------------------
+runtime=()
+for package in "${packages[@]}"; do
+  [[ $(field "$package" Package) == *-dev ]] || runtime+=("$package")
+  chroot_files=$(dpkg-deb -c "$package")
+  [[ $chroot_files == *"/copyright"* ]] || { echo "$package has no copyright"; exit 1; }
+done
+make_root "$work/user" "" "${runtime[@]}"
+use() { chroot "$work/user" env OMP_WAIT_POLICY=passive "$@"; }
+use flbc --version
+use flbc solve meshes/2d/letter_cage.obj --model meshes/2d/letter_model.obj -o w.npy
+use flbc solve meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --vertices 2000 -o v.npy
+use flbc check meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --weights v.npy
+use flbc run meshes/3d/limb_cage.obj meshes/3d/limb_model.obj --vertices 2000 -q -o out
+for file in out/model.glb usr/share/man/man1/flbc-solve.1.gz \
+  usr/share/bash-completion/completions/flbc; do
+  [ -s "$work/user/$file" ] || [ -s "$work/user/${file%.gz}" ] || { echo "no $file"; exit 1; }
+done
+rm -rf "$work/user"
+
+# ---- programs of others, with all packages -------------------------------------------------------
+make_root "$work/developer" g++,cmake,make,pkg-config "${packages[@]}"
+cp -r "$source/tests/install/consumer" "$work/developer/consumer"
+cat >"$work/developer/example.cmake" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(example LANGUAGES CXX)
+find_package(flbc CONFIG REQUIRED COMPONENTS cgal tetgen openmesh)
+add_executable(bind_and_deform /usr/share/doc/flbc/examples/bind_and_deform.cpp)
+target_link_libraries(bind_and_deform PRIVATE flbc::openmesh flbc::tetgen flbc::cgal)
+END
+cat >"$work/developer/compile.sh" <<'END'
+set -eu
+export OMP_WAIT_POLICY=passive
+cd /consumer
+for name in use_core use_io; do
+  g++ -std=c++17 $name.cpp $(pkg-config --cflags --libs --static flbc) -o $name
+  ./$name
+done
+cmake -S . -B build -DCOMPONENTS="cgal tetgen openmesh" >/dev/null
+cmake --build build -j2
+(cd build && ctest --output-on-failure)
+mkdir /example && mv /example.cmake /example/CMakeLists.txt
+cmake -S /example -B /example/build >/dev/null
+cmake --build /example/build
+cd /meshes/3d
+/example/build/bind_and_deform limb_cage.obj limb_model.obj limb_cage_pose.obj /moved.obj
+test -s /moved.obj
+END
+chroot "$work/developer" sh /compile.sh
+rm -rf "$work/developer"
