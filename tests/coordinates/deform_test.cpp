@@ -133,5 +133,29 @@ TEST(SparseWeights, KeepWhatIsAboveTheThresholdBitByBit) {
   EXPECT_THROW(SparseWeights(weights, std::nan("")), OptionError);
 }
 
+TEST(SparseWeights, GiveBackTheMatrixTheyWereMadeOf) {
+  WeightMatrix weights = WeightMatrix::Random(7, 3000);
+  weights = (weights.array() > 0.2).select(weights, 0);
+  const SparseWeights sparse(weights);
+  EXPECT_EQ(sparse.dense(), weights);
+  EXPECT_EQ(sparse.at(17), weights.col(17));
+  const SparseWeights same(7, sparse.starts(), sparse.control_points(), sparse.values());
+  EXPECT_EQ(same.dense(), weights);
+}
+
+TEST(SparseWeights, RefusePartsThatDoNotFit) {
+  EXPECT_NO_THROW(SparseWeights(3, {0, 2, 2, 3}, {0, 2, 1}, {0.5, 0.5, 1}));
+  EXPECT_THROW(SparseWeights(3, {}, {}, {}), InputError);
+  EXPECT_THROW(SparseWeights(-1, {0}, {}, {}), InputError);
+  EXPECT_THROW(SparseWeights(3, {1, 3}, {0, 2, 1}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 2}, {0, 2, 1}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 3}, {0, 1}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 4, 3}, {0, 1, 2}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 2, 1, 3}, {0, 1, 2}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 3}, {0, 1, 3}, {0.5, 0.5, 1}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 2}, {1, 1}, {0.5, 0.5}), InputError);
+  EXPECT_THROW(SparseWeights(3, {0, 2}, {0, 1}, {0.5, std::nan("")}), InputError);
+}
+
 }  // namespace
 }  // namespace flbc

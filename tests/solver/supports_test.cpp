@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The iteration on supports: its linear step against a dense solver of the same problem, and its
 // limit against the iteration on all pairs.
+#include <algorithm>
+#include <limits>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -146,9 +149,9 @@ TYPED_TEST(SupportsTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
   const LinearStep<kDim> step(problem, supports_of_harmonic(problem, 0.02));
-  const DenseSpace<kDim> space(
-      problem, reordered(step.matrix, step.order.position, step.order.position),
-      step.lists, step.vertices);
+  const DenseSpace<kDim> space(problem,
+                               reordered(step.matrix, step.order.position, step.order.position),
+                               step.lists, step.vertices);
   ASSERT_GT(space.basis.cols(), 20);
   for (const auto* kernel : kernels<kDim>()) {
     supports::SupportMultigrid<double, kDim> multigrid(step.matrix, step.order, step.lists,
@@ -193,9 +196,10 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
   };
   supports::Iteration<Scalar, Dim> iteration(problem, metric, options, run, report);
-  auto last = iteration.template run<Stored>(start, start.penalty,
-                                             supports_of_harmonic(problem, 0.2), [] {});
-  return {std::move(last.weights), std::move(report)};
+  auto last =
+      iteration.template run<Stored>(start, start.penalty, supports_of_harmonic(problem, 0.2),
+                                     {0, std::numeric_limits<int>::max()}, [] {});
+  return {last.weights.dense(), std::move(report)};
 }
 
 TYPED_TEST(SupportsTest, GrowsToTheOptimumOfAllPairs) {
@@ -289,12 +293,72 @@ TYPED_TEST(SupportsTest, EveryVertexHasWeightsOnItsSupport) {
   }
 }
 
+// Pair by pair, over all pairs of vertices of a cell.
+TYPED_TEST(SupportsTest, EndsAreWhereANeighbourLacksTheControlPoint) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+  const auto lists = supports_of_harmonic(problem, 0.1);
+  const auto holds = [&](Index v, ControlPoint i) {
+    const auto list = lists.of(v);
+    return std::find(list.first, list.last, i) != list.last;
+  };
+  std::set<std::pair<Index, ControlPoint>> ends;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    for (const Index v : problem.mesh.cells.col(s)) {
+      for (const Index u : problem.mesh.cells.col(s)) {
+        if (!problem.boundary.is_interior(v) || !problem.boundary.is_interior(u)) continue;
+        for (const ControlPoint i : lists.of(v)) {
+          if (!holds(u, i)) ends.insert({v, i});
+        }
+      }
+    }
+  }
+  ASSERT_FALSE(ends.empty());
+  const auto weight_of = [](Index v, ControlPoint i) { return 1.0 + v % 7 + 0.1 * i; };
+  double expected = 0;
+  for (const auto& [v, i] : ends) expected += weight_of(v, i) * weight_of(v, i);
+  const auto in_list = [&](Index v, Index place) { return weight_of(v, lists.of(v).first[place]); };
+  EXPECT_NEAR(supports::squared_at_ends(problem, lists, in_list), expected, 1e-10 * expected);
+  const auto larger = supports::grown(problem, lists, 0, in_list);
+  EXPECT_GT(larger.items.size(), lists.items.size());
+  EXPECT_EQ(supports::grown(problem, lists, 1e9, in_list).items, lists.items);
+}
+
+// What is near the weights stays as it is, the rest is zero.
+TYPED_TEST(SupportsTest, FluxIsHandedOnWhereWeightsAre) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+  const Index n = problem.num_control_points();
+  const WeightMatrix weights = harmonic_coordinates(problem);
+  DualStart<kDim> start;
+  start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
+  start.flux_density = [&](Index s) {
+    return Eigen::Matrix<double, Eigen::Dynamic, kDim>::Constant(n, kDim, s + 1).eval();
+  };
+  constexpr double kThreshold = 0.1;
+  const auto handed_on = supports::where_weights_are(problem, start, kThreshold);
+  Index zeros = 0;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const auto density = handed_on(s);
+    for (Index i = 0; i < n; ++i) {
+      bool is_near = false;
+      for (const Index v : problem.mesh.cells.col(s)) is_near |= weights(i, v) > kThreshold;
+      const double number = density(i, 0);
+      EXPECT_TRUE(!is_near || number == s + 1);
+      if (number == 0) ++zeros;
+      EXPECT_TRUE(number == 0 || number == s + 1);
+      EXPECT_TRUE((density.row(i).array() == number).all());
+    }
+  }
+  EXPECT_GT(zeros, 0);
+}
+
 TEST(Supports, AreForManyControlPointsIn3D) {
   const auto serve = [](const auto& problem, ActivePairs choice, bool certify) {
     SolverOptions options;
     options.active_pairs = choice;
     options.certify = certify;
-    return supports::serve(problem, resolve(options), true);
+    return supports::serve(problem, resolve(options));
   };
   const auto few = make_fine_problem<3>(Shape::kBox);
   ASSERT_LT(few.num_control_points(), 80);

@@ -50,6 +50,7 @@
 #include "flbc/self_intersections.h"
 #include "flbc/solver.h"
 #include "flbc/solver_state.h"
+#include "flbc/sparse_weights.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "flbc/tetrahedralize.h"

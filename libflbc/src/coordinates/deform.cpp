@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/deform.h"
 
-#include <cmath>
 #include <string>
 
 #include "coordinates/weighted_sums.h"
@@ -9,9 +8,6 @@
 
 namespace flbc {
 namespace {
-
-// Below this many points waking threads up takes longer than collecting their weights.
-constexpr Eigen::Index kParallelPoints = 2000;
 
 void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
   if (in_weights == in_pose) return;
@@ -35,32 +31,6 @@ PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control
     for (int d = 0; d < Dim; ++d) points(d, p) = coordinates.col(d).dot(weights.col(p));
   }
   return points;
-}
-
-SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
-    : num_control_points_(static_cast<Index>(weights.rows())),
-      starts_(static_cast<std::size_t>(weights.cols()) + 1, 0) {
-  if (!(threshold >= 0)) {
-    throw OptionError("the threshold of sparse weights must be 0 or more, not " +
-                      std::to_string(threshold));
-  }
-  const Eigen::Index count = weights.cols();
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
-  for (Eigen::Index p = 0; p < count; ++p) {
-    starts_[p + 1] = (weights.col(p).array().abs() > threshold).count();
-  }
-  for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
-  control_points_.resize(starts_.back());
-  values_.resize(starts_.back());
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
-  for (Eigen::Index p = 0; p < count; ++p) {
-    std::int64_t entry = starts_[p];
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      if (!(std::abs(weights(i, p)) > threshold)) continue;
-      control_points_[entry] = static_cast<std::uint32_t>(i);
-      values_[entry++] = weights(i, p);
-    }
-  }
 }
 
 template <int Dim>

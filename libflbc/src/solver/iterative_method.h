@@ -57,8 +57,7 @@ MethodResult solve_by_gradients(const LbcProblem<Dim>& problem, const SolverOpti
 //! Method::kValue. Parameters as above.
 template <int Dim>
 MethodResult solve_by_value(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                            SolveReport& report, StateStorage* storage,
-                            WarmStart<Dim> warm_start);
+                            SolveReport& report, StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! Method::kLbc2014. Parameters as above.
 template <int Dim>
@@ -78,14 +77,12 @@ Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Me
 
 //! p / A from p, in the form of MeshState.
 template <class Scalar, int Dim>
-Eigen::MatrixXd flux_densities(const LbcProblem<Dim>& problem,
-                               const CellFieldView<Scalar, Dim>& flux) {
-  Eigen::MatrixXd densities(flux.n, Dim * problem.mesh.num_cells());
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    densities.template middleCols<Dim>(Dim * s) =
-        flux.cell(s).transpose() / signed_measure(problem.mesh, s);
-  }
-  return densities;
+FluxDensities<Dim> flux_densities(const LbcProblem<Dim>& problem,
+                                  const CellFieldView<Scalar, Dim>& flux) {
+  return {flux.n, problem.mesh.num_cells(),
+          [&](Index s) -> Eigen::Matrix<double, Eigen::Dynamic, Dim> {
+            return flux.cell(s).transpose() / signed_measure(problem.mesh, s);
+          }};
 }
 
 //! Options by which whoever is told of the progress can ask for the objective.
@@ -106,7 +103,6 @@ inline TellPart told_of(const SolverOptions& options, Stage stage) {
 
 //! Ends the run or tells the caller, after an evaluation of the residuals that `report` holds.
 //! Sets status and criterion. \return whether to stop
-bool finished(int iteration, const SolverOptions& options, GapCriterion& gap,
-              SolveReport& report);
+bool finished(int iteration, const SolverOptions& options, GapCriterion& gap, SolveReport& report);
 
 }  // namespace flbc

@@ -43,7 +43,7 @@ class Cascade {
     const auto forget_levels = [&] {
       transfer.reset();
       state_ = {};
-      for (auto& level : levels_) level = {{}, {}, {}, level.report};
+      for (auto& level : levels_) level = {{}, {}, level.report};
     };
     auto result =
         run_method(problem_, options, report, storage, {transfer.get(), nullptr, forget_levels});
@@ -71,8 +71,8 @@ class Cascade {
     };
     std::unique_ptr<Transfer<Dim>> transfer;
     if (num_solved_ > 0) {
-      transfer = std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, state_,
-                                                 level.problem);
+      transfer =
+          std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, state_, level.problem);
     }
     SolveReport report;
     MeshState<Dim> state;
@@ -101,8 +101,8 @@ Solution solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProb
   return cascade.solve_finest(storage);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                   \
-  template Solution solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>,  \
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template Solution solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>, \
                                      const SolverOptions&, StateStorage*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

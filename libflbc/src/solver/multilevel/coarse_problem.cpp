@@ -7,7 +7,9 @@
 
 #include "base/stopwatch.h"
 #include "flbc/mesh_parts.h"
+#include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
+#include "solver/warm_start/transfer.h"
 
 namespace flbc {
 namespace {
@@ -32,36 +34,53 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
 }  // namespace
 
 template <int Dim>
+Eigen::MatrixXd distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                               const std::vector<Location<Dim>>& places) {
+  return enlargement(coarse, problem) *
+         interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
+                                     points_in_coarse(coarse, problem, problem.mesh.points),
+                                     places);
+}
+
+template <int Dim>
 std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
                                                      const CoarseMesher<Dim>& mesher,
                                                      const std::vector<Index>& sizes,
-                                                     DistanceScheme scheme) {
+                                                     DistanceScheme scheme, bool interpolates) {
   std::vector<CoarseProblem<Dim>> coarse;
   for (const Index size : sizes) {
     Stopwatch watch;
-    const Index below = coarse.empty() ? 0 : coarse.back().report.vertices;
-    auto mesh = make_mesh(mesher, problem.cage, size, below, problem.mesh.num_vertices());
+    const Index vertices_below = coarse.empty() ? 0 : coarse.back().report.vertices;
+    auto mesh = make_mesh(mesher, problem.cage, size, vertices_below, problem.mesh.num_vertices());
     if (!mesh) continue;
     LevelReport report;
     report.vertices = mesh->num_vertices();
     report.cells = mesh->num_cells();
     report.mesh_seconds = watch.lap();
     auto geometry = make_geometry(problem.cage, std::move(*mesh));
-    auto distances = distances_for(scheme, geometry);
-    geometry.phi = {scheme, distances, geometry.mesh, problem.num_control_points()};
+    // They are checked where the finest mesh takes them over.
+    const auto interpolated = [&] {
+      const auto& below = coarse.back().problem;
+      return distances_from(below, geometry,
+                            places_in_coarse(below, geometry, geometry.mesh.points));
+    };
+    auto distances =
+        interpolates && !coarse.empty() ? interpolated() : distances_for(scheme, geometry);
+    geometry.phi = {scheme, std::move(distances), geometry.mesh, problem.num_control_points()};
     report.setup_seconds = watch.lap();
-    coarse.push_back({std::move(geometry), std::move(distances), {}, report});
+    coarse.push_back({std::move(geometry), {}, report});
   }
   return coarse;
 }
 
-template std::vector<CoarseProblem<2>> make_coarse_problems(const LbcProblem<2>&,
-                                                            const CoarseMesher<2>&,
-                                                            const std::vector<Index>&,
-                                                            DistanceScheme);
-template std::vector<CoarseProblem<3>> make_coarse_problems(const LbcProblem<3>&,
-                                                            const CoarseMesher<3>&,
-                                                            const std::vector<Index>&,
-                                                            DistanceScheme);
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template Eigen::MatrixXd distances_from(const LbcProblem<Dim>&, const LbcProblem<Dim>&,          \
+                                          const std::vector<Location<Dim>>&);                      \
+  template std::vector<CoarseProblem<Dim>> make_coarse_problems(                                   \
+      const LbcProblem<Dim>&, const CoarseMesher<Dim>&, const std::vector<Index>&, DistanceScheme, \
+      bool);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

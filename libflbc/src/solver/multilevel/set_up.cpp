@@ -8,8 +8,6 @@
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "flbc/mesh_parts.h"
-#include "mesh/cell_walk.h"
-#include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/level_sizes.h"
@@ -40,16 +38,6 @@ Index size_for_distances(Index finest, double tolerance) {
   constexpr double kCoarsestIsEnough = 1e-6;
   constexpr Index kRatio = 12;
   return tolerance >= kCoarsestIsEnough ? 1 : finest / kRatio;
-}
-
-template <int Dim>
-Eigen::MatrixXd interpolate_from(CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem) {
-  const auto points = points_in_coarse(coarse.problem, problem, problem.mesh.points);
-  coarse.finest_vertices = walk_to_points(coarse.problem.mesh, coarse.problem.topology, points);
-  return enlargement(coarse.problem, problem) *
-         interpolated_distances<Dim>(
-             {coarse.problem.mesh, coarse.problem.cage.points, coarse.distances}, points,
-             coarse.finest_vertices);
 }
 
 // Some control points: from the one that is the farthest from a part of the domain, in even steps
@@ -103,7 +91,9 @@ template <int Dim>
 Eigen::MatrixXd choose_distances(SetUp<Dim>& result, const SolverOptions& options) {
   constexpr double kPart = 0.5;  // of the tolerance
   auto& coarse = result.coarse.back();
-  auto distances = interpolate_from(coarse, result.problem);
+  coarse.finest_vertices =
+      places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
+  auto distances = distances_from(coarse.problem, result.problem, coarse.finest_vertices);
   const double error = check_on_sample(result.problem, options.phi, distances);
   if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
     return distances_for(options.phi, result.problem);
@@ -123,7 +113,7 @@ std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMeshe
   // A penalty of the metric A^2 belongs to one mesh, and who gives it wants the iteration as it is.
   if (options.method == Method::kLbc2014 && options.penalty > 0) return {};
   return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(), options.method,
-                          supports::serve(problem, options, true), options.coarse_levels);
+                          supports::serve(problem, options), options.coarse_levels);
 }
 
 template <int Dim>
@@ -143,7 +133,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   if (interpolates && !starts_coarse) {
     sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
   }
-  result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
+  result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi, interpolates);
   const StageScope scope(told_of(options, Stage::kDistances));
   auto distances = interpolates && !result.coarse.empty() ? choose_distances(result, options)
                                                           : distances_for(options.phi, problem);

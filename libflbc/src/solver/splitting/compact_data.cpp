@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mesh/cell_geometry.h"
+#include "problem/boundary_flux.h"
 
 namespace flbc::compact {
 namespace {
@@ -31,18 +32,11 @@ void set_up_rows(const LbcProblem<Dim>& problem, const splitting::Metric& metric
   }
 }
 
-// Squared length of the dual phi A grad w / |grad w| of a cell whose weights are given.
+// Squared length of the dual p of a boundary cell.
 template <int Dim>
 double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
-  const auto geometry = cell_geometry(problem.mesh, s);
-  Eigen::MatrixXd corners = Eigen::MatrixXd::Zero(problem.num_control_points(), Dim + 1);
-  for (int k = 0; k <= Dim; ++k) {
-    problem.boundary.scatter(problem.boundary.boundary_index[problem.mesh.cells(k, s)],
-                             corners.col(k));
-  }
-  const Eigen::ArrayXd lengths = (corners * geometry.hat_gradients.transpose()).rowwise().norm();
-  const Eigen::ArrayXd radii = geometry.measure * problem.phi.col(s).array();
-  return (lengths > 0).select(radii.square(), 0).sum();
+  const double measure = cell_geometry(problem.mesh, s).measure;
+  return measure * measure * boundary_flux_density(problem, s).squaredNorm();
 }
 
 // Cells all of whose corners lie on the boundary have nothing to say about the weights.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the compact splitting hands back.
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/cell_geometry.h"
+#include "problem/boundary_flux.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/warm_start/flux_length.h"
 
@@ -49,6 +51,7 @@ Eigen::VectorXd CompactSplitting<Scalar, Stored, Dim>::vertex_dual_at(Index vert
 template <class Scalar, class Stored, int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>::flux_density(
     Index cell) const {
+  if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
   AlignedArray<Scalar> rows(Dim * stride_);
   kernel_.decode(cell_dual_.data() + static_cast<std::size_t>(cell) * Dim * stride_, rows.data(),
                  Dim * stride_);
@@ -75,27 +78,16 @@ CellFieldView<Scalar, Dim> CompactSplitting<Scalar, Stored, Dim>::flux() {
   return {flux_.data(), stride_, n_};
 }
 
-// Between boundary vertices the weights are given, and with them the best dual.
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::set_boundary_flux() {
-  std::vector<bool> listed(problem_.mesh.num_cells(), false);
-  for (const Index s : data_.cell_index) listed[s] = true;
   for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-    if (listed[s]) continue;
-    const auto geometry = cell_geometry(problem_.mesh, s);
-    for (Index i = 0; i < n_; ++i) {
-      Vector<Dim> gradient = Vector<Dim>::Zero();
-      for (int k = 0; k <= Dim; ++k) {
-        const std::size_t row = data_.row_of[problem_.mesh.cells(k, s)];
-        gradient +=
-            static_cast<double>(extrapolated_[row * stride_ + i]) * geometry.hat_gradients.col(k);
-      }
-      if (!(gradient.norm() > 0)) continue;
-      gradient *= problem_.phi(i, s) * geometry.measure / gradient.norm();
-      for (int d = 0; d < Dim; ++d) {
-        flux_[(static_cast<std::size_t>(s) * Dim + d) * stride_ + i] =
-            static_cast<Scalar>(gradient[d]);
-      }
+    if (!is_boundary_cell(problem_, s)) continue;
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> flux =
+        cell_geometry(problem_.mesh, s).measure * boundary_flux_density(problem_, s);
+    for (int d = 0; d < Dim; ++d) {
+      std::transform(flux.col(d).begin(), flux.col(d).end(),
+                     flux_.data() + (static_cast<std::size_t>(s) * Dim + d) * stride_,
+                     [](double number) { return static_cast<Scalar>(number); });
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/value_run.h"
 #include "solver/state_storage.h"
+#include "solver/supports/cold_start.h"
 #include "solver/supports/iterate_on_supports.h"
 #include "solver/warm_start/dual_start.h"
 
@@ -76,17 +77,10 @@ class ValueSolve {
 
   template <class Stored>
   MethodResult solve() {
-    const bool on_supports =
-        storage_ == nullptr && supports::serve(problem_, options_, start_.has_value());
-    if (on_supports && !start_) {
-      // The weights have to be local before they tell their supports.
-      constexpr int kFirst = 41;
-      if (auto result = on_all_pairs<Stored>(kFirst)) return std::move(*result);
+    if (storage_ == nullptr && supports::serve(problem_, options_)) {
+      if (auto result = on_supports<Stored>()) return std::move(*result);
     }
-    if (on_supports) {
-      if (auto result = on_supports_of_start<Stored>()) return std::move(*result);
-    }
-    return std::move(*on_all_pairs<Stored>(kNever));
+    return on_all_pairs<Stored>();
   }
 
  private:
@@ -102,7 +96,12 @@ class ValueSolve {
     if (resumes(storage_)) return storage_->penalty();
     if (options_.penalty > 0) return options_.penalty;
     if (start_) return start_->penalty;
-    return bounding_box_diagonal(problem_.cage.points) / 40;
+    return penalty_of_size();
+  }
+
+  double penalty_of_size() const {
+    return options_.penalty > 0 ? options_.penalty
+                                : bounding_box_diagonal(problem_.cage.points) / 40;
   }
 
   // Frees the coarser mesh's state or the other iteration, which the start refers to.
@@ -112,9 +111,8 @@ class ValueSolve {
     warm_start_.started = nullptr;
   }
 
-  // \return nothing if it paused: the start is then where it is
   template <class Stored>
-  std::optional<MethodResult> on_all_pairs(int pause) {
+  MethodResult on_all_pairs() {
     constexpr int kRichardsonSteps = 8;
     const auto splitting = std::make_shared<Splitting<Stored>>(
         problem_, metric_, choose_penalty(), options_.relaxation,
@@ -132,20 +130,14 @@ class ValueSolve {
       splitting->start_from_harmonic(kRichardsonSteps);
     }
     forget_start();
-    return advance(splitting, pause);
+    return advance(splitting);
   }
 
   template <class Stored>
-  std::optional<MethodResult> advance(std::shared_ptr<Splitting<Stored>> splitting, int pause) {
-    switch (run_.iterate(*splitting, certify_by(splitting), {0, pause})) {
-      case Outcome::kEnded:
-        return end(std::move(splitting));
-      case Outcome::kPaused:
-        start_ = start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting));
-        return {};
-      default:
-        return advance(in_single(std::move(splitting)), pause);
-    }
+  MethodResult advance(std::shared_ptr<Splitting<Stored>> splitting) {
+    const auto outcome = run_.iterate(*splitting, certify_by(splitting), {earliest_, kNever});
+    return outcome == Outcome::kEnded ? end(std::move(splitting))
+                                      : advance(in_single(std::move(splitting)));
   }
 
   template <class Stored>
@@ -157,33 +149,51 @@ class ValueSolve {
     }
   }
 
-  // \return nothing if it has to go on with all pairs: the start is then where it is
+  supports::SupportLists supports_of_start(bool cold) const {
+    // Harmonic coordinates reach farther than the weights that follow from them.
+    constexpr double kLeastHarmonic = 3e-3;
+    if (cold) return supports::supports_of(problem_, start_->weights, kLeastHarmonic);
+    return supports::supports_from(problem_, *warm_start_.from,
+                                   supports::threshold_for(options_.tolerance));
+  }
+
+  // A coarse mesh has told then where weights are.
+  Window window_of(bool cold) const {
+    if (!cold) return {0, kNever};
+    return {kUntilDualsAreThere, warm_start_.final_state ? kUntilDualsAreThere : kNever};
+  }
+
+  // \return nothing if it has to go on with all pairs, from the start if there is one
   template <class Stored>
-  std::optional<MethodResult> on_supports_of_start() {
+  std::optional<MethodResult> on_supports() {
+    const bool cold = !start_;
+    if (cold) start_ = supports::cold_start(problem_, linear_solver_for(problem_, options_));
+    auto lists = supports_of_start(cold);
+    if (!supports::pay(problem_, options_, lists)) {
+      if (cold) start_.reset();
+      return {};
+    }
     run_.offer_no_state();
-    const double threshold = supports::threshold_for(options_.tolerance);
-    auto lists = warm_start_.from ? supports::supports_from(problem_, *warm_start_.from, threshold)
-                                  : supports::supports_of(problem_, start_->weights, threshold);
-    if (!supports::pay(problem_, options_, lists)) return {};
     supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
     // Where fewer weights move a smaller penalty serves, and a yet smaller one where they are
     // nearly right already; as measured.
-    const double part = options_.penalty > 0 ? 1 : warm_start_.from ? 0.25 : 0.5;
-    const double of_all_pairs = choose_penalty();
-    report_.penalty = part * of_all_pairs;
-    auto last = iteration.template run<Stored>(*std::exchange(start_, {}), report_.penalty,
-                                               std::move(lists), [&] { forget_start(); });
-    last.state = with_penalty(last.state, of_all_pairs);
+    const double part = options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25;
+    if (cold && options_.penalty == 0) iteration.balance_from(start_->weights, part);
+    const double penalty = part * (cold ? penalty_of_size() : choose_penalty());
+    auto last =
+        iteration.template run<Stored>(*std::exchange(start_, {}), penalty, std::move(lists),
+                                       window_of(cold), [&] { forget_start(); });
+    report_.penalty = last.state.penalty;
+    last.state = with_penalty(last.state, last.state.penalty / part);
     if (!last.ended || options_.certify) {
       start_ = std::move(last.state);
+      earliest_ = report_.iterations + kUntilDualsAreThere;
       return {};
     }
-    if (warm_start_.final_state) {
-      *warm_start_.final_state = keep_state(last.state);
-      warm_start_.final_state->flux_density = flux_densities_of(last.state);
-    }
+    if (warm_start_.final_state) *warm_start_.final_state = keep_state(last.state);
+    last.state = {};  // frees the iteration
     report_.seconds.solve = watch_.lap();
-    return MethodResult{std::move(last.weights), {}};
+    return MethodResult{last.weights.dense(), {}};
   }
 
   template <class Stored>
@@ -193,10 +203,10 @@ class ValueSolve {
     };
   }
 
-  // All but the flux.
   MeshState<Dim> keep_state(const DualStart<Dim>& start) const {
     const Index n = problem_.num_control_points();
     MeshState<Dim> state;
+    state.flux_density = {n, problem_.mesh.num_cells(), start.flux_density};
     state.penalty = start.penalty;
     state.weights = WeightMatrix::Zero(n, problem_.mesh.num_vertices());
     if (start.vertex_dual) state.vertex_dual = state.weights;
@@ -208,12 +218,13 @@ class ValueSolve {
     return state;
   }
 
-  Eigen::MatrixXd flux_densities_of(const DualStart<Dim>& start) const {
-    Eigen::MatrixXd densities(problem_.num_control_points(), Dim * problem_.mesh.num_cells());
-    for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
-      densities.template middleCols<Dim>(Dim * s) = start.flux_density(s);
-    }
-    return densities;
+  // What a finer mesh that works on supports will read of the state.
+  DualStart<Dim> handed_on(DualStart<Dim> start) const {
+    if (!supports::serve(problem_, options_)) return start;
+    const double finer_tolerance = options_.tolerance / options_.coarse_levels.looseness;
+    start.flux_density =
+        supports::where_weights_are(problem_, start, supports::threshold_for(finer_tolerance));
+    return start;
   }
 
   // Leaves everything where it is wanted.
@@ -226,13 +237,15 @@ class ValueSolve {
     if (storage_ != nullptr) storage_->keep_penalty(report_.penalty);
     if (warm_start_.final_state) {
       *warm_start_.final_state =
-          keep_state(start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting)));
-      warm_start_.final_state->flux_density = flux_densities(problem_, splitting->flux());
+          keep_state(handed_on(start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting))));
     }
     return {splitting->weights(), certify_by(splitting)};
   }
 
   static constexpr int kNever = std::numeric_limits<int>::max();
+  // Iterations it takes duals to come from nothing, before which small changes do not tell a small
+  // error.
+  static constexpr int kUntilDualsAreThere = 100;
 
   Stopwatch watch_;
   const LbcProblem<Dim>& problem_;
@@ -245,6 +258,7 @@ class ValueSolve {
   const splitting::Metric metric_;
   ValueRun<Scalar, Dim> run_;
   std::optional<DualStart<Dim>> start_;
+  int earliest_ = 0;  // iteration with which it may end on all pairs
 };
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace flbc::supports {
 
 //! Whether supports are to be looked for: where they pay, and nothing is asked for that they do not
-//! give. \param from_coarse  whether weights on a coarser mesh tell them
+//! give.
 template <int Dim>
-bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options, bool from_coarse) {
+bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options) {
   // Below, lists of control points are not much shorter than all of them, as measured; in 2D they
   // hold too few to leave the iteration freedom.
   constexpr Index kFewest = 80;
@@ -22,11 +22,7 @@ bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options, bool fr
   // Small meshes are fast as they are.
   constexpr double kFewestPairs = 4e5;
   if (static_cast<double>(n) * problem.mesh.num_vertices() < kFewestPairs) return false;
-  // Few iterations are left where the weights themselves have to tell, and the wanted error is
-  // large.
-  constexpr double kMany = 1e-6;
-  return Dim == 3 && n >= kFewest && !options.certify &&
-         (from_coarse || options.tolerance <= kMany);
+  return Dim == 3 && n >= kFewest && !options.certify;
 }
 
 //! Whether so many pairs take less time than all.

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "solver/splitting/value_run.h"
 #include "solver/supports/choice.h"
@@ -16,8 +17,8 @@ namespace flbc::supports {
 //! Where an iteration on supports has come to.
 template <int Dim>
 struct LastState {
-  bool ended = false;      //!< whether the run has ended; otherwise it is to go on with all pairs
-  WeightMatrix weights{};  //!< n x V, if it has
+  bool ended = false;       //!< whether the run has ended; otherwise it is to go on with all pairs
+  SparseWeights weights{};  //!< of V points, if it has
   DualStart<Dim> state{};
 };
 
@@ -30,9 +31,17 @@ class Iteration {
             const SolverOptions& options, ValueRun<Scalar, Dim>& run, SolveReport& report)
       : problem_(problem), metric_(metric), options_(options), run_(run), report_(report) {}
 
-  //! \param penalty  rho > 0 \param started  called when the start is needed no longer
+  //! Chooses the penalty itself, by how far weights move from where they started.
+  //! \param weights  of the start, of an interior vertex \param part  of the penalty of all pairs
+  void balance_from(VectorsAt<1> weights, double part) {
+    start_weights_ = std::move(weights);
+    part_ = part;
+  }
+
+  //! \param penalty  rho > 0 \param window  iterations with which the run may and has to end
+  //! \param started  called when the start is needed no longer
   template <class Stored>
-  LastState<Dim> run(DualStart<Dim> start, double penalty, SupportLists lists,
+  LastState<Dim> run(DualStart<Dim> start, double penalty, SupportLists lists, Window window,
                      const std::function<void()>& started);
 
  private:
@@ -43,16 +52,20 @@ class Iteration {
   std::shared_ptr<Splitting<Stored>> make(const DualStart<Dim>& start, double penalty,
                                           SupportLists lists) const;
   template <class Stored>
-  LastState<Dim> advance(std::shared_ptr<Splitting<Stored>> splitting, int earliest);
+  LastState<Dim> advance(std::shared_ptr<Splitting<Stored>> splitting, Window window);
   template <class Stored>
   bool reaches_ends(const Splitting<Stored>& splitting) const;
   int latest() const;
+  int next_balance() const;
+  double balanced_penalty(const DualStart<Dim>& state);
 
   const LbcProblem<Dim>& problem_;
   const splitting::Metric& metric_;
   const SolverOptions& options_;
   ValueRun<Scalar, Dim>& run_;
   SolveReport& report_;
+  VectorsAt<1> start_weights_;  // null where the penalty stays
+  double part_ = 1;
 };
 
 }  // namespace flbc::supports

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "projection/nearest_point_in_hull.h"
 
 namespace flbc::supports {
@@ -87,29 +88,29 @@ Flags flags_of_lists(const LbcProblem<Dim>& problem, const SupportLists& support
   return flags;
 }
 
-// Calls action(vertex, place in its list, neighbour) for interior vertices and their interior
-// neighbours that lack a control point, vertex by vertex and place by place.
-template <int Dim, class Action>
-void for_ends(const LbcProblem<Dim>& problem, const SupportLists& supports, const Action& action) {
-  const VertexCells around(problem.mesh);
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (!problem.boundary.is_interior(v)) continue;
-    std::vector<Index> neighbours;
-    for (const Index s : around.cells_of(v)) {
-      for (const Index u : problem.mesh.cells.col(s)) {
-        if (u != v && problem.boundary.is_interior(u)) neighbours.push_back(u);
-      }
+// Interior vertices that share a cell with one, ascending.
+template <int Dim>
+std::vector<Index> interior_neighbours(const LbcProblem<Dim>& problem, const VertexCells& around,
+                                       Index v) {
+  std::vector<Index> neighbours;
+  for (const Index s : around.cells_of(v)) {
+    for (const Index u : problem.mesh.cells.col(s)) {
+      if (u != v && problem.boundary.is_interior(u)) neighbours.push_back(u);
     }
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-    const auto list = supports.of(v);
-    for (const ControlPoint* item = list.first; item != list.last; ++item) {
-      for (const Index u : neighbours) {
-        const auto other = supports.of(u);
-        if (std::binary_search(other.first, other.last, *item)) continue;
-        action(v, static_cast<Index>(item - list.first), u);
-      }
-    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  return neighbours;
+}
+
+// Calls action(place) for the places of a list whose control points another one lacks, in order.
+template <class Action>
+void for_missing(const SupportLists::Range& list, const SupportLists::Range& other,
+                 const Action& action) {
+  const ControlPoint* theirs = other.first;
+  for (const ControlPoint* item = list.first; item != list.last; ++item) {
+    while (theirs != other.last && *theirs < *item) ++theirs;
+    if (theirs == other.last || *theirs != *item) action(static_cast<Index>(item - list.first));
   }
 }
 
@@ -164,29 +165,58 @@ SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& wei
 }
 
 template <int Dim>
+VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const DualStart<Dim>& start,
+                                 double threshold) {
+  return [&problem, lists = supports_of(problem, start.weights, threshold),
+          flux_density = start.flux_density](Index s) {
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> all = flux_density(s);
+    Eigen::Matrix<double, Eigen::Dynamic, Dim> near =
+        Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(all.rows(), Dim);
+    for (const Index v : problem.mesh.cells.col(s)) {
+      for (const ControlPoint i : lists.of(v)) near.row(i) = all.row(i);
+    }
+    return near;
+  };
+}
+
+template <int Dim>
 SupportLists grown(const LbcProblem<Dim>& problem, const SupportLists& supports, double threshold,
                    const WeightInList& weight) {
   Flags flags = flags_of_lists(problem, supports);
-  for_ends(problem, supports, [&](Index v, Index place, Index neighbour) {
-    if (weight(v, place) > threshold) flags(supports.of(v).first[place], neighbour) = true;
-  });
+  const VertexCells around(problem.mesh);
+  for (const Index v : problem.boundary.interior_vertices()) {
+    const auto list = supports.of(v);
+    for (const Index u : interior_neighbours(problem, around, v)) {
+      for_missing(list, supports.of(u), [&](Index place) {
+        if (weight(v, place) > threshold) flags(list.first[place], u) = true;
+      });
+    }
+  }
   return lists_from(flags);
 }
 
 template <int Dim>
 double squared_at_ends(const LbcProblem<Dim>& problem, const SupportLists& supports,
                        const WeightInList& weight) {
-  double sum = 0;
-  Index last_vertex = -1;
-  Index last_place = -1;
-  for_ends(problem, supports, [&](Index v, Index place, Index) {
-    if (v == last_vertex && place == last_place) return;
-    last_vertex = v;
-    last_place = place;
-    const double w = weight(v, place);
-    sum += w * w;
+  const VertexCells around(problem.mesh);
+  const auto interior = problem.boundary.interior_vertices();
+  return parallel_sum(static_cast<Index>(interior.size()), 0.0, [&](Index begin, Index end) {
+    double sum = 0;
+    std::vector<bool> is_end;
+    for (Index k = begin; k < end; ++k) {
+      const Index v = interior[k];
+      const auto list = supports.of(v);
+      is_end.assign(list.last - list.first, false);
+      for (const Index u : interior_neighbours(problem, around, v)) {
+        for_missing(list, supports.of(u), [&](Index place) { is_end[place] = true; });
+      }
+      for (Index place = 0; place < static_cast<Index>(is_end.size()); ++place) {
+        const double w = is_end[place] ? weight(v, place) : 0;
+        sum += w * w;
+      }
+    }
+    return sum;
   });
-  return sum;
 }
 
 template <int Dim>
@@ -201,6 +231,8 @@ double density(const LbcProblem<Dim>& problem, const SupportLists& supports) {
 #define FLBC_INSTANTIATE(Dim)                                                                \
   template SupportLists supports_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double); \
   template SupportLists supports_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);    \
+  template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const DualStart<Dim>&,   \
+                                            double);                                         \
   template SupportLists grown(const LbcProblem<Dim>&, const SupportLists&, double,           \
                               const WeightInList&);                                          \
   template double squared_at_ends(const LbcProblem<Dim>&, const SupportLists&,               \

@@ -8,7 +8,7 @@
 
 #include "flbc/lbc_problem.h"
 #include "mesh/vertex_cells.h"
-#include "solver/warm_start/transfer.h"
+#include "solver/warm_start/dual_start.h"
 
 namespace flbc::supports {
 
@@ -35,6 +35,11 @@ SupportLists supports_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& 
 template <int Dim>
 SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                          double threshold);
+
+//! The flux densities of a start where weights above the threshold are near, zero elsewhere.
+template <int Dim>
+VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const DualStart<Dim>& start,
+                                 double threshold);
 
 //! w at one place of an interior vertex's list.
 using WeightInList = std::function<double(Index vertex, Index place)>;

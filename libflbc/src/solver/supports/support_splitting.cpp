@@ -253,21 +253,6 @@ void SupportSplitting<Scalar, Stored, Dim>::read_vertex(Index vertex, Scalar* we
 }
 
 template <class Scalar, class Stored, int Dim>
-WeightMatrix SupportSplitting<Scalar, Stored, Dim>::weights() const {
-  WeightMatrix weights = WeightMatrix::Zero(n_, problem_.mesh.num_vertices());
-#pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
-    const std::size_t start = lists_.starts[row];
-    for (Index j = 0; j < lists_.counts[row]; ++j) {
-      weights(lists_.items[start + j], data_.vertices[row]) = weight_at(start + j);
-    }
-  }
-  // Boundary values are known better than single precision holds them.
-  problem_.boundary.impose_on(weights);
-  return weights;
-}
-
-template <class Scalar, class Stored, int Dim>
 double SupportSplitting<Scalar, Stored, Dim>::state_scalars_per_cell() const {
   const std::size_t numbers = extrapolated_.size() + relaxed_.size() + vertex_dual_.size() +
                               residual_.size() + left_.size() + bases_.size();

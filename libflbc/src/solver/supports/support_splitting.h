@@ -8,6 +8,7 @@
 
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/sparse_weights.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/supports/cell_patches.h"
 #include "solver/supports/support_multigrid.h"
@@ -51,8 +52,11 @@ class SupportSplitting {
     return weight_at(lists_.starts[data_.row_of[vertex]] + place);
   }
 
+  //! w of all V vertices.
+  SparseWeights sparse_weights() const;
+
   //! n x V.
-  WeightMatrix weights() const;
+  WeightMatrix weights() const { return sparse_weights().dense(); }
 
   //! w of an interior vertex, n numbers.
   Eigen::VectorXd weights_at(Index vertex) const;

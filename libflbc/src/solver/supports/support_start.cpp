@@ -2,8 +2,10 @@
 // Where the splitting on supports starts from, and what it hands on.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/cell_geometry.h"
+#include "problem/boundary_flux.h"
 #include "solver/supports/support_splitting.h"
 #include "solver/warm_start/flux_length.h"
 
@@ -109,6 +111,33 @@ Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::spread(Index vertex,
   return numbers;
 }
 
+// Boundary values are known better than single precision holds them.
+template <class Scalar, class Stored, int Dim>
+SparseWeights SupportSplitting<Scalar, Stored, Dim>::sparse_weights() const {
+  std::vector<std::int64_t> starts{0};
+  std::vector<std::uint32_t> control_points;
+  std::vector<double> values;
+  const auto add = [&](Index i, double weight) {
+    if (weight == 0) return;
+    control_points.push_back(static_cast<std::uint32_t>(i));
+    values.push_back(weight);
+  };
+  Eigen::VectorXd given(n_);
+  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
+    const auto list = supports_.of(v);
+    if (problem_.boundary.is_interior(v)) {
+      Index place = 0;
+      for (const ControlPoint i : list) add(i, weight(v, place++));
+    } else {
+      given.setZero();
+      problem_.boundary.scatter(problem_.boundary.boundary_index[v], given);
+      for (const ControlPoint i : list) add(i, given[i]);
+    }
+    starts.push_back(static_cast<std::int64_t>(values.size()));
+  }
+  return {n_, std::move(starts), std::move(control_points), std::move(values)};
+}
+
 template <class Scalar, class Stored, int Dim>
 Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::weights_at(Index vertex) const {
   return spread(vertex, [&](std::size_t place) { return weight_at(place); });
@@ -126,10 +155,10 @@ Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::vertex_dual_at(Index vert
 template <class Scalar, class Stored, int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> SupportSplitting<Scalar, Stored, Dim>::flux_density(
     Index cell) const {
+  if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
       Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n_, Dim);
   const Index k = patches_.place_of_cell[cell];
-  if (k < 0) return density;
   const Patch& patch = patches_.patches[k / kPatchCells];
   AlignedArray<Scalar> rows(Dim * patch.stride);
   const std::size_t first = patch.first_number + (k - patch.first_cell) * patch.stride;
@@ -146,6 +175,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> SupportSplitting<Scalar, Stored, Dim>
 }
 
 #define FLBC_INSTANTIATE(Scalar, Stored, Dim)                                                  \
+  template SparseWeights SupportSplitting<Scalar, Stored, Dim>::sparse_weights() const;        \
   template void SupportSplitting<Scalar, Stored, Dim>::start_from_duals(                       \
       const VectorsAt<1>&, const VectorsAt<Dim>&, const VectorsAt<1>&);                        \
   template Eigen::VectorXd SupportSplitting<Scalar, Stored, Dim>::weights_at(Index) const;     \

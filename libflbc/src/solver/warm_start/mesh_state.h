@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/types.h"
+#include "solver/warm_start/flux_densities.h"
 
 namespace flbc {
 
@@ -15,9 +16,9 @@ struct MeshState {
   //! Components of the potential: a stream function in 2D, a vector potential in 3D.
   static constexpr int kPotentialSize = Dim == 2 ? 1 : 3;
 
-  double penalty = 0;            //!< used last
-  WeightMatrix weights;          //!< n x V
-  Eigen::MatrixXd flux_density;  //!< n x (Dim F): p_s / A_s, at most phi long
+  double penalty = 0;                 //!< used last
+  WeightMatrix weights;               //!< n x V
+  FluxDensities<Dim> flux_density{};  //!< p_s / A_s, at most phi long
 
   //! Method::kValue: q - w of the constraint u = w, u >= 0, n x V; for the penalty above. Empty
   //! without the constraint.

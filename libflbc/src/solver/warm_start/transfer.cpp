@@ -91,8 +91,7 @@ Eigen::VectorXd Transfer<Dim>::weights_at(Index vertex) const {
 
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cell) const {
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
-      state_.flux_density.template middleCols<Dim>(Dim * cells_[cell]);
+  auto density = state_.flux_density.cell(cells_[cell]);
   shorten_to(fine_.phi.col(cell), density);
   return density;
 }

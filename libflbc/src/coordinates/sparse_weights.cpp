@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/sparse_weights.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+// Below this many points waking threads up takes longer than collecting their weights.
+constexpr Eigen::Index kParallelPoints = 2000;
+
+[[noreturn]] void refuse(Index point, const char* what) {
+  throw InputError("the sparse weights of point " + std::to_string(point) + " " + what);
+}
+
+}  // namespace
+
+SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
+    : num_control_points_(static_cast<Index>(weights.rows())),
+      starts_(static_cast<std::size_t>(weights.cols()) + 1, 0) {
+  if (!(threshold >= 0)) {
+    throw OptionError("the threshold of sparse weights must be 0 or more, not " +
+                      std::to_string(threshold));
+  }
+  const Eigen::Index count = weights.cols();
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    starts_[p + 1] = (weights.col(p).array().abs() > threshold).count();
+  }
+  for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
+  control_points_.resize(starts_.back());
+  values_.resize(starts_.back());
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Eigen::Index p = 0; p < count; ++p) {
+    std::int64_t entry = starts_[p];
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      if (!(std::abs(weights(i, p)) > threshold)) continue;
+      control_points_[entry] = static_cast<std::uint32_t>(i);
+      values_[entry++] = weights(i, p);
+    }
+  }
+}
+
+SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t> starts,
+                             std::vector<std::uint32_t> control_points, std::vector<double> values)
+    : num_control_points_(num_control_points),
+      starts_(std::move(starts)),
+      control_points_(std::move(control_points)),
+      values_(std::move(values)) {
+  const auto count = static_cast<std::int64_t>(values_.size());
+  if (num_control_points < 0 || starts_.empty() || starts_.front() != 0 ||
+      starts_.back() != count || control_points_.size() != values_.size()) {
+    throw InputError("sparse weights need as many control points as values, and starts from 0 to " +
+                     std::to_string(count));
+  }
+  for (Index p = 0; p < num_points(); ++p) {
+    if (starts_[p + 1] < starts_[p] || starts_[p + 1] > count) refuse(p, "end before they start");
+    for (std::int64_t k = starts_[p]; k < starts_[p + 1]; ++k) {
+      if (control_points_[k] >= static_cast<std::uint32_t>(num_control_points)) {
+        refuse(p, "belong to a control point that there is not");
+      }
+      if (k > starts_[p] && control_points_[k] <= control_points_[k - 1]) {
+        refuse(p, "are not in the order of their control points");
+      }
+      if (!std::isfinite(values_[k])) refuse(p, "are not finite");
+    }
+  }
+}
+
+Eigen::VectorXd SparseWeights::at(Index point) const {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_control_points_);
+  for (std::int64_t k = starts_[point]; k < starts_[point + 1]; ++k) {
+    weights[control_points_[k]] = values_[k];
+  }
+  return weights;
+}
+
+WeightMatrix SparseWeights::dense() const {
+  WeightMatrix weights(num_control_points_, num_points());
+#pragma omp parallel for schedule(static) if (num_points() >= kParallelPoints)
+  for (Index p = 0; p < num_points(); ++p) weights.col(p) = at(p);
+  return weights;
+}
+
+}  // namespace flbc
