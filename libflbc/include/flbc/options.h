@@ -153,7 +153,7 @@ struct SolverOptions {
   int max_iterations = 20000;
 
   //! Penalty of the augmented Lagrangian, > 0, with the cage's size (bounding_box_diagonal) as the
-  //! unit of length; 0 = by method, which for kValue and kLbc2014 means chosen from the mesh.
+  //! unit of length; 0 = by method, which means chosen from the mesh, but for kPaper.
   //! published_penalty() converts from the scale of the literature. Read by kValue, kLbc2014,
   //! kGradient and kPaper.
   double penalty = 0;

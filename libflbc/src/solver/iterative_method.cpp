@@ -39,9 +39,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result) 
 // The penalty on the problem's scale; 0 where it is chosen from the mesh.
 double scaled_penalty(const SolverOptions& options, int dim, double unit) {
   if (options.penalty > 0) return unit * options.penalty;
-  // The paper's (section 5), and those that served best on all models in docs/results.md.
-  if (options.method == Method::kPaper) return dim == 2 ? 100 : 10000;
-  if (options.method == Method::kGradient) return dim == 2 ? 1000 : 3000;
+  if (options.method == Method::kPaper) return dim == 2 ? 100 : 10000;  // its section 5
   return 0;
 }
 

@@ -16,6 +16,7 @@
 #include "solver/iterative_method.h"
 #include "solver/run_state.h"
 #include "solver/splitting/error_estimate.h"
+#include "solver/splitting/splitting_data.h"
 #include "solver/state_storage.h"
 
 namespace flbc {
@@ -29,8 +30,21 @@ LinearSolver linear_solver_for(const LbcProblem<Dim>& problem, const SolverOptio
   return problem.mesh.num_vertices() > kLargest ? LinearSolver::kMultigrid : LinearSolver::kDirect;
 }
 
-// Method::kPaper: iterates until both residuals are below their thresholds (section 4.2.1), the limit
-// is reached or the caller stops the run.
+// Scaled duals should be as large as gradients, 1 / size. The Z-step's are phi A / mu; a facet's
+// multiplier is a potential, of the order of the size, times what the facet measures, and takes the
+// longest to build up. Hence what facets measure times the squared size of the cage; the factors
+// served best on all models (docs/lab_book.md).
+template <int Dim>
+double penalty_for(const LbcProblem<Dim>& problem) {
+  constexpr double kFactor = Dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
+  const Eigen::VectorXd measures = splitting::cell_measures(problem.mesh);
+  const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
+  const double size = bounding_box_diagonal(problem.cage.points);
+  return kFactor * size * size * std::pow(length, Dim - 1);
+}
+
+// Method::kPaper: iterates until both residuals are below their thresholds (section 4.2.1), the
+// limit is reached or the caller stops the run.
 template <class Scalar, int Dim>
 void iterate_to_residuals(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,
                           GapCriterion& gap, SolveReport& report) {
@@ -104,19 +118,18 @@ class RunToError {
     auto weights = recover_();
     if (weights_.size() > 0) {
       const double difference = squared_error(problem_, weights, weights_);
-      // Single iterations are not measured, and the residual counts by itself: on all meshes tried the
-      // error was at least so many times as large.
+      // Single iterations are not measured, and the residual counts by itself: on all meshes tried
+      // the error was at least so many times as large.
       constexpr double kNone = 0;
       constexpr double kOfResidual = 2;
       const double shown = estimate_(report.iterations, kNone, difference, kNone);
       errors_.push_back(std::max(shown, kOfResidual * residual));
-      // Differences go up and down with the state that circles its limit, and after a warm start the
-      // first ones are small: the largest of some looks counts.
+      // Differences go up and down with the state that circles its limit, and after a warm start
+      // the first ones are small: the largest of some looks counts.
       constexpr std::size_t kLooks = 3;
       constexpr double kUnknown = 2;  // tolerances
       if (errors_.size() > kLooks) errors_.erase(errors_.begin());
-      const double largest =
-          *std::max_element(errors_.begin(), errors_.end()) / options_.tolerance;
+      const double largest = *std::max_element(errors_.begin(), errors_.end()) / options_.tolerance;
       report.primal_residual = errors_.size() < kLooks ? std::max(largest, kUnknown) : largest;
     }
     weights_ = std::move(weights);
@@ -174,13 +187,16 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   Stopwatch watch;
   const auto linear_solver = linear_solver_for(problem, options);
   gradient::WeightRecovery<Dim> recovery(problem, options.recovery, linear_solver);
+  const double penalty = options.penalty > 0 ? options.penalty
+                         : resumes(storage)  ? storage->penalty()
+                                             : penalty_for(problem);
   const auto admm = std::make_shared<gradient::GradientAdmm<Scalar, Dim>>(
-      problem, options.penalty, options.relaxation,
-      gradient::boundary_periods(problem, linear_solver), storage);
+      problem, penalty, options.relaxation, gradient::boundary_periods(problem, linear_solver),
+      storage);
   ByteReader read(options.resume_from);
   const bool goes_on = !read.is_at_end();
-  auto first_weights = goes_on ? WeightMatrix()
-                               : start(*admm, options, recovery, storage, warm_start.from);
+  auto first_weights =
+      goes_on ? WeightMatrix() : start(*admm, options, recovery, storage, warm_start.from);
   if (warm_start.started) warm_start.started();
   const auto certify_weights = [admm, &problem](const WeightMatrix& weights) {
     return certify(problem, admm->flux(), weights);
@@ -207,13 +223,13 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
     run.iterate(*admm, told, gap, report);
   }
   report.state_scalars_per_cell = admm->state_scalars_per_cell();
-  report.penalty = options.penalty;
-  if (storage != nullptr) storage->keep_penalty(options.penalty);
+  report.penalty = penalty;
+  if (storage != nullptr) storage->keep_penalty(penalty);
   report.seconds.solve = watch.lap();
   MethodResult result{run.take_weights(report.iterations), certify_weights};
   report.seconds.recover = watch.lap();
   if (warm_start.final_state) {
-    *warm_start.final_state = keep_state(*admm, problem, options.penalty);
+    *warm_start.final_state = keep_state(*admm, problem, penalty);
     warm_start.final_state->weights = result.weights;
   }
   return result;
