@@ -27,7 +27,7 @@ bool read_header(TextReader& reader) {
     reader.fail("not a Matrix Market file: the first line must start with %%MatrixMarket");
   }
   const auto choose = [&reader](const char* what, std::initializer_list<const char*> supported) {
-    const std::string found = lower_case_word(reader);
+    std::string found = lower_case_word(reader);
     if (std::find(supported.begin(), supported.end(), found) != supported.end()) return found;
     std::string list;
     for (const char* word : supported) list += (list.empty() ? "" : " or ") + std::string(word);

@@ -10,6 +10,7 @@
 
 namespace flbc::io {
 
+// As the table of formats calls readers. NOLINTNEXTLINE(performance-unnecessary-value-param)
 WeightMatrix read_npy(const std::string& path, std::string content) {
   const NpyHeader header = read_npy_header(path, content);
   const BinaryBlock block{path, content, header.size};
