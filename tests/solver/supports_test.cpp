@@ -240,6 +240,29 @@ TYPED_TEST(SupportsTest, SolveGivesTheSameOptimum) {
   EXPECT_LT(judged.reproduction_error, 1e-13);
 }
 
+// On supports, where they never were a matrix, and on all pairs.
+TYPED_TEST(SupportsTest, SparseSolutionIsTheSameWithoutZeros) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = with_fine_cage<kDim>(Shape::kCorner, 2, kDim == 2 ? 8 : 4);
+  for (const auto choice : {ActivePairs::kOn, ActivePairs::kOff}) {
+    SolverOptions options;
+    options.active_pairs = choice;
+    options.tolerance = 1e-6;
+    const auto dense = solve(sample.cage, sample.mesh, options);
+    const auto sparse = solve_sparse(sample.cage, sample.mesh, options);
+    EXPECT_EQ(sparse.weights.dense(), dense.weights);
+    EXPECT_EQ((sparse.weights.values().size()),
+              static_cast<std::size_t>((dense.weights.array() != 0).count()));
+    EXPECT_LT(sparse.weights.values().size(), static_cast<std::size_t>(dense.weights.size()));
+    EXPECT_EQ(sparse.report.iterations, dense.report.iterations);
+    EXPECT_NEAR(sparse.report.objective, dense.report.objective, 1e-12 * dense.report.objective);
+    EXPECT_EQ(sparse.report.quality.min_weight, dense.report.quality.min_weight);
+    EXPECT_EQ(sparse.report.quality.mean_influences, dense.report.quality.mean_influences);
+    EXPECT_LT(sparse.report.quality.max_reproduction_error, 1e-13);
+    EXPECT_LT(sparse.report.quality.max_partition_error, 1e-13);
+  }
+}
+
 TYPED_TEST(SupportsTest, CertificateIsThatOfLastIterationsOnAllPairs) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kBox);

@@ -12,7 +12,8 @@ namespace flbc {
 //! \param control_points  Dim x n, in any units
 //! \param threads  at most so many; 0 = as many as OpenMP offers. Less than four million weights
 //! take one whatever this says: waking others may cost more, by far where other programs keep the
-//! cores busy. The result does not depend on it \return Dim x P, in the units of the control points
+//! cores busy. The result does not depend on it
+//! \return Dim x P, in the units of the control points
 //! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
 PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -35,5 +35,12 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights, const std::vector<Index>& columns);
+
+//! The same for weights without their zeros.
+//! \return weights of all points
+template <int Dim>
+SparseWeights project_non_negative(const PointList<Dim>& control_points,
+                                   const PointList<Dim>& points, const SparseWeights& weights,
+                                   const std::vector<Index>& columns);
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -28,6 +29,11 @@ template <int Dim>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const WeightMatrix& weights);
 
+//! The same for weights without their zeros.
+template <int Dim>
+Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                        const SparseWeights& weights);
+
 //! The paper's objective (7), sum_s sum_i phi_s^i A_s |grad w_i|_s.
 //! \param mesh  valid, F cells, V vertices
 //! \param phi  n x F
@@ -36,6 +42,11 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const WeightMatrix& weights);
+
+//! The same for weights without their zeros.
+template <int Dim>
+double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
+                 const SparseWeights& weights);
 
 //! The total variation sum_s sum_i A_s |grad w_i|_s.
 //! \param mesh  valid, V vertices

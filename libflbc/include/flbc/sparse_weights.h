@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "flbc/types.h"
@@ -33,6 +34,12 @@ class SparseWeights {
   //! \throws InputError naming the point where something does not fit
   SparseWeights(Index num_control_points, std::vector<std::int64_t> starts,
                 std::vector<std::uint32_t> control_points, std::vector<double> values);
+
+  //! Asks for the weights of one point after the other.
+  //! \param num_control_points  n \param num_points  P
+  //! \param of_point  n numbers, of which zeros are left out; is asked by several threads
+  static SparseWeights of(Index num_control_points, Index num_points,
+                          const std::function<Eigen::VectorXd(Index)>& of_point);
 
   //! P.
   Index num_points() const { return static_cast<Index>(starts_.size()) - 1; }

@@ -11,14 +11,18 @@
 
 namespace flbc {
 
-//! \throws InputError if the weights are not num_control_points x num_points
+//! \throws InputError if weights, n x P, are not num_control_points x num_points
+inline void check_size(Eigen::Index n, Eigen::Index P, Eigen::Index num_control_points,
+                       Eigen::Index num_points) {
+  if (n == num_control_points && P == num_points) return;
+  throw InputError("weights for " + std::to_string(P) + " points and " + std::to_string(n) +
+                   " control points do not belong to " + std::to_string(num_points) +
+                   " points and " + std::to_string(num_control_points) + " control points");
+}
+
 inline void check_size(const WeightMatrix& weights, Eigen::Index num_control_points,
                        Eigen::Index num_points) {
-  if (weights.rows() == num_control_points && weights.cols() == num_points) return;
-  throw InputError("weights for " + std::to_string(weights.cols()) + " points and " +
-                   std::to_string(weights.rows()) + " control points do not belong to " +
-                   std::to_string(num_points) + " points and " +
-                   std::to_string(num_control_points) + " control points");
+  check_size(weights.rows(), weights.cols(), num_control_points, num_points);
 }
 
 //! \throws InputError naming the first pose that has not `n` control points or is not finite

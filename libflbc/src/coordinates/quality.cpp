@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "base/parallel.h"
 #include "base/shape_checks.h"
@@ -27,26 +30,78 @@ double integrate_gradient_lengths(const DomainMesh<Dim>& mesh, const WeightMatri
   });
 }
 
+// \param column  gives the n weights of a point
+template <int Dim, class ColumnOf>
+Quality quality_of(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                   const ColumnOf& column_of) {
+  const double size = bounding_box_diagonal(control_points);
+  Quality quality;
+  quality.min_weight = std::numeric_limits<double>::max();
+  Index influences = 0;
+  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
+    const auto& column = column_of(p);
+    const Vector<Dim> error = control_points * column - points.col(p);
+    if (column.size() > 0) quality.min_weight = std::min(quality.min_weight, column.minCoeff());
+    quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
+    quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
+    influences += static_cast<Index>((column.array().abs() > kInfluenceThreshold).count());
+  }
+  if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
+  quality.mean_influences = static_cast<double>(influences) /
+                            static_cast<double>(std::max<Eigen::Index>(1, points.cols()));
+  return quality;
+}
+
+// Gradients of the weights of a cell that are not zero there.
+template <int Dim>
+class SparseGradients {
+ public:
+  explicit SparseGradients(Index num_control_points)
+      : gradients_(GradientRows::Zero(num_control_points, Dim)) {}
+
+  // Calls action(i, grad w_i) for the control points with a weight at a corner.
+  template <class Action>
+  void visit(const DomainMesh<Dim>& mesh, Index s, const SparseWeights& weights,
+             const Action& action) {
+    const auto geometry = cell_geometry(mesh, s);
+    for (int k = 0; k <= Dim; ++k) {
+      const Index v = mesh.cells(k, s);
+      for (std::int64_t e = weights.starts()[v]; e < weights.starts()[v + 1]; ++e) {
+        const auto i = static_cast<Index>(weights.control_points()[e]);
+        gradients_.row(i) += weights.values()[e] * geometry.hat_gradients.col(k).transpose();
+        touched_.push_back(i);
+      }
+    }
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    for (const Index i : touched_) {
+      action(i, gradients_.row(i));
+      gradients_.row(i).setZero();
+    }
+    touched_.clear();
+  }
+
+ private:
+  using GradientRows = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
+  GradientRows gradients_;  // zero but during a visit
+  std::vector<Index> touched_;
+};
+
 }  // namespace
 
 template <int Dim>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const WeightMatrix& weights) {
   check_size(weights, control_points.cols(), points.cols());
-  const double size = bounding_box_diagonal(control_points);
-  Quality quality;
-  quality.min_weight = weights.size() > 0 ? weights.minCoeff() : 0;
-  Index influences = 0;
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const auto column = weights.col(v);
-    const Vector<Dim> error = control_points * column - points.col(v);
-    quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
-    quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
-    influences += static_cast<Index>((column.array().abs() > kInfluenceThreshold).count());
-  }
-  quality.mean_influences = static_cast<double>(influences) /
-                            static_cast<double>(std::max<Eigen::Index>(1, points.cols()));
-  return quality;
+  return quality_of(control_points, points, [&](Index p) { return weights.col(p); });
+}
+
+template <int Dim>
+Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                        const SparseWeights& weights) {
+  check_size(weights.num_control_points(), weights.num_points(), control_points.cols(),
+             points.cols());
+  return quality_of(control_points, points, [&](Index p) { return weights.at(p); });
 }
 
 template <int Dim>
@@ -54,6 +109,22 @@ double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const WeightMatrix& weights) {
   return integrate_gradient_lengths(
       mesh, weights, [&](Index s, const auto& lengths) { return phi.col(s).dot(lengths); });
+}
+
+template <int Dim>
+double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
+                 const SparseWeights& weights) {
+  return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
+    SparseGradients<Dim> gradients(weights.num_control_points());
+    double sum = 0;
+    for (Index s = begin; s < end; ++s) {
+      const double measure = cell_geometry(mesh, s).measure;
+      gradients.visit(mesh, s, weights, [&](Index i, const auto& gradient) {
+        sum += measure * phi(i, s) * gradient.norm();
+      });
+    }
+    return sum;
+  });
 }
 
 template <int Dim>
@@ -73,11 +144,14 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
   return sum / (static_cast<double>(interior.size()) * static_cast<double>(a.rows()));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                     \
-  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
-                                   const WeightMatrix&);                                          \
-  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&); \
-  template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);                   \
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                   \
+                                   const WeightMatrix&);                                           \
+  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                   \
+                                   const SparseWeights&);                                          \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&);  \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const SparseWeights&); \
+  template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);                    \
   template double squared_error(const LbcProblem<Dim>&, const WeightMatrix&, const WeightMatrix&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -61,7 +61,8 @@ class Deadline {
 template <int Dim>
 void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
   constexpr double kLeast = 1e-9;  // of the cell's measure before
-  const double enlargement = std::pow(bounding_box_diagonal(after.points) / bounding_box_diagonal(before.points), Dim);
+  const double enlargement =
+      std::pow(bounding_box_diagonal(after.points) / bounding_box_diagonal(before.points), Dim);
   for (Index s = 0; s < after.num_cells(); ++s) {
     if (signed_measure(after, s) > kLeast * enlargement * signed_measure(before, s)) continue;
     throw InputError("cell " + std::to_string(s) + " of the domain mesh, at " +
@@ -169,7 +170,8 @@ class EditableCoordinates<Dim>::State {
     try {
       auto result = run_method(shape.problem, options, report, &kept_, warm_start);
       if (deadline && deadline->passed()) report.status = SolveStatus::kIterationLimit;
-      shape.solution = finish(shape.problem, options, std::move(result), std::move(report));
+      shape.solution =
+          finish<Solution>(shape.problem, options, {std::move(result), std::move(report)});
       shape.state = std::move(state);
     } catch (...) {
       kept_.forget();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/stage_progress.h"
@@ -26,9 +27,41 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
   return objective / std::pow(problem.scale, Dim - 1);
 }
 
+// Weights as the result wants them.
+template <class Result>
+auto take_weights(MethodResult& result) {
+  if constexpr (std::is_same_v<Result, Solution>) {
+    return result.is_sparse() ? std::exchange(result.sparse, {}).dense()
+                              : std::move(result.weights);
+  } else {
+    if (!result.is_sparse()) result.sparse = SparseWeights(std::exchange(result.weights, {}));
+    return std::move(result.sparse);
+  }
+}
+
 template <int Dim>
-Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result) {
-  auto certificate = result.certify(result.weights);
+void make_non_negative(const LbcProblem<Dim>& problem, WeightMatrix& weights) {
+  project_non_negative(problem.cage.points, problem.mesh.points, weights,
+                       problem.boundary.interior_vertices());
+}
+
+template <int Dim>
+void make_non_negative(const LbcProblem<Dim>& problem, SparseWeights& weights) {
+  weights = project_non_negative(problem.cage.points, problem.mesh.points, weights,
+                                 problem.boundary.interior_vertices());
+}
+
+const WeightMatrix& dense(const WeightMatrix& weights) {
+  return weights;
+}
+WeightMatrix dense(const SparseWeights& weights) {
+  return weights.dense();
+}
+
+template <int Dim, class Weights>
+Certificate certify(const LbcProblem<Dim>& problem, const MethodResult& result,
+                    const Weights& weights) {
+  auto certificate = result.certify(dense(weights));
   certificate.objective = unscaled(problem, certificate.objective);
   // Dividing by the power of the scale takes a few roundings, which must not make the bound larger.
   constexpr double kRoundings = 4 * std::numeric_limits<double>::epsilon();
@@ -66,8 +99,7 @@ void require_finite(bool finite, const SolveReport& report) {
                     "relaxation, or double precision");
 }
 
-bool finished(int iteration, const SolverOptions& options, GapCriterion& gap,
-              SolveReport& report) {
+bool finished(int iteration, const SolverOptions& options, GapCriterion& gap, SolveReport& report) {
   require_finite(std::isfinite(report.primal_residual) && std::isfinite(report.dual_residual),
                  report);
   const bool last = iteration >= options.max_iterations;
@@ -115,41 +147,43 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
     default:
       result = solve_by_gradients(problem, options, report, storage, warm_start);
   }
-  require_finite(result.weights.allFinite(), report);
+  require_finite(result.is_sparse() || result.weights.allFinite(), report);
   report.published_penalty = report.penalty;
   report.penalty /= unit;
   return result;
 }
 
-template <int Dim>
-Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
-                SolveReport report) {
+template <class Result, int Dim>
+Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun run) {
   Stopwatch watch;
+  auto& [result, report] = run;
+  Result solution{take_weights<Result>(result), {}};
   if (options.non_negative != NonNegative::kOff) {
     const StageScope scope(told_of(options, Stage::kNonNegative));
-    project_non_negative(problem.cage.points, problem.mesh.points, result.weights,
-                         problem.boundary.interior_vertices());
+    make_non_negative(problem, solution.weights);
   }
   report.seconds.recover += watch.lap();
   if (options.certify || report.criterion == Criterion::kGap) {
     const StageScope scope(told_of(options, Stage::kCertificate));
-    report.certificate = certify(problem, result);
+    report.certificate = certify(problem, result, solution.weights);
   }
   report.seconds.certify = watch.lap();
-  report.objective =
-      problem.phi.size() > 0
-          ? unscaled(problem, objective(problem.mesh, problem.phi, result.weights))
-          : std::numeric_limits<double>::quiet_NaN();
-  report.quality = measure_quality(problem.cage.points, problem.mesh.points, result.weights);
-  return {std::move(result.weights), std::move(report)};
+  report.objective = problem.phi.size() > 0
+                         ? unscaled(problem, objective(problem.mesh, problem.phi, solution.weights))
+                         : std::numeric_limits<double>::quiet_NaN();
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, solution.weights);
+  solution.report = std::move(report);
+  return solution;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                           \
-  template SolverOptions with_objective(const LbcProblem<Dim>&, SolverOptions,          \
-                                        std::function<WeightMatrix()>);                 \
-  template MethodResult run_method(const LbcProblem<Dim>&, SolverOptions, SolveReport&, \
-                                   StateStorage*, WarmStart<Dim>);                      \
-  template Solution finish(const LbcProblem<Dim>&, const SolverOptions&, MethodResult, SolveReport);
+#define FLBC_INSTANTIATE(Dim)                                                                  \
+  template SolverOptions with_objective(const LbcProblem<Dim>&, SolverOptions,                 \
+                                        std::function<WeightMatrix()>);                        \
+  template MethodResult run_method(const LbcProblem<Dim>&, SolverOptions, SolveReport&,        \
+                                   StateStorage*, WarmStart<Dim>);                             \
+  template Solution finish<Solution>(const LbcProblem<Dim>&, const SolverOptions&, MethodRun); \
+  template SparseSolution finish<SparseSolution>(const LbcProblem<Dim>&, const SolverOptions&, \
+                                                 MethodRun);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -20,9 +20,18 @@ namespace flbc {
 //! The result of a method. Boundary values are exact; interior rows sum to one and reproduce
 //! their points up to the method's precision, and may be negative.
 struct MethodResult {
-  WeightMatrix weights;  //!< n x V
+  WeightMatrix weights;  //!< n x V, empty if they are sparse
   //! Certificate of weights (n x V) from the method's duals.
   std::function<Certificate(const WeightMatrix&)> certify;
+  SparseWeights sparse{};  //!< of V points, from an iteration on supports
+
+  bool is_sparse() const { return sparse.num_points() > 0; }
+};
+
+//! A method's result and how it went.
+struct MethodRun {
+  MethodResult result;
+  SolveReport report;
 };
 
 //! Whether a method can start from weights and duals found elsewhere.
@@ -71,9 +80,9 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
                         StateStorage* storage, WarmStart<Dim> warm_start);
 
 //! Everything after the iteration: non-negative rows, certificate, measures.
-template <int Dim>
-Solution finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodResult result,
-                SolveReport report);
+//! \tparam Result  Solution or SparseSolution
+template <class Result, int Dim>
+Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun run);
 
 //! p / A from p, in the form of MeshState.
 template <class Scalar, int Dim>

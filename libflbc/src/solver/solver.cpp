@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/solver.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -41,13 +42,13 @@ bool share_state(const SolverOptions& a, const SolverOptions& b) {
 
 //! \param options  resolved \param coarse  to start from
 template <int Dim>
-Solution solve_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
-                    const SolverOptions& options, StateStorage* storage) {
+MethodRun run_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
+                   const SolverOptions& options, StateStorage* storage) {
   if (!coarse.empty()) return solve_in_cascade(problem, std::move(coarse), options, storage);
-  SolveReport report;
-  auto result =
-      run_method(problem, offering_levels(options, {}), report, storage, WarmStart<Dim>{});
-  return finish(problem, options, std::move(result), std::move(report));
+  MethodRun run;
+  run.result =
+      run_method(problem, offering_levels(options, {}), run.report, storage, WarmStart<Dim>{});
+  return run;
 }
 
 //! \param options  valid
@@ -62,7 +63,7 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
     const auto sizes = start_sizes(problem, mesher, options);
     coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
   }
-  return solve_from(problem, std::move(coarse), options, storage);
+  return finish<Solution>(problem, options, run_from(problem, std::move(coarse), options, storage));
 }
 
 // A problem set up for a method that does not minimise comes without.
@@ -80,8 +81,8 @@ void add_set_up(double seconds, const DistanceReport& distances, SolveReport& re
 }
 
 // From the state that the options bring.
-template <int Dim>
-Solution go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions options) {
+template <class Result, int Dim>
+Result go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions options) {
   Stopwatch watch;
   auto told = options;
   auto record = take_record(told, cage, mesh);
@@ -94,12 +95,43 @@ Solution go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions
   told = offering_levels(offering_record(options, cage, mesh, problem.phi.distances(),
                                          record.source, setup_seconds, record.solve_seconds),
                          record.levels);
-  SolveReport report;
-  auto result = run_method(problem, told, report, nullptr, WarmStart<Dim>{});
-  report.coarse_levels = std::move(record.levels);
-  report.seconds.solve += record.solve_seconds;
-  auto solution = finish(problem, options, std::move(result), std::move(report));
+  MethodRun run;
+  run.result = run_method(problem, told, run.report, nullptr, WarmStart<Dim>{});
+  run.report.coarse_levels = std::move(record.levels);
+  run.report.seconds.solve += record.solve_seconds;
+  auto solution = finish<Result>(problem, options, std::move(run));
   add_set_up(setup_seconds, record.source, solution.report);
+  return solution;
+}
+
+// Parts are few and small: they are put together with their zeros.
+template <class Result>
+Result of_parts(Solution solution) {
+  if constexpr (std::is_same_v<Result, Solution>)
+    return solution;
+  else
+    return {SparseWeights(solution.weights), std::move(solution.report)};
+}
+
+// solve() of a cage and a mesh, in the form that is wanted.
+template <class Result, int Dim>
+Result solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
+                  const CoarseMesher<Dim>& mesher) {
+  require_valid_set_up(options, bool(mesher));
+  if (count_parts(mesh) > 1) return of_parts<Result>(solve_parts<Dim>(cage, mesh, options, mesher));
+  const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
+  const auto resolved = resolve(options);
+  if (!resolved.resume_from.empty()) return go_on<Result>(cage, mesh, resolved);
+  auto ready = set_up(cage, mesh, resolved, mesher);
+  double coarse_seconds = 0;
+  for (const auto& level : ready.coarse) {
+    coarse_seconds += level.report.mesh_seconds + level.report.setup_seconds;
+  }
+  const auto told = offering_record(resolved, cage, mesh, ready.problem.phi.distances(),
+                                    ready.distances, ready.seconds, coarse_seconds);
+  auto solution = finish<Result>(ready.problem, told,
+                                 run_from(ready.problem, std::move(ready.coarse), told, nullptr));
+  add_set_up(ready.seconds, ready.distances, solution.report);
   return solution;
 }
 
@@ -117,21 +149,13 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
-  require_valid_set_up(options, bool(mesher));
-  if (count_parts(mesh) > 1) return solve_parts<Dim>(cage, mesh, options, mesher);
-  const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
-  const auto resolved = resolve(options);
-  if (!resolved.resume_from.empty()) return go_on(cage, mesh, resolved);
-  auto ready = set_up(cage, mesh, resolved, mesher);
-  double coarse_seconds = 0;
-  for (const auto& level : ready.coarse) {
-    coarse_seconds += level.report.mesh_seconds + level.report.setup_seconds;
-  }
-  const auto told = offering_record(resolved, cage, mesh, ready.problem.phi.distances(),
-                                    ready.distances, ready.seconds, coarse_seconds);
-  auto solution = solve_from(ready.problem, std::move(ready.coarse), told, nullptr);
-  add_set_up(ready.seconds, ready.distances, solution.report);
-  return solution;
+  return solve_cage<Solution, Dim>(cage, mesh, options, mesher);
+}
+
+template <int Dim>
+SparseSolution solve_sparse(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                            const SolverOptions& options, const MesherArgument<Dim>& mesher) {
+  return solve_cage<SparseSolution, Dim>(cage, mesh, options, mesher);
 }
 
 template <int Dim>
@@ -193,11 +217,11 @@ class LbcSolver<Dim>::State {
   Solution solve_next() {
     auto coarse = std::exchange(ready_.coarse, {});
     if (coarse.empty()) return solve_valid(ready_.problem, options_, mesher_, &kept_);
-    const ThreadScope threads(threads_for(options_.threads,
-                                          ready_.problem.num_control_points(),
+    const ThreadScope threads(threads_for(options_.threads, ready_.problem.num_control_points(),
                                           ready_.problem.mesh.num_vertices()));
-    return solve_from(ready_.problem, std::move(coarse), offering_nothing(resolve(options_)),
-                      &kept_);
+    const auto options = offering_nothing(resolve(options_));
+    return finish<Solution>(ready_.problem, options,
+                            run_from(ready_.problem, std::move(coarse), options, &kept_));
   }
 
   SolverOptions options_;
@@ -257,6 +281,8 @@ const Solution& LbcSolver<Dim>::solution() const {
                           const MesherArgument<Dim>&, StateStorage*);                          \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&, \
                                const MesherArgument<Dim>&);                                    \
+  template SparseSolution solve_sparse<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&,          \
+                                            const SolverOptions&, const MesherArgument<Dim>&); \
   template class LbcSolver<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -26,7 +26,7 @@ class Cascade {
     while (num_solved_ < levels_.size() && !stopped_) solve_level(levels_[num_solved_]);
   }
 
-  Solution solve_finest(StateStorage* storage) {
+  MethodRun solve_finest(StateStorage* storage) {
     Stopwatch watch;
     std::vector<LevelReport> reports;
     for (std::size_t k = 0; k < num_solved_; ++k) reports.push_back(levels_[k].report);
@@ -54,7 +54,7 @@ class Cascade {
           level.report.mesh_seconds + level.report.setup_seconds + level.report.solve_seconds;
     }
     report.coarse_levels = std::move(reports);
-    return finish(problem_, options, std::move(result), std::move(report));
+    return {std::move(result), std::move(report)};
   }
 
  private:
@@ -94,16 +94,16 @@ class Cascade {
 }  // namespace
 
 template <int Dim>
-Solution solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-                          const SolverOptions& options, StateStorage* storage) {
+MethodRun solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
+                           const SolverOptions& options, StateStorage* storage) {
   Cascade<Dim> cascade(problem, std::move(levels), options);
   cascade.climb();
   return cascade.solve_finest(storage);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                 \
-  template Solution solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>, \
-                                     const SolverOptions&, StateStorage*);
+#define FLBC_INSTANTIATE(Dim)                                                                  \
+  template MethodRun solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>, \
+                                      const SolverOptions&, StateStorage*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

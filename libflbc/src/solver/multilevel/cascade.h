@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "flbc/solver.h"
+#include "solver/iterative_method.h"
 #include "solver/multilevel/coarse_problem.h"
 
 namespace flbc {
@@ -15,7 +15,7 @@ namespace flbc {
 //! \param options  resolved, of a method that inherits() holds for
 //! \param storage  of the state on the problem's own mesh, may be null
 template <int Dim>
-Solution solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-                          const SolverOptions& options, StateStorage* storage);
+MethodRun solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
+                           const SolverOptions& options, StateStorage* storage);
 
 }  // namespace flbc

@@ -193,7 +193,7 @@ class ValueSolve {
     if (warm_start_.final_state) *warm_start_.final_state = keep_state(last.state);
     last.state = {};  // frees the iteration
     report_.seconds.solve = watch_.lap();
-    return MethodResult{last.weights.dense(), {}};
+    return MethodResult{{}, {}, std::move(last.weights)};
   }
 
   template <class Stored>

@@ -71,6 +71,34 @@ SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t>
   }
 }
 
+SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
+                                const std::function<Eigen::VectorXd(Index)>& of_point) {
+  struct Entry {
+    std::uint32_t control_point;
+    double value;
+  };
+  std::vector<std::vector<Entry>> rows(num_points);
+#pragma omp parallel for schedule(dynamic, 64) if (num_points >= kParallelPoints)
+  for (Index p = 0; p < num_points; ++p) {
+    const Eigen::VectorXd weights = of_point(p);
+    rows[p].reserve((weights.array() != 0).count());
+    for (Index i = 0; i < num_control_points; ++i) {
+      if (weights[i] != 0) rows[p].push_back({static_cast<std::uint32_t>(i), weights[i]});
+    }
+  }
+  SparseWeights result;
+  result.num_control_points_ = num_control_points;
+  for (auto& row : rows) {
+    for (const Entry& entry : row) {
+      result.control_points_.push_back(entry.control_point);
+      result.values_.push_back(entry.value);
+    }
+    result.starts_.push_back(static_cast<std::int64_t>(result.values_.size()));
+    row = {};
+  }
+  return result;
+}
+
 Eigen::VectorXd SparseWeights::at(Index point) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_control_points_);
   for (std::int64_t k = starts_[point]; k < starts_[point + 1]; ++k) {
