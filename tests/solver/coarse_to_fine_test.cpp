@@ -184,8 +184,9 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
     MeshState<kDim> state;
     state.penalty = penalty;
     state.weights = integrate_least_squares(problem, admm.gradients());
+    const auto flux = admm.flux();
     const auto density_of = [&](Index s) -> Vectors<kDim> {
-      return admm.flux().cell(s).transpose() / signed_measure(problem.mesh, s);
+      return flux.cell(s).transpose() / signed_measure(problem.mesh, s);
     };
     state.flux_density = {problem.num_control_points(), problem.mesh.num_cells(), density_of};
     state.potential =
