@@ -35,7 +35,7 @@ class Page {
     });
     await page.tab.setViewport({ width: 1200, height: 800 });
     await page.tab.goto(`file://${work}/${name}.html`);
-    await page.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+    await page.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
     return page;
   }
 

@@ -58,7 +58,7 @@ class Page {
     await session.send("Browser.setDownloadBehavior",
                        { behavior: "allow", downloadPath: downloads });
     await page.tab.goto(`file://${work}/${name}.html`);
-    await page.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+    await page.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
     return page;
   }
 

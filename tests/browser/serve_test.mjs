@@ -54,7 +54,7 @@ class Served {
     });
     await this.tab.setViewport({ width: 1200, height: 800 });
     await this.tab.goto(this.address);
-    await this.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+    await this.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
   }
 
   ask(action, ...values) {
@@ -175,7 +175,7 @@ async function testReshaping(folder, name, dim) {
 
   // Loaded again it is where it was; closed, the program ends.
   await served.tab.reload();
-  await served.tab.waitForFunction(() => window.flbc?.milliseconds() > 0);
+  await served.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
   assert.ok(largestDifference(await served.ask("controlPoint", i), kept) < 1e-9 * size);
   await served.tab.close();
   assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);

@@ -37,7 +37,7 @@ export class Viewer {
     this.playing = null;
     this.isStale = true;  // the cage or colours have changed since the model was moved
     this.isAwaited = false;
-    this.milliseconds = 0;  // of the last step
+    this.milliseconds = -1;  // of the last step, which may be too short for the clock; none yet
     this.onState = () => {};
     this.onLegend = () => {};
     this.onRectangle = () => {};
