@@ -15,11 +15,11 @@ for tool in mmdebstrap dpkg-shlibdeps cpack; do
   command -v $tool >/dev/null || skip "$tool is missing"
 done
 
-rm -rf "$work"
+rm -rf --one-file-system "$work"
 mkdir -p "$work/debs"
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/debs" >"$work/cpack.log" ||
   { cat "$work/cpack.log"; exit 1; }
-rm -rf "$work/debs/_CPack_Packages"
+rm -rf --one-file-system "$work/debs/_CPack_Packages"
 packages=("$work"/debs/*.deb)
 
 field() { dpkg-deb -f "$1" "$2"; }
@@ -65,7 +65,7 @@ for file in out/model.glb usr/share/man/man1/flbc-solve.1.gz \
   usr/share/bash-completion/completions/flbc; do
   [ -s "$work/user/$file" ] || [ -s "$work/user/${file%.gz}" ] || { echo "no $file"; exit 1; }
 done
-rm -rf "$work/user"
+rm -rf --one-file-system "$work/user"
 
 # ---- programs of others, with all packages -------------------------------------------------------
 make_root "$work/developer" g++,cmake,make,pkg-config "${packages[@]}"
@@ -96,4 +96,4 @@ cd /meshes/3d
 test -s /moved.obj
 END
 chroot "$work/developer" sh /compile.sh
-rm -rf "$work/developer"
+rm -rf --one-file-system "$work/developer"
