@@ -9,6 +9,7 @@
 #include <locale>
 
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 #include "support/io_files.h"
 
 namespace flbc::io {
@@ -112,6 +113,22 @@ TEST_F(WeightsFile, RoundTripsOfDegenerateSizes) {
 TEST_F(WeightsFile, TheCaseOfTheExtensionDoesNotMatter) {
   write_weights(path("weights.NPY"), small_weights());
   EXPECT_TRUE(bit_equal(read_weights(path("weights.NPY")), small_weights()));
+}
+
+TEST_F(WeightsFile, SparseWeightsGiveTheSameFile) {
+  WeightMatrix weights = WeightMatrix::Random(7, 50);
+  weights = (weights.array() > 0.3).select(weights, 0);
+  for (const char* name : {"weights.mtx", "weights.dmat", "weights.npy"}) {
+    const std::string dense = path(std::string("dense_") + name);
+    const std::string sparse = path(std::string("sparse_") + name);
+    write_weights(dense, weights);
+    write_weights(sparse, SparseWeights(weights));
+    EXPECT_EQ(read_file(sparse), read_file(dense)) << name;
+  }
+  weights(3, 8) = std::numeric_limits<double>::infinity();
+  expect_error<InputError>([&] { write_weights(path("w.mtx"), SparseWeights(weights)); },
+                           {"control point 3", "point 8", "not finite"});
+  EXPECT_FALSE(std::filesystem::exists(path("w.mtx")));
 }
 
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {

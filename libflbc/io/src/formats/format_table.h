@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "flbc/sparse_weights.h"
 #include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
 #include "model/model_scan.h"
@@ -33,10 +34,11 @@ struct MeshFormat {
   bool keeps_fields = false;
 };
 
-//! Readers and writers of weights.
+//! Readers and writers of weights; a format with zeros has `write`, one without `write_sparse`.
 struct WeightFormat {
   WeightMatrix (*read)(const std::string& path, std::string content) = nullptr;
   void (*write)(std::ostream& out, const WeightMatrix& weights) = nullptr;
+  void (*write_sparse)(std::ostream& out, const SparseWeights& weights) = nullptr;
 };
 
 //! Where a pointer is null, there is no such content.

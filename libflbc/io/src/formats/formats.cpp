@@ -30,7 +30,7 @@ constexpr Format kFormats[] = {
     {"node", {}, {}, kTetGen},
     {"ele", {}, {}, kTetGen},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
-    {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
+    {"mtx", {}, {}, {}, {read_mtx, nullptr, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"txt"},  // flbc/io/weights_triplets.h

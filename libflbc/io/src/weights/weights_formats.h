@@ -8,7 +8,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc::io {
 
@@ -26,8 +26,9 @@ WeightMatrix read_npy(const std::string& path, std::string content);
 
 //! A reader would refuse weights that are not finite. \throws InputError naming the first one
 void check_finite(const WeightMatrix& weights);
+void check_finite(const SparseWeights& weights);
 
-void write_mtx(std::ostream& out, const WeightMatrix& weights);
+void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
 

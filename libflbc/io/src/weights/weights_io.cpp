@@ -10,13 +10,35 @@
 
 namespace flbc::io {
 
+namespace {
+
+[[noreturn]] void refuse_not_finite(std::int64_t control_point, std::int64_t point) {
+  throw InputError("the weight of control point " + std::to_string(control_point) + " at point " +
+                   std::to_string(point) + " is not finite");
+}
+
+// Numbers that are not finite must not get lost as zeros do.
+SparseWeights entries_of(const WeightMatrix& weights) {
+  check_finite(weights);
+  return SparseWeights(weights);
+}
+
+}  // namespace
+
 void check_finite(const WeightMatrix& weights) {
   for (Eigen::Index v = 0; v < weights.cols(); ++v) {
     if (weights.col(v).allFinite()) continue;
     Eigen::Index i = 0;
     while (std::isfinite(weights(i, v))) ++i;
-    throw InputError("the weight of control point " + std::to_string(i) + " at point " +
-                     std::to_string(v) + " is not finite");
+    refuse_not_finite(i, v);
+  }
+}
+
+void check_finite(const SparseWeights& weights) {
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    for (std::int64_t k = weights.starts()[p]; k < weights.starts()[p + 1]; ++k) {
+      if (!std::isfinite(weights.values()[k])) refuse_not_finite(weights.control_points()[k], p);
+    }
   }
 }
 
@@ -26,9 +48,18 @@ WeightMatrix read_weights(const std::string& path) {
 }
 
 void write_weights(const std::string& path, const WeightMatrix& weights) {
-  const auto& format = format_of(path, Content::kWeights, "write weights as");
+  const auto& format = format_of(path, Content::kWeights, "write weights as").weights;
+  if (format.write_sparse) return write_weights(path, entries_of(weights));
   check_finite(weights);
-  write_file(path, [&](std::ostream& out) { format.weights.write(out, weights); });
+  write_file(path, [&](std::ostream& out) { format.write(out, weights); });
+}
+
+void write_weights(const std::string& path, const SparseWeights& weights) {
+  const auto& format = format_of(path, Content::kWeights, "write weights as").weights;
+  check_finite(weights);
+  write_file(path, [&](std::ostream& out) {
+    format.write_sparse ? format.write_sparse(out, weights) : format.write(out, weights.dense());
+  });
 }
 
 }  // namespace flbc::io

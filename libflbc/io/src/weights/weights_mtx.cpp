@@ -104,16 +104,16 @@ WeightMatrix read_mtx(const std::string& path, std::string content) {
   return read_columns(reader, size.points, size.controls);
 }
 
-void write_mtx(std::ostream& out, const WeightMatrix& weights) {
+void write_mtx(std::ostream& out, const SparseWeights& weights) {
   TextWriter writer(out);
   writer << "%%MatrixMarket matrix coordinate real general\n"
          << "% weights: a row per point, a column per control point\n"
-         << weights.cols() << " " << weights.rows() << " " << (weights.array() != 0).count()
-         << "\n";
-  for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      if (weights(i, v) == 0) continue;
-      writer << v + 1 << " " << i + 1 << " " << weights(i, v) << "\n";
+         << weights.num_points() << " " << weights.num_control_points() << " "
+         << weights.starts().back() << "\n";
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    for (std::int64_t k = weights.starts()[p]; k < weights.starts()[p + 1]; ++k) {
+      const auto control_point = std::int64_t{weights.control_points()[k]};
+      writer << p + 1 << " " << control_point + 1 << " " << weights.values()[k] << "\n";
     }
   }
   writer.flush();

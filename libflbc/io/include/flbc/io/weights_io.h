@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc::io {
 
@@ -25,5 +25,8 @@ WeightMatrix read_weights(const std::string& path);
 //! \throws IoError if the file cannot be written, InputError if a weight is not finite, OptionError
 //! for another extension
 void write_weights(const std::string& path, const WeightMatrix& weights);
+
+//! The same file from weights without their zeros; no matrix is made for .mtx.
+void write_weights(const std::string& path, const SparseWeights& weights);
 
 }  // namespace flbc::io
