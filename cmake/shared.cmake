@@ -12,7 +12,7 @@ endif()
 include(GNUInstallDirs)
 
 set(shared_libraries flbc flbc_io flbc_cgal flbc_tetgen flbc_netgen flbc_openmesh)
-# What libraries beside the core call of its inside.
+# Inner headers of the core that libraries beside it call.
 set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the 2014 solver's open details decide: `lbc2014` with its published penalty, and with one
-// detail at a time otherwise. The iterations are those that weight_splitting_test holds against a
-// literal implementation of problem (2).
+// The influence of the 2014 solver's open details: `lbc2014` with its published penalty, and with
+// one detail at a time otherwise. The iterations are those that weight_splitting_test holds against
+// a literal implementation of problem (2).
 #include <algorithm>
 #include <array>
 #include <limits>

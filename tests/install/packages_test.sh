@@ -23,7 +23,7 @@ rm -rf --one-file-system "$work/debs/_CPack_Packages"
 packages=("$work"/debs/*.deb)
 
 field() { dpkg-deb -f "$1" "$2"; }
-# What packages depend on, but for each other.
+# Dependencies of packages but for each other.
 depends_of() {
   local all=""
   for package in "${packages[@]}"; do all+=" $(field "$package" Package) "; done

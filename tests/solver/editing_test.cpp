@@ -12,6 +12,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "support/judge.h"
+#include "support/many_iterations.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -39,7 +40,8 @@ SolverOptions tight() {
 template <int Dim>
 PointList<Dim> with_one_moved(const Cage<Dim>& cage, double part, Index point = 2) {
   PointList<Dim> moved = cage.points;
-  moved.col(point) += part * bounding_box_diagonal(cage.points) * Vector<Dim>::LinSpaced(0.9, 0.3).normalized();
+  moved.col(point) +=
+      part * bounding_box_diagonal(cage.points) * Vector<Dim>::LinSpaced(0.9, 0.3).normalized();
   return moved;
 }
 
@@ -54,11 +56,7 @@ PointList<Dim> bent(const Cage<Dim>& cage, double part) {
 
 template <int Dim>
 WeightMatrix optimum(const EditableCoordinates<Dim>& coordinates) {
-  SolverOptions options;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-100;
-  options.max_iterations = 2000;
-  return solve(coordinates.cage(), coordinates.mesh(), options).weights;
+  return solve(coordinates.cage(), coordinates.mesh(), many_iterations(2000)).weights;
 }
 
 TYPED_TEST(EditingTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {

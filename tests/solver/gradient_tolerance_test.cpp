@@ -11,6 +11,7 @@
 #include "flbc/meshing.h"
 #include "flbc/solver.h"
 #include "support/judge.h"
+#include "support/many_iterations.h"
 #include "support/model_cages.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
@@ -27,11 +28,8 @@ constexpr int kManyIterations = 3000;
 template <int Dim>
 void expect_promise_kept(const LbcProblem<Dim>& problem, const std::vector<double>& tolerances,
                          LinearSolver linear_solver = LinearSolver::kAuto) {
-  SolverOptions many;
-  many.precision = Precision::kDouble;
+  auto many = many_iterations(kManyIterations);
   many.non_negative = NonNegative::kOff;
-  many.tolerance = 1e-100;
-  many.max_iterations = kManyIterations;
   const auto exact = solve(problem, many).weights;
   int previous = 0;
   for (const double tolerance : tolerances) {

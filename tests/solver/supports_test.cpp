@@ -347,7 +347,7 @@ TYPED_TEST(SupportsTest, EndsAreWhereANeighbourLacksTheControlPoint) {
   EXPECT_EQ(supports::grown(problem, lists, 1e9, in_list).items, lists.items);
 }
 
-// What is near the weights stays as it is, the rest is zero.
+// Near weights above the threshold it stays as it is, elsewhere it is zero.
 TYPED_TEST(SupportsTest, FluxIsHandedOnWhereWeightsAre) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kStar);

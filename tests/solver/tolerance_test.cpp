@@ -12,6 +12,7 @@
 #include "flbc/meshing.h"
 #include "flbc/solver.h"
 #include "support/judge.h"
+#include "support/many_iterations.h"
 #include "support/model_cages.h"
 #include "support/sample_meshes.h"
 
@@ -36,10 +37,7 @@ DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
 // The optimum that errors are measured against, proven to be good enough for that.
 template <int Dim>
 WeightMatrix optimum(const LbcProblem<Dim>& problem, int iterations, bool prove = true) {
-  SolverOptions options;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-100;
-  options.max_iterations = iterations;
+  auto options = many_iterations(iterations);
   options.certify = prove;
   const auto solution = solve(problem, options);
   EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);  // 0 without proof

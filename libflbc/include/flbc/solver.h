@@ -39,12 +39,14 @@ using MesherArgument = std::common_type_t<CoarseMesher<Dim>>;
 //! tolerance. A coarse mesh is left out if the mesher throws (the cage may be too fine for so few
 //! vertices) or does not make a clearly smaller mesh. The report is that of the given mesh and
 //! lists the coarser ones besides; their seconds, meshing included, count as part of the solve, and
-//! options.progress is called on all of them. \param problem  made with options.phi; kHarmonic and
-//! kMeanValue need no phi \param mesher  makes the coarser meshes; empty for none \param storage
-//! where the iteration's state lives, to be kept or to go on from, in which case no coarser meshes
-//! are used; null for memory that is freed at the end \return n x V weights and how it went; not
-//! converging is a status in the report \throws OptionError, SolverError; InputError if a coarse
-//! mesh does not belong to the cage, or phi is missing
+//! options.progress is called on all of them.
+//! \param problem  made with options.phi; kHarmonic and kMeanValue need no phi
+//! \param mesher  makes the coarser meshes; empty for none
+//! \param storage  where the iteration's state lives, to be kept or to go on from, in which case no
+//! coarser meshes are used; null for memory that is freed at the end
+//! \return n x V weights and how it went; not converging is a status in the report
+//! \throws OptionError, SolverError; InputError if a coarse mesh does not belong to the cage, or
+//! phi is missing
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, StateStorage* storage = nullptr);
@@ -55,7 +57,8 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {}
 //! Where the cage's interior has several parts (cage_parts.h, mesh_in_parts.h), each is solved by
 //! itself, to the same bits as alone: a point has weights for the control points of its own part,
 //! and exactly 0 for all others. Penalties refer to the size of the part, and
-//! Progress::finer_levels counts the parts that are still to come. \param cage  n control points
+//! Progress::finer_levels counts the parts that are still to come.
+//! \param cage  n control points
 //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
 //! \param mesher  as above
 //! \return as above

@@ -61,9 +61,8 @@ class SparseGradients {
 
   // Calls action(i, grad w_i) for the control points with a weight at a corner.
   template <class Action>
-  void visit(const DomainMesh<Dim>& mesh, Index s, const SparseWeights& weights,
-             const Action& action) {
-    const auto geometry = cell_geometry(mesh, s);
+  void visit(const DomainMesh<Dim>& mesh, Index s, const CellGeometry<Dim>& geometry,
+             const SparseWeights& weights, const Action& action) {
     for (int k = 0; k <= Dim; ++k) {
       const Index v = mesh.cells(k, s);
       for (std::int64_t e = weights.starts()[v]; e < weights.starts()[v + 1]; ++e) {
@@ -118,9 +117,9 @@ double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
     SparseGradients<Dim> gradients(weights.num_control_points());
     double sum = 0;
     for (Index s = begin; s < end; ++s) {
-      const double measure = cell_geometry(mesh, s).measure;
-      gradients.visit(mesh, s, weights, [&](Index i, const auto& gradient) {
-        sum += measure * phi(i, s) * gradient.norm();
+      const auto geometry = cell_geometry(mesh, s);
+      gradients.visit(mesh, s, geometry, weights, [&](Index i, const auto& gradient) {
+        sum += geometry.measure * phi(i, s) * gradient.norm();
       });
     }
     return sum;

@@ -17,12 +17,6 @@ namespace {
                    std::to_string(point) + " is not finite");
 }
 
-// Numbers that are not finite must not get lost as zeros do.
-SparseWeights entries_of(const WeightMatrix& weights) {
-  check_finite(weights);
-  return SparseWeights(weights);
-}
-
 }  // namespace
 
 void check_finite(const WeightMatrix& weights) {
@@ -49,9 +43,11 @@ WeightMatrix read_weights(const std::string& path) {
 
 void write_weights(const std::string& path, const WeightMatrix& weights) {
   const auto& format = format_of(path, Content::kWeights, "write weights as").weights;
-  if (format.write_sparse) return write_weights(path, entries_of(weights));
   check_finite(weights);
-  write_file(path, [&](std::ostream& out) { format.write(out, weights); });
+  write_file(path, [&](std::ostream& out) {
+    format.write_sparse ? format.write_sparse(out, SparseWeights(weights))
+                        : format.write(out, weights);
+  });
 }
 
 void write_weights(const std::string& path, const SparseWeights& weights) {

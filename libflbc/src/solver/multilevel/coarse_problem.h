@@ -20,16 +20,18 @@ struct CoarseProblem {
   LevelReport report{};                          //!< sizes and seconds of mesh and set-up
 };
 
-//! Distances by those of a coarse problem, n x V. \param places  of the V vertices in the coarse
-//! mesh
+//! Distances by those of a coarse problem, n x V.
+//! \param places  of the V vertices in the coarse mesh
 template <int Dim>
 Eigen::MatrixXd distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                                const std::vector<Location<Dim>>& places);
 
 //! Meshes the cage and sets the problems up. Left out are meshes on which the mesher fails (the
-//! cage may be too fine for so few vertices) or that are not clearly coarser than the next. \param
-//! problem  the finest one, whose phi is not asked for \param mesher  not empty \param sizes
-//! numbers of vertices, ascending \param interpolates  whether only the coarsest computes distances
+//! cage may be too fine for so few vertices) or that are not clearly coarser than the next.
+//! \param problem  the finest one, whose phi is not asked for
+//! \param mesher  not empty
+//! \param sizes  numbers of vertices, ascending
+//! \param interpolates  whether only the coarsest computes distances
 //! \return coarsest first
 //! \throws InputError if a coarse mesh does not belong to the cage
 template <int Dim>

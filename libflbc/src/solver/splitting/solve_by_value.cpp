@@ -96,12 +96,7 @@ class ValueSolve {
     if (resumes(storage_)) return storage_->penalty();
     if (options_.penalty > 0) return options_.penalty;
     if (start_) return start_->penalty;
-    return penalty_of_size();
-  }
-
-  double penalty_of_size() const {
-    return options_.penalty > 0 ? options_.penalty
-                                : bounding_box_diagonal(problem_.cage.points) / 40;
+    return bounding_box_diagonal(problem_.cage.points) / 40;
   }
 
   // Frees the coarser mesh's state or the other iteration, which the start refers to.
@@ -167,6 +162,7 @@ class ValueSolve {
   template <class Stored>
   std::optional<MethodResult> on_supports() {
     const bool cold = !start_;
+    const double of_all_pairs = choose_penalty();
     if (cold) start_ = supports::cold_start(problem_, linear_solver_for(problem_, options_));
     auto lists = supports_of_start(cold);
     if (!supports::pay(problem_, options_, lists)) {
@@ -179,10 +175,9 @@ class ValueSolve {
     // nearly right already; as measured.
     const double part = options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25;
     if (cold && options_.penalty == 0) iteration.balance_from(start_->weights, part);
-    const double penalty = part * (cold ? penalty_of_size() : choose_penalty());
     auto last =
-        iteration.template run<Stored>(*std::exchange(start_, {}), penalty, std::move(lists),
-                                       window_of(cold), [&] { forget_start(); });
+        iteration.template run<Stored>(*std::exchange(start_, {}), part * of_all_pairs,
+                                       std::move(lists), window_of(cold), [&] { forget_start(); });
     report_.penalty = last.state.penalty;
     last.state = with_penalty(last.state, last.state.penalty / part);
     if (!last.ended || options_.certify) {
@@ -218,7 +213,7 @@ class ValueSolve {
     return state;
   }
 
-  // What a finer mesh that works on supports will read of the state.
+  // The part of the state that a finer mesh on supports will read.
   DualStart<Dim> handed_on(DualStart<Dim> start) const {
     if (!supports::serve(problem_, options_)) return start;
     const double finer_tolerance = options_.tolerance / options_.coarse_levels.looseness;
