@@ -203,6 +203,18 @@ TEST(TetrahedralizeTest, OptionsOutOfRange) {
   EXPECT_THROW(tetrahedralize(cage, no_time), OptionError);
 }
 
+// Facets that are joined where they are coplanar take more vertices in a rod than those left alone.
+TEST(TetrahedralizeTest, MoreVerticesThanTheFewestAreNeverTooFew) {
+  const Cage<3> rod = box_cage<3>({0, 0, 0}, {1, 0.001, 0.001});
+  const Index fewest = tetrahedralize(rod).num_vertices();
+  for (const Index count : {fewest, 2 * fewest}) {
+    const DomainMesh<3> mesh = tetrahedralize(rod, vertices(count));
+    expect_fills(rod, mesh, 1e-6);
+    EXPECT_TRUE(covers_edges(rod, mesh));
+    EXPECT_NEAR(mesh.num_vertices(), count, 0.3 * count);  // many of its cells are halved at once
+  }
+}
+
 // One run is no search: a count of that order, or the coarsest mesh there is.
 TEST(TetrahedralizeTest, RoughlyAsManyVertices) {
   const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 2, 1));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,9 +56,8 @@ std::string quality_switches(CoplanarFacets coplanar, double ratio, double large
                              Index most_points) {
   char text[128];
   const char* merging = coplanar == CoplanarFacets::kKeep ? "M" : "";
-  int length =
-      std::snprintf(text, sizeof(text), "p%.9gq%gQJS%d%s", 180 - kCoplanarAngle, ratio, most_points,
-                    merging);
+  int length = std::snprintf(text, sizeof(text), "p%.9gq%gQJS%d%s", 180 - kCoplanarAngle, ratio,
+                             most_points, merging);
   if (largest_volume > 0) {
     length += std::snprintf(text + length, sizeof(text) - length, "a%.17g", largest_volume);
   }
@@ -192,13 +192,15 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
 }
 
 // Replaces the mesh by one that has the cage's edges between coplanar facets too, where TetGen can
-// do it and the vertex count is met. Without these edges the boundary values are not exactly linear
-// along them, which is a lesser evil than no mesh.
+// do it and the vertex count is met, or there is no mesh yet. Without these edges the boundary
+// values are not exactly linear along them, which is a lesser evil than no mesh.
 void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mesh) {
   try {
     DomainMesh<3> better = fill(task, CoplanarFacets::kKeep, time_limit);
     const VertexCountGoal goal{task.vertices};
-    if (task.vertices > 0 && !goal.is_met(better.num_vertices(), kCountTolerance)) return;
+    const bool has_count =
+        task.vertices == 0 || goal.is_met(better.num_vertices(), kCountTolerance);
+    if (mesh.num_vertices() > 0 && !has_count) return;
     mesh = std::move(better);
   } catch (const InputError&) {
   } catch (const OptionError&) {
@@ -215,18 +217,23 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
                   options.vertices,
                   options.roughly};
 
+  const bool may_keep_edges = !options.roughly && has_coplanar_facets(cage);
   const auto start = std::chrono::steady_clock::now();
   DomainMesh<3> mesh;
+  std::optional<OptionError> too_few;
   try {
     mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     throw InputError(error.what() + describe_thinnest(cage));
+  } catch (const OptionError& error) {  // joined facets of thin rods take more cells
+    too_few = error;
   }
-  if (!options.roughly && has_coplanar_facets(cage)) {
+  if (may_keep_edges) {
     // Far more than it takes unless it runs for ever.
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);
   }
+  if (too_few && mesh.num_vertices() == 0) throw OptionError(*too_few);
   finish_mesh(mesh, static_cast<Index>(points.cols()));
   return mesh;
 }
