@@ -165,4 +165,30 @@ TEST(House, SourcesAndFunctionsAreSmall) {
   }
 }
 
+// Two classes of one name in a namespace are one to the linker, which takes either's functions.
+TEST(House, ClassesAreDefinedOnce) {
+  static const std::regex name_of_namespace(R"(^namespace ([a-z0-9_:]+) \{)");
+  static const std::regex name_of_class(
+      R"(^(?:class|struct) (?:\w+\(.*?\) )?(\w+)(?: final)?(?: : .*)? \{)");
+  std::map<std::string, fs::path> defined_in;
+  for (const char* folder :
+       {"libflbc", "apps", "openmesh_bindings/src", "openmesh_bindings/include"}) {
+    for (const auto& file : files_in(kRoot / folder, {".h", ".cpp", ".inl"})) {
+      std::string where;
+      bool is_local = false;
+      std::smatch match;
+      for (const auto& line : lines_of(file)) {
+        if (line == "namespace {") is_local = true;
+        if (line == "}  // namespace") is_local = false;
+        if (std::regex_search(line, match, name_of_namespace)) where = match[1];
+        if (is_local || !std::regex_search(line, match, name_of_class)) continue;
+        const auto [entry, is_new] = defined_in.emplace(where + "::" + match[1].str(), file);
+        EXPECT_TRUE(is_new) << entry->first << " is defined in " << entry->second << " and "
+                            << file;
+      }
+    }
+  }
+  EXPECT_EQ(defined_in.count("flbc::LbcProblem"), 1u);  // such are found
+}
+
 }  // namespace

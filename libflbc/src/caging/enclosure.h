@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "caging/box_tree.h"
 #include "caging/cgal/exact_predicates.h"
+#include "caging/overlap_tree.h"
 #include "flbc/cage.h"
 
 namespace flbc {
@@ -38,7 +38,7 @@ class Enclosure {
 
  private:
   std::vector<Simplex<Dim>> simplices_;
-  BoxTree<Dim> tree_;
+  OverlapTree<Dim> tree_;
   PointList<Dim> representatives_;
   Box box_;
 };

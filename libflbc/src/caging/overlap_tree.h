@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of bounding boxes: which of many things may meet a box.
+// A tree of bounding boxes: which of many things may overlap a box.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 namespace flbc {
 
 template <int Dim>
-class BoxTree {
+class OverlapTree {
  public:
   using Box = Eigen::AlignedBox<double, Dim>;
 
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit OverlapTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(boxes_.size());
     if (!boxes_.empty()) build(0, static_cast<Index>(boxes_.size()));
