@@ -239,9 +239,43 @@ def make_torus(folder):
     write_obj(folder / "3d/torus_model.obj", "a pastry ring", points, faces=split(points, quads))
 
 
+def make_knot(folder):
+    """A trefoil knot in a cage of 300 control points, of which few matter anywhere."""
+
+    def centre(t):
+        return scale(1.35, (math.sin(t) + 2 * math.sin(2 * t), math.cos(t) - 2 * math.cos(2 * t),
+                            -1.2 * math.sin(3 * t)))
+
+    def frame(t):
+        """Two unit vectors across the curve. It is never vertical."""
+        along = unit((math.cos(t) + 4 * math.cos(2 * t), -math.sin(t) + 4 * math.sin(2 * t),
+                      -3.6 * math.cos(3 * t)))
+        upward = unit(sub((0, 0, 1), scale(along[2], along)))
+        return upward, cross(along, upward)
+
+    def swept(around, across, radius):
+        points, rings = [], []
+        for i in range(around):
+            t = 2 * math.pi * i / around
+            up, side = frame(t)
+            rings.append(range(len(points), len(points) + across))
+            for k in range(across):
+                angle = 2 * math.pi * k / across
+                points.append(add(centre(t), add(scale(radius * math.cos(angle), up),
+                                                 scale(radius * math.sin(angle), side))))
+        quads = [q for a, b in zip(rings, rings[1:] + rings[:1]) for q in bridge(a, b)]
+        return points, split(points, quads)
+
+    points, faces = swept(50, 6, 0.9)
+    write_obj(folder / "3d/knot_cage.obj", "cage of a trefoil knot", points, faces=faces)
+    points, faces = swept(160, 16, 0.36)
+    write_obj(folder / "3d/knot_model.obj", "a trefoil knot", points, faces=faces)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
-    for make in (make_figure, make_letter, make_ring, make_limb, make_star, make_torus):
+    for make in (make_figure, make_letter, make_ring, make_limb, make_star, make_torus,
+                 make_knot):
         make(folder)
 
 
