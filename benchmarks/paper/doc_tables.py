@@ -125,6 +125,35 @@ def lbc2014(rows):
     return header, body
 
 
+def levels(rows):
+    header = ["model", "V", "tolerance", "cold: iterations, s", "error", "levels",
+              "from coarser meshes: iterations, s", "error", "times"]
+    body = []
+    for row in rows:
+        errors = formatted(row, [("cold_error", ".2f"), ("error", ".2f")])
+        seconds = formatted(row, [("cold_seconds", ".3f"), ("seconds", ".3f")])
+        body.append([row["model"], results.thousands(row["vertices"]),
+                     f"{results.value(row, 'tolerance'):.0e}",
+                     f"{row['cold_iterations']}, {seconds[0]}", errors[0], row["coarse_levels"],
+                     f"{row['iterations']}, {seconds[1]}", errors[1]] +
+                    formatted(row, [("times", ".1f")]))
+    return header, body
+
+
+def many(rows):
+    header = ["cage", "n", "V", "tolerance", "all pairs: iterations, s, MiB",
+              "supports: iterations, s, MiB", "pairs", "times", "difference"]
+    body = []
+    for row in rows:
+        def run(prefix):
+            parts = formatted(row, [(prefix + "seconds", ".2f"), (prefix + "mebibytes", ",.0f")])
+            return ", ".join([results.thousands(row[prefix + "iterations"])] + parts)
+        body.append([row["cage"], row["control_points"], results.thousands(row["vertices"]),
+                     f"{results.value(row, 'tolerance'):.0e}", run("all_"), run("")] +
+                    formatted(row, [("density", ".1%"), ("times", ".1f"), ("difference", ".1e")]))
+    return header, body
+
+
 def formatted(row, columns):
     """Cells of the given columns, each with its format."""
     return [tables.text(results.value(row, column), form) for column, form in columns]
@@ -146,5 +175,5 @@ def brief(cell):
 
 TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows,
           "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
-          "growth": growth, "bandwidth": bandwidth, "lbc2014": lbc2014,
+          "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014,
           "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows}

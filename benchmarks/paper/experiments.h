@@ -31,6 +31,8 @@ bool run_figure6(const Context& context);    //!< the same on large meshes
 bool run_lbc2014(const Context& context);    //!< open details of the 2014 solver, one by one
 bool run_speed(const Context& context);      //!< total time to an error of 1e-5, beside others
 bool run_race(const Context& context);       //!< iterations and time to a true error of 1e-5
+bool run_levels(const Context& context);     //!< cold, and from coarser meshes
+bool run_many(const Context& context);       //!< many control points: all pairs, supports
 bool run_growth(const Context& context);     //!< time and memory up to millions of cells
 bool run_bandwidth(const Context& context);  //!< iterations and deformations beside copying
 
