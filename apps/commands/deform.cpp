@@ -82,14 +82,13 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
 template <int Dim>
 SparseWeights load_weights(const MovableModel<Dim>& model, const PointList<Dim>& rest,
                            const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  const auto dense = io::read_weights(arguments.weights);
+  auto weights = io::read_sparse_weights(arguments.weights);
   const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
-    check_sizes(dense, control_points.cols(), model.points().cols(),
+    check_sizes(weights, control_points.cols(), model.points().cols(),
                 {arguments.weights, name, arguments.file.model});
   };
   if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
   for (const auto& pose : poses) check_cage(pose.name, pose.points);
-  SparseWeights weights(dense);
   if (!arguments.rest.empty()) {
     check_reproduction(weights, rest, model.points(),
                        {arguments.weights, arguments.rest, arguments.file.model});

@@ -65,10 +65,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   CageSolver<Dim> solver(cage, model, settings);
   solver.make_domain(arguments.quiet);
   solver.solve(arguments.quiet);
-  // Those of the mesh may be large, and are not copied.
-  const bool has_model = !settings.model.empty();
-  const WeightMatrix of_model = has_model ? solver.rows() : WeightMatrix();
-  const WeightMatrix& rows = has_model ? of_model : solver.domain_weights();
+  const auto rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);
   const auto json = to_text(solver.json(delivered));
   {

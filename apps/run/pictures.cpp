@@ -40,13 +40,13 @@ draw::WeightPictureOptions options_of(const Run<Dim>& run) {
 
 draw::Image draw_function(const Run<2>& run, Index control_point) {
   return draw::draw_weights(run.cage, run.solver.domain(),
-                            run.solver.domain_weights().row(control_point), control_point,
+                            run.domain_weights().row(control_point), control_point,
                             options_of(run));
 }
 
 draw::Image draw_function(const Run<3>& run, Index control_point) {
   return draw::draw_slices(run.cage, run.solver.domain(),
-                           run.solver.domain_weights().row(control_point), control_point, 3,
+                           run.domain_weights().row(control_point), control_point, 3,
                            options_of(run));
 }
 
@@ -85,7 +85,7 @@ draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   const auto& domain = run.solver.domain();
   const bool is_surface = shape.surface.triangles.cols() > 0;
   const auto& points = is_surface ? shape.points : domain.points;
-  const auto& weights = is_surface ? run.sparse : run.solver.domain_weights();
+  const auto& weights = is_surface ? run.sparse : run.domain_weights();
   return draw::draw_deformation(
       run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
       {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)},
@@ -97,7 +97,7 @@ draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
 draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
   const auto& shape = run.shape();
   if (shape.surface.triangles.cols() == 0) {
-    const auto& weights = run.solver.domain_weights();
+    const auto& weights = run.domain_weights();
     const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
     return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
                              control_point, 3, options_of(run));

@@ -52,12 +52,13 @@ template <int Dim>
 void compute_weights(Run<Dim>& run) {
   auto& solver = run.solver;
   solver.solve(run.arguments.quiet);
-  run.dense = solver.rows();
+  run.dense = solver.rows().dense();
+  if (run.has_model()) run.of_mesh = solver.domain_weights().dense();
   const auto delivered = measure_quality(run.cage.points, run.shape().points, run.dense);
   run.report["solve"] = solver.json(delivered);
   if (run.has_model()) {
     run.folder.add(kDomainWeights, "a row per vertex of the domain",
-                   [&](const auto& path) { io::write_weights(path, solver.domain_weights()); });
+                   [&](const auto& path) { io::write_weights(path, run.of_mesh); });
   }
   const auto& report = solver.report();
   Facts facts;
@@ -82,7 +83,7 @@ void check_weights_of_mesh(Run<Dim>& run) {
   auto check = check_cage(run.cage, run.arguments.settings.cage);
   check.domain_file = run.report["mesh"]["file"];
   check.weights_file = run.has_model() ? kDomainWeights : kWeights;
-  check_weights_of(check, run.solver.domain(), run.solver.domain_weights());
+  check_weights_of(check, run.solver.domain(), run.domain_weights());
   run.report["check"] = check_json(check);
 }
 

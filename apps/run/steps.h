@@ -26,6 +26,7 @@ struct Run {
   RunFolder& folder;
   nlohmann::ordered_json report{};
 
+  WeightMatrix of_mesh{};       //!< n x V, if the shape is a model
   WeightMatrix dense{};         //!< n x P, of the shape's points
   WeightMatrix sparse{};        //!< n x P, of at most so many influences
   Displacement displacement{};  //!< in the poses
@@ -33,6 +34,8 @@ struct Run {
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }
   bool has_model() const { return !arguments.settings.model.empty(); }
+  //! n x V, at the vertices of the mesh.
+  const WeightMatrix& domain_weights() const { return has_model() ? of_mesh : dense; }
 };
 
 //! cage.obj, if the cage has been made.

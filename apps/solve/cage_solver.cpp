@@ -27,7 +27,7 @@ namespace {
 
 // Starts from coarser meshes where that pays and a mesher was built in.
 template <int Dim>
-Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
+SparseSolution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
                       double penalty, Mesher made_by) {
   const auto mesher = coarse_mesher<Dim>(made_by);
   if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
@@ -35,7 +35,7 @@ Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Solv
                       std::to_string(Dim) + "D");
   }
   options.penalty = published_penalty(cage, domain, options.method, penalty);
-  return solve(cage, domain, options, mesher);
+  return solve_sparse(cage, domain, options, mesher);
 }
 
 template <int Dim>
@@ -245,15 +245,14 @@ const PointList<Dim>& CageSolver<Dim>::points() const {
 }
 
 template <int Dim>
-WeightMatrix CageSolver<Dim>::rows() const {
-  const auto& weights = solved_.solution.weights;
-  if (settings_.model.empty()) return weights;
-  WeightMatrix rows = weights_at(cage_, solved_.domain, weights, placement_);
-  for (std::size_t p = 0; p < embedded_.number.size(); ++p) {  // exactly those of the vertex
-    if (embedded_.number[p] < 0) continue;
-    rows.col(static_cast<Index>(p)) = weights.col(cage_.size() + embedded_.number[p]);
-  }
-  return rows;
+SparseWeights CageSolver<Dim>::rows() const {
+  if (settings_.model.empty()) return domain_weights();
+  auto rows = weights_at(cage_, solved_.domain, domain_weights(), placement_);
+  if (!settings_.embed) return rows;
+  return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
+    const Index number = embedded_.number[p];  // exactly those of the vertex
+    return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
+  });
 }
 
 template <int Dim>

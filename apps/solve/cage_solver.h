@@ -44,7 +44,7 @@ class CageSolver {
 
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return solved_.domain; }
-  const WeightMatrix& domain_weights() const { return solved_.solution.weights; }
+  const SparseWeights& domain_weights() const { return solved_.solution.weights; }
   const SolveReport& report() const { return solved_.solution.report; }
   bool is_cached() const { return is_cached_; }
   double mesh_seconds() const { return solved_.mesh_seconds; }
@@ -54,7 +54,7 @@ class CageSolver {
   //! cage are where their weights put them.
   const PointList<Dim>& points() const;
   //! Their weights.
-  WeightMatrix rows() const;
+  SparseWeights rows() const;
 
   //! Where the model's vertices are; empty without a model.
   const Placement<Dim>& placement() const { return placement_; }

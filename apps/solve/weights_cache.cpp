@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "flbc/byte_archive.h"
 #include "flbc/io/files.h"
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number is the format's.
-constexpr std::string_view kFirstLine = "flbc weights, format 6\n";
+constexpr std::string_view kFirstLine = "flbc weights, format 7\n";
 
 // Content of a file, for reading and writing alike. All members are named: one that is added to a
 // report does not compile until it is added here.
@@ -75,10 +77,24 @@ void visit_report(Archive& archive, Report& report) {
   visit_parts(archive, parts);
 }
 
+void visit_weights(ByteWriter& archive, const SparseWeights& weights) {
+  archive(weights.num_control_points(), weights.starts(), weights.control_points(),
+          weights.values());
+}
+
+void visit_weights(ByteReader& archive, SparseWeights& weights) {
+  Index num_control_points = 0;
+  std::vector<std::int64_t> starts;
+  std::vector<std::uint32_t> control_points;
+  std::vector<double> values;
+  archive(num_control_points, starts, control_points, values);
+  weights = {num_control_points, std::move(starts), std::move(control_points), std::move(values)};
+}
+
 template <class Archive, class Solved>
 void visit_solved(Archive& archive, Solved& solved) {
-  archive(solved.domain.points, solved.domain.cells, solved.solution.weights, solved.mesh_seconds,
-          solved.mesher);
+  archive(solved.domain.points, solved.domain.cells, solved.mesh_seconds, solved.mesher);
+  visit_weights(archive, solved.solution.weights);
   visit_report(archive, solved.solution.report);
 }
 
@@ -92,7 +108,7 @@ SolvedDomain<Dim> read_entry(const std::string& path, const std::string& key) {
   ByteReader reader(entry.payload);
   SolvedDomain<Dim> solved;
   visit_solved(reader, solved);
-  if (!reader.is_at_end() || solved.solution.weights.cols() != solved.domain.num_vertices()) {
+  if (!reader.is_at_end() || solved.solution.weights.num_points() != solved.domain.num_vertices()) {
     throw InputError("a size in it is impossible");
   }
   return solved;

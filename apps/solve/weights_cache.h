@@ -16,8 +16,8 @@ namespace flbc::app {
 template <int Dim>
 struct SolvedDomain {
   DomainMesh<Dim> domain{};
-  Solution solution{};      //!< n x V, at the vertices of the domain
-  double mesh_seconds = 0;  //!< for making or reading the domain
+  SparseSolution solution{};  //!< at the V vertices of the domain
+  double mesh_seconds = 0;    //!< for making or reading the domain
   Mesher mesher = Mesher::kGiven;
 };
 

@@ -20,6 +20,8 @@ struct WeightFiles {
 //! many columns as points
 void check_sizes(const WeightMatrix& weights, Eigen::Index num_control_points,
                  Eigen::Index num_points, const WeightFiles& files);
+void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
+                 Eigen::Index num_points, const WeightFiles& files);
 
 //! \param rest  Dim x n \param points  Dim x P, of the model
 //! \throws InputError naming the worst vertex if the weights put one beside its place by more than

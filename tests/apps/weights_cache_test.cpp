@@ -64,11 +64,10 @@ class WeightsCacheOf : public FolderTest {
     const auto sample = make_sample<Dimension::value>(Shape::kSimplex, 1);
     solved.domain = sample.mesh;
     const auto numbers = awkward_numbers();
-    solved.solution.weights.resize(sample.cage.size(), sample.mesh.num_vertices());
+    WeightMatrix weights(sample.cage.size(), sample.mesh.num_vertices());
     std::size_t next = 0;
-    for (auto& weight : solved.solution.weights.reshaped()) {
-      weight = numbers[next++ % numbers.size()];
-    }
+    for (auto& weight : weights.reshaped()) weight = numbers[next++ % numbers.size()];
+    solved.solution.weights = SparseWeights(weights);
     solved.mesh_seconds = 0.1;
     auto& report = solved.solution.report;
     report.method = Method::kLbc2014;
@@ -85,7 +84,7 @@ class WeightsCacheOf : public FolderTest {
   static void expect_same(const Solved& found, const Solved& stored) {
     EXPECT_TRUE(bit_equal(found.domain.points, stored.domain.points));
     EXPECT_EQ(found.domain.cells, stored.domain.cells);
-    EXPECT_TRUE(bit_equal(found.solution.weights, stored.solution.weights));
+    EXPECT_TRUE(bit_equal(found.solution.weights.dense(), stored.solution.weights.dense()));
     EXPECT_EQ(found.mesh_seconds, stored.mesh_seconds);
     const auto& a = found.solution.report;
     const auto& b = stored.solution.report;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
@@ -25,7 +25,8 @@ class PlacementTest : public ::testing::Test {
  protected:
   static constexpr int kDimension = Dimension::value;
 
-  explicit PlacementTest(Shape shape = Shape::kCorner) : sample_(make_sample<kDimension>(shape, 4)) {
+  explicit PlacementTest(Shape shape = Shape::kCorner)
+      : sample_(make_sample<kDimension>(shape, 4)) {
     size_ = bounding_box_diagonal<kDimension>(sample_.cage.points);
     weights_ = mean_value_coordinates<kDimension>(sample_.cage, sample_.mesh.points).cwiseMax(0);
     weights_.array().rowwise() /= weights_.colwise().sum().array().eval();
@@ -99,8 +100,7 @@ TYPED_TEST(PlacementTest, AHairOutsideIsOnTheCageForEverybody) {
     SCOPED_TRACE(part);
     const auto points = this->off_the_facets(part * this->size_);
     const auto outside = points_outside(cage, points);
-    const auto placement =
-        place_points(cage, this->sample_.mesh, points, OutsidePoints::kNearest);
+    const auto placement = place_points(cage, this->sample_.mesh, points, OutsidePoints::kNearest);
     ASSERT_EQ(placement.outside.size(), outside.size());
     for (std::size_t k = 0; k < outside.size(); ++k) {
       EXPECT_EQ(placement.outside[k].point, outside[k]);
@@ -225,11 +225,34 @@ TYPED_TEST(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConvexEdges)
     points.col(2 * k) = place;
     points.col(2 * k + 1) = place + kStep * size * along;
   }
-  const auto extended = weights_at(
-      cage, sample.mesh, weights, place_points(cage, sample.mesh, points, OutsidePoints::kExtend));
+  const auto extended = weights_at(cage, sample.mesh, weights,
+                                   place_points(cage, sample.mesh, points, OutsidePoints::kExtend));
   for (int k = 0; k < kPoints; ++k) {
     const double change = (extended.col(2 * k) - extended.col(2 * k + 1)).norm();
     EXPECT_LT(change, 20 * kStep) << k;
+  }
+}
+
+// Whatever becomes of points, weights without their zeros say the same.
+TYPED_TEST(PlacementTest, SparseWeightsGiveTheSame) {
+  constexpr int kDim = TypeParam::value;
+  const auto& sample = this->sample_;
+  WeightMatrix local = (this->weights_.array() < 0.1).select(0, this->weights_);
+  local.array().rowwise() /= local.colwise().sum().array().eval();
+  PointList<kDim> points(kDim, 0);
+  for (const double distance : {-1e-2, 1e-8, 0.1}) {  // inside, on the cage, outside
+    const auto more = this->off_the_facets(distance * this->size_);
+    const auto before = points.cols();
+    points.conservativeResize(kDim, before + more.cols());
+    points.rightCols(more.cols()) = more;
+  }
+  for (const auto policy : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
+    const auto placement = place_points(sample.cage, sample.mesh, points, policy);
+    EXPECT_GT(placement.outside.size(), 0);
+    const auto dense = weights_at(sample.cage, sample.mesh, local, placement);
+    const auto sparse = weights_at(sample.cage, sample.mesh, SparseWeights(local), placement);
+    EXPECT_EQ(sparse.dense(), dense);
+    EXPECT_LT(sparse.values().size(), dense.size());
   }
 }
 

@@ -63,7 +63,7 @@ void read_kept(const std::string& path) {
   const auto answer = cache.find<Dim>(kKey);
   require(answer.solved.has_value() == answer.complaint.empty(), "weights or a complaint");
   if (!answer.solved) throw InputError(answer.complaint);
-  require(answer.solved->solution.weights.cols() == answer.solved->domain.num_vertices(),
+  require(answer.solved->solution.weights.num_points() == answer.solved->domain.num_vertices(),
           "weights are of the vertices");
 }
 
@@ -74,7 +74,7 @@ std::string kept_weights() {
   app::SolvedDomain<Dim> solved;
   solved.domain.points = PointList<Dim>::Identity(Dim, Dim + 1);
   solved.domain.cells = Eigen::Matrix<Index, Dim + 1, 1>::LinSpaced(Dim + 1, 0, Dim);
-  solved.solution.weights = WeightMatrix::Identity(Dim + 1, Dim + 1);
+  solved.solution.weights = SparseWeights(WeightMatrix::Identity(Dim + 1, Dim + 1));
   solved.solution.report.coarse_levels.resize(1);
   cache.store(kKey, solved);
   const auto content = get_file(cache.path_of(kKey));

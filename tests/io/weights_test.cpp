@@ -124,6 +124,7 @@ TEST_F(WeightsFile, SparseWeightsGiveTheSameFile) {
     write_weights(dense, weights);
     write_weights(sparse, SparseWeights(weights));
     EXPECT_EQ(read_file(sparse), read_file(dense)) << name;
+    EXPECT_TRUE(bit_equal(read_sparse_weights(sparse).dense(), weights)) << name;
   }
   weights(3, 8) = std::numeric_limits<double>::infinity();
   expect_error<InputError>([&] { write_weights(path("w.mtx"), SparseWeights(weights)); },

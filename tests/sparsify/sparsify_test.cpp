@@ -99,6 +99,9 @@ TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
         const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
         expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
         EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)), sparse);
+        EXPECT_EQ(sparsify<Dim>(control_points, points, SparseWeights(weights), at_most(most))
+                      .dense(),
+                  sparse);
       }
       const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05));
       expect_sparse_coordinates<Dim>(control_points, points, dropped, 8);

@@ -7,6 +7,7 @@
 
 #include "flbc/cell_locator.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -23,6 +24,11 @@ WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weight
 //! The same at one place, n numbers.
 template <int Dim>
 Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
+                            const Location<Dim>& place);
+
+//! The same of weights without their zeros.
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
                             const Location<Dim>& place);
 
 }  // namespace flbc

@@ -8,17 +8,18 @@
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
 //! Treatment of points outside the cage.
 enum class OutsidePoints {
   kFail,     //!< an InputError says how many there are, which is the farthest, and how far it is
-  kNearest,  //!< the weights of the nearest point of the cage: >= 0, with sum 1; they reproduce that
-             //!< point
-  kExtend    //!< those plus an affine function of the offset from it: the offset follows the affine
-             //!< map that fits the control points around best. The sum is 1 and the point is
-             //!< reproduced; weights may be negative. Continuous across the cage.
+  kNearest,  //!< the weights of the nearest point of the cage: >= 0, with sum 1; they reproduce
+             //!< that point
+  kExtend  //!< those plus an affine function of the offset from it: the offset follows the affine
+           //!< map that fits the control points around best. The sum is 1 and the point is
+           //!< reproduced; weights may be negative. Continuous across the cage.
 };
 
 //! A point beside the cage and the place on the cage that is nearest to it.
@@ -70,5 +71,10 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
 template <int Dim>
 WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const WeightMatrix& weights, const Placement<Dim>& placement);
+
+//! The same of weights without their zeros.
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const SparseWeights& weights, const Placement<Dim>& placement);
 
 }  // namespace flbc

@@ -56,6 +56,15 @@ class SparseWeights {
   //! Their values.
   const std::vector<double>& values() const { return values_; }
 
+  //! Calls action(i, weight) for the weights of a point, by ascending control point i.
+  //! \param point  in [0, P)
+  template <class Action>
+  void visit(Index point, const Action& action) const {
+    for (std::int64_t k = starts_[point]; k < starts_[point + 1]; ++k) {
+      action(static_cast<Index>(control_points_[k]), values_[k]);
+    }
+  }
+
   //! All weights of a point, n numbers. \param point  in [0, P)
   Eigen::VectorXd at(Index point) const;
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -45,5 +46,10 @@ void validate(const SparsifyOptions& options);
 template <int Dim>
 WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
                       const WeightMatrix& weights, const SparsifyOptions& options);
+
+//! The same for weights without their zeros.
+template <int Dim>
+SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                       const SparseWeights& weights, const SparsifyOptions& options);
 
 }  // namespace flbc

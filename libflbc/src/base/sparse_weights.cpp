@@ -101,9 +101,7 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
 
 Eigen::VectorXd SparseWeights::at(Index point) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_control_points_);
-  for (std::int64_t k = starts_[point]; k < starts_[point + 1]; ++k) {
-    weights[control_points_[k]] = values_[k];
-  }
+  visit(point, [&](Index i, double weight) { weights[i] = weight; });
   return weights;
 }
 

@@ -23,11 +23,26 @@ Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& wei
   return result;
 }
 
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                            const Location<Dim>& place) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
+  for (int k = 0; k <= Dim; ++k) {
+    weights.visit(mesh.cells(k, place.cell),
+                  [&](Index i, double weight) { result[i] += place.coordinates[k] * weight; });
+  }
+  return result;
+}
+
 template WeightMatrix interpolate(const DomainMesh<2>&, const WeightMatrix&,
                                   const std::vector<Location<2>>&);
 template WeightMatrix interpolate(const DomainMesh<3>&, const WeightMatrix&,
                                   const std::vector<Location<3>>&);
 template Eigen::VectorXd interpolate(const DomainMesh<2>&, const WeightMatrix&, const Location<2>&);
 template Eigen::VectorXd interpolate(const DomainMesh<3>&, const WeightMatrix&, const Location<3>&);
+template Eigen::VectorXd interpolate(const DomainMesh<2>&, const SparseWeights&,
+                                     const Location<2>&);
+template Eigen::VectorXd interpolate(const DomainMesh<3>&, const SparseWeights&,
+                                     const Location<3>&);
 
 }  // namespace flbc

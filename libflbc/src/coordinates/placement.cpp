@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <unordered_map>
 
 #include "base/messages.h"
 #include "coordinates/affine_fit.h"
@@ -27,8 +28,7 @@ class NearestOnCage {
     for (Index f = 0; f < cage.facets.cols(); ++f) {
       PointList<Dim> corners(Dim, Dim);
       for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-      facets_.push_back(
-          {corners, corners.rowwise().minCoeff(), corners.rowwise().maxCoeff()});
+      facets_.push_back({corners, corners.rowwise().minCoeff(), corners.rowwise().maxCoeff()});
     }
   }
 
@@ -74,8 +74,7 @@ double distance_beyond(const DomainMesh<Dim>& mesh, const Location<Dim>& locatio
   double distance = 0;
   for (int k = 0; k <= Dim; ++k) {
     // A coordinate below zero, times the height over its facet.
-    distance =
-        std::max(distance, -location.coordinates[k] / geometry.hat_gradients.col(k).norm());
+    distance = std::max(distance, -location.coordinates[k] / geometry.hat_gradients.col(k).norm());
   }
   return distance;
 }
@@ -98,9 +97,8 @@ template <int Dim>
 void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& points, double size) {
   const auto& outside = placement.outside;
   const auto farthest =
-      std::max_element(outside.begin(), outside.end(), [](const auto& a, const auto& b) {
-        return a.distance < b.distance;
-      });
+      std::max_element(outside.begin(), outside.end(),
+                       [](const auto& a, const auto& b) { return a.distance < b.distance; });
   throw InputError(
       std::to_string(outside.size()) + " of " + std::to_string(points.cols()) +
       " points lie outside the cage, the farthest is vertex " + std::to_string(farthest->point) +
@@ -111,36 +109,68 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
       "round the model with flbc cage");
 }
 
-template <int Dim>
-void set_facet_weights(const Cage<Dim>& cage, const PointBeside<Dim>& beside,
-                       Eigen::Ref<Eigen::VectorXd> weights) {
-  weights.setZero();
-  for (int k = 0; k < Dim; ++k) {
-    weights[cage.facets(k, beside.facet)] = beside.coordinates[k];
+// Weights at placed points, one after the other.
+template <int Dim, class Weights>
+class WeightsAt {
+ public:
+  WeightsAt(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
+            const Placement<Dim>& placement)
+      : cage_(cage), mesh_(mesh), weights_(weights), placement_(placement) {
+    for (const auto& beside : placement.on_cage) beside_[beside.point] = {&beside, false};
+    const bool extends = placement.policy == OutsidePoints::kExtend;
+    for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, extends};
+    if (extends) fit_round_facets();
   }
-}
 
-// Adds sum_k b_k G_k (x - q) with the affine fits G_k at the corners of the facet.
-template <int Dim>
-void extend(const Cage<Dim>& cage, const Placement<Dim>& placement, WeightMatrix& weights) {
-  const AffineFitter<Dim> fitter(cage);
-  std::map<Index, AffineFit<Dim>> fits;
-  for (const auto& beside : placement.outside) {
-    const Vector<Dim> offset =
-        placement.points.col(beside.point) - place_on_cage(cage, beside);
+  Eigen::VectorXd operator()(Index point) const {
+    const auto& place = placement_.places[point];
+    if (place.cell >= 0) return interpolate(mesh_, weights_, place);
+    const auto& [beside, extends] = beside_.at(point);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(cage_.size());
     for (int k = 0; k < Dim; ++k) {
-      if (beside.coordinates[k] == 0) continue;
-      const Index corner = cage.facets(k, beside.facet);
-      const auto found = fits.find(corner);
-      const auto& fit =
-          found != fits.end() ? found->second : fits.emplace(corner, fitter(corner)).first->second;
-      for (std::size_t i = 0; i < fit.control_points.size(); ++i) {
-        weights(fit.control_points[i], beside.point) +=
-            beside.coordinates[k] * fit.gradients.row(i).dot(offset);
+      result[cage_.facets(k, beside->facet)] = beside->coordinates[k];
+    }
+    if (extends) extend(*beside, result);
+    return result;
+  }
+
+ private:
+  struct Beside {
+    const PointBeside<Dim>* place = nullptr;
+    bool extends = false;
+  };
+
+  void fit_round_facets() {
+    const AffineFitter<Dim> fitter(cage_);
+    for (const auto& beside : placement_.outside) {
+      for (int k = 0; k < Dim; ++k) {
+        const Index corner = cage_.facets(k, beside.facet);
+        if (beside.coordinates[k] != 0 && !fits_.count(corner)) {
+          fits_.emplace(corner, fitter(corner));
+        }
       }
     }
   }
-}
+
+  // Adds sum_k b_k G_k (x - q) with the affine fits G_k at the corners of the facet.
+  void extend(const PointBeside<Dim>& beside, Eigen::VectorXd& result) const {
+    const Vector<Dim> offset = placement_.points.col(beside.point) - place_on_cage(cage_, beside);
+    for (int k = 0; k < Dim; ++k) {
+      if (beside.coordinates[k] == 0) continue;
+      const auto& fit = fits_.at(cage_.facets(k, beside.facet));
+      for (std::size_t i = 0; i < fit.control_points.size(); ++i) {
+        result[fit.control_points[i]] += beside.coordinates[k] * fit.gradients.row(i).dot(offset);
+      }
+    }
+  }
+
+  const Cage<Dim>& cage_;
+  const DomainMesh<Dim>& mesh_;
+  const Weights& weights_;
+  const Placement<Dim>& placement_;
+  std::unordered_map<Index, Beside> beside_;
+  std::map<Index, AffineFit<Dim>> fits_;
+};
 
 }  // namespace
 
@@ -189,30 +219,31 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 template <int Dim>
 WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const WeightMatrix& weights, const Placement<Dim>& placement) {
-  auto places = placement.places;
-  for (auto& place : places) {  // those not inside get their weights below
-    if (place.cell >= 0) continue;
-    place.cell = 0;
-    place.coordinates.setZero();
-  }
-  auto result = interpolate(mesh, weights, places);
-  for (const auto& point : placement.on_cage) {
-    set_facet_weights<Dim>(cage, point, result.col(point.point));
-  }
-  for (const auto& point : placement.outside) {
-    set_facet_weights<Dim>(cage, point, result.col(point.point));
-  }
-  if (placement.policy == OutsidePoints::kExtend) extend(cage, placement, result);
+  const WeightsAt<Dim, WeightMatrix> at(cage, mesh, weights, placement);
+  const auto num_points = static_cast<Index>(placement.places.size());
+  WeightMatrix result(cage.size(), num_points);
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_points; ++p) result.col(p) = at(p);
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                              \
-  template std::vector<PointBeside<Dim>> nearest_on_cage(                                  \
-      const Cage<Dim>&, const PointList<Dim>&, const std::vector<Index>&);                 \
-  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,           \
-                                       const PointList<Dim>&, OutsidePoints);              \
-  template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,               \
-                                   const WeightMatrix&, const Placement<Dim>&);
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const SparseWeights& weights, const Placement<Dim>& placement) {
+  const WeightsAt<Dim, SparseWeights> at(cage, mesh, weights, placement);
+  return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
+                           [&](Index p) { return at(p); });
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>&, const PointList<Dim>&, \
+                                                         const std::vector<Index>&);              \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                  \
+                                       const PointList<Dim>&, OutsidePoints);                     \
+  template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&, \
+                                   const Placement<Dim>&);                                        \
+  template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                     \
+                                    const SparseWeights&, const Placement<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

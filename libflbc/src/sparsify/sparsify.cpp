@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparsify.h"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <string>
 
 #include "base/messages.h"
@@ -178,10 +182,34 @@ WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>
   return sparse;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                  \
-  template void validate<Dim>(const SparsifyOptions&);                         \
-  template WeightMatrix sparsify(const PointList<Dim>&, const PointList<Dim>&, \
-                                 const WeightMatrix&, const SparsifyOptions&);
+template <int Dim>
+SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                       const SparseWeights& weights, const SparsifyOptions& options) {
+  validate<Dim>(options);
+  const StageScope scope(told_of(options));
+  const auto projected = [&] {
+    const StageScope silent({});
+    std::vector<Index> all(static_cast<std::size_t>(points.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    return project_non_negative(control_points, points, weights, all);
+  }();
+  const PointSparsifier<Dim> sparsifier(control_points, options);
+  LoopProgress progress(static_cast<Index>(points.cols()));
+  std::vector<std::optional<typename PointSparsifier<Dim>::Workspace>> works(omp_get_max_threads());
+  return SparseWeights::of(weights.num_control_points(), weights.num_points(), [&](Index p) {
+    auto& work = works[omp_get_thread_num()];
+    if (!work) work.emplace(control_points);
+    progress.add(1);
+    return sparsifier.sparsify(points.col(p), weights.at(p), projected.at(p), *work);
+  });
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                   \
+  template void validate<Dim>(const SparsifyOptions&);                          \
+  template WeightMatrix sparsify(const PointList<Dim>&, const PointList<Dim>&,  \
+                                 const WeightMatrix&, const SparsifyOptions&);  \
+  template SparseWeights sparsify(const PointList<Dim>&, const PointList<Dim>&, \
+                                  const SparseWeights&, const SparsifyOptions&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -34,10 +34,11 @@ struct MeshFormat {
   bool keeps_fields = false;
 };
 
-//! Readers and writers of weights; a format with zeros has `write`, one without `write_sparse`.
+//! Readers and writers of weights; a format with zeros has the dense ones, one without the others.
 struct WeightFormat {
   WeightMatrix (*read)(const std::string& path, std::string content) = nullptr;
   void (*write)(std::ostream& out, const WeightMatrix& weights) = nullptr;
+  SparseWeights (*read_sparse)(const std::string& path, std::string content) = nullptr;
   void (*write_sparse)(std::ostream& out, const SparseWeights& weights) = nullptr;
 };
 

@@ -30,7 +30,7 @@ constexpr Format kFormats[] = {
     {"node", {}, {}, kTetGen},
     {"ele", {}, {}, kTetGen},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
-    {"mtx", {}, {}, {}, {read_mtx, nullptr, write_mtx}},
+    {"mtx", {}, {}, {}, {nullptr, nullptr, read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"txt"},  // flbc/io/weights_triplets.h
@@ -45,7 +45,7 @@ bool has(const Format& format, Content content) {
     case Content::kMesh3D:
       return format.mesh_3d.read;
     case Content::kWeights:
-      return format.weights.read;
+      return format.weights.read || format.weights.read_sparse;
     case Content::kTriplets:
       return format.extension == "txt";
     case Content::kColors:

@@ -20,7 +20,7 @@ class TextReader;
 #endif
 
 //! Parse a file's content; `path` is for messages.
-WeightMatrix read_mtx(const std::string& path, std::string content);
+SparseWeights read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
 WeightMatrix read_npy(const std::string& path, std::string content);
 

@@ -2,6 +2,7 @@
 #include "flbc/io/weights_io.h"
 
 #include <cmath>
+#include <new>
 #include <ostream>
 
 #include "flbc/errors.h"
@@ -37,8 +38,22 @@ void check_finite(const SparseWeights& weights) {
 }
 
 WeightMatrix read_weights(const std::string& path) {
-  const auto& format = format_of(path, Content::kWeights, "read weights as");
-  return format.weights.read(path, read_file(path));
+  const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
+  if (!format.read_sparse) return format.read(path, read_file(path));
+  const auto weights = format.read_sparse(path, read_file(path));
+  try {
+    return weights.dense();
+  } catch (const std::bad_alloc&) {
+    throw InputError(path + ": " + std::to_string(weights.num_points()) + " x " +
+                     std::to_string(weights.num_control_points()) +
+                     " elements are declared, more than the memory can hold");
+  }
+}
+
+SparseWeights read_sparse_weights(const std::string& path) {
+  const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
+  return format.read_sparse ? format.read_sparse(path, read_file(path))
+                            : SparseWeights(format.read(path, read_file(path)));
 }
 
 void write_weights(const std::string& path, const WeightMatrix& weights) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
-#include <new>
+#include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -49,48 +50,72 @@ struct Size {
 
 // A sparse file may rightly declare far more elements than it has bytes, but then each row and each
 // column has an entry; this keeps a damaged header from claiming all memory.
-WeightMatrix allocate(const TextReader& reader, const Size& size, Index num_entries) {
+void check_size(const TextReader& reader, const Size& size, Index num_entries) {
   constexpr std::int64_t kHarmless = std::int64_t{1} << 24;
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
-  const std::string declared =
-      std::to_string(size.points) + " x " + std::to_string(size.controls) + " elements";
   const bool is_large = elements > kHarmless || is_absurd(size.points, size.controls);
   if (is_large && num_entries < std::max(size.points, size.controls)) {
-    reader.fail(declared + " are declared with only " + std::to_string(num_entries) + " entries");
-  }
-  try {
-    return WeightMatrix::Zero(size.controls, size.points);
-  } catch (const std::bad_alloc&) {
-    reader.fail(declared + " are declared, more than the memory can hold");
+    reader.fail(std::to_string(size.points) + " x " + std::to_string(size.controls) +
+                " elements are declared with only " + std::to_string(num_entries) + " entries");
   }
 }
 
-WeightMatrix read_coordinate(TextReader& reader, const Size& size) {
+struct Entry {
+  Index point;
+  Index control_point;
+  double value;
+  std::int64_t line;
+};
+
+// Sorts entries, which a file may have in any order.
+SparseWeights weights_of(const TextReader& reader, const Size& size, std::vector<Entry> entries) {
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.point, a.control_point, a.line) < std::tie(b.point, b.control_point, b.line);
+  });
+  std::vector<std::int64_t> starts(static_cast<std::size_t>(size.points) + 1, 0);
+  std::vector<std::uint32_t> control_points;
+  std::vector<double> values;
+  control_points.reserve(entries.size());
+  values.reserve(entries.size());
+  const Entry* before = nullptr;
+  for (const auto& entry : entries) {
+    if (before && before->point == entry.point && before->control_point == entry.control_point) {
+      reader.fail_at(entry.line, "the entry in row " + std::to_string(entry.point + 1) +
+                                     ", column " + std::to_string(entry.control_point + 1) +
+                                     " occurs twice");
+    }
+    before = &entry;
+    ++starts[entry.point + 1];
+    control_points.push_back(static_cast<std::uint32_t>(entry.control_point));
+    values.push_back(entry.value);
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  return {size.controls, std::move(starts), std::move(control_points), std::move(values)};
+}
+
+SparseWeights read_coordinate(TextReader& reader, const Size& size) {
   const Index num_entries = reader.count("entries", 6);
   reader.expect_end_of_line();
-  WeightMatrix weights = allocate(reader, size, num_entries);
-  std::vector<bool> seen(static_cast<std::size_t>(weights.size()), false);
+  check_size(reader, size, num_entries);
+  std::vector<Entry> entries;
+  entries.reserve(static_cast<std::size_t>(num_entries));
   for (Index k = 0; k < num_entries; ++k) {
     reader.next_line_of("entries", k, num_entries);
-    const Index point = reader.index("rows", 1, size.points);
-    const Index control = reader.index("columns", 1, size.controls);
-    weights(control, point) = reader.number();
+    Entry entry{};
+    entry.point = reader.index("rows", 1, size.points);
+    entry.control_point = reader.index("columns", 1, size.controls);
+    entry.value = reader.number();
+    entry.line = reader.line();
     reader.expect_end_of_line();
-    auto entry = seen[static_cast<std::size_t>(point) * static_cast<std::size_t>(size.controls) +
-                      static_cast<std::size_t>(control)];
-    if (entry) {
-      reader.fail("the entry in row " + std::to_string(point + 1) + ", column " +
-                  std::to_string(control + 1) + " occurs twice");
-    }
-    entry = true;
+    entries.push_back(entry);
   }
   reader.expect_end_of_file("the last declared entry");
-  return weights;
+  return weights_of(reader, size, std::move(entries));
 }
 
 }  // namespace
 
-WeightMatrix read_mtx(const std::string& path, std::string content) {
+SparseWeights read_mtx(const std::string& path, std::string content) {
   TextReader reader(path, std::move(content), {});
   const bool is_coordinate = read_header(reader);
   reader.set_comment('%');
@@ -101,7 +126,7 @@ WeightMatrix read_mtx(const std::string& path, std::string content) {
   size.controls = reader.count("columns", 0);
   if (is_coordinate) return read_coordinate(reader, size);
   reader.expect_end_of_line();
-  return read_columns(reader, size.points, size.controls);
+  return SparseWeights(read_columns(reader, size.points, size.controls));
 }
 
 void write_mtx(std::ostream& out, const SparseWeights& weights) {

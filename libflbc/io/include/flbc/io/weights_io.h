@@ -20,6 +20,9 @@ namespace flbc::io {
 //! extension
 WeightMatrix read_weights(const std::string& path);
 
+//! The same without zeros; no matrix is made of .mtx.
+SparseWeights read_sparse_weights(const std::string& path);
+
 //! Writes the format chosen by the extension: .mtx (coordinate real general, 17 digits, zeros left
 //! out), .dmat (binary) or .npy (float64). \param weights n x #points
 //! \throws IoError if the file cannot be written, InputError if a weight is not finite, OptionError
