@@ -237,10 +237,10 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
   const auto& mesh = sample.mesh;
   const auto n = sample.cage.size();
-  const Eigen::MatrixXd distances = Eigen::MatrixXd::Random(n, mesh.num_vertices()).cwiseAbs();
-  const auto square = WeightFunctions(DistanceScheme::kSquare, distances, mesh, n).dense();
-  const auto linear = WeightFunctions(DistanceScheme::kLinear, distances, mesh, n).dense();
-  const auto root = WeightFunctions(DistanceScheme::kSquareRoot, distances, mesh, n).dense();
+  const DistanceMatrix given = DistanceMatrix::Random(n, mesh.num_vertices()).cwiseAbs();
+  const auto square = WeightFunctions(DistanceScheme::kSquare, given, mesh, n).dense();
+  const auto linear = WeightFunctions(DistanceScheme::kLinear, given, mesh, n).dense();
+  const auto root = WeightFunctions(DistanceScheme::kSquareRoot, given, mesh, n).dense();
   const auto constant = WeightFunctions(DistanceScheme::kConstant, {}, mesh, n).dense();
   EXPECT_TRUE((constant.array() == 1).all());
   EXPECT_GE(square.minCoeff(), 0);
@@ -249,6 +249,7 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   EXPECT_TRUE((linear.array() <= root.array()).all());
   EXPECT_LT((linear.cwiseAbs2() - square).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT((root.cwiseAbs2() - linear).cwiseAbs().maxCoeff(), 1e-15);
+  const Eigen::MatrixXd distances = given.cast<double>();
   const double mean = distances(0, mesh.cells(0, 0)) + distances(0, mesh.cells(1, 0)) +
                       distances(0, mesh.cells(2, 0)) +
                       (kDim == 3 ? distances(0, mesh.cells(kDim, 0)) : 0);
@@ -261,7 +262,7 @@ TYPED_TEST(DistanceWeightsTest, AMeshMayHaveMoreVerticesThanCells) {
   mesh.points = PointList<kDim>::Identity(kDim, kDim + 1);
   mesh.cells.resize(kDim + 1, 1);
   for (int k = 0; k <= kDim; ++k) mesh.cells(k, 0) = k;
-  const Eigen::MatrixXd distances = Eigen::MatrixXd::Ones(2, kDim + 1);
+  const DistanceMatrix distances = DistanceMatrix::Ones(2, kDim + 1);
   const WeightFunctions phi(DistanceScheme::kLinear, distances, mesh, 2);
   EXPECT_EQ(phi.cols(), 1);
   EXPECT_EQ(phi.size(), 2);

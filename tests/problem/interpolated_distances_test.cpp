@@ -22,8 +22,8 @@ TYPED_TEST_SUITE(InterpolatedDistancesTest, Dimensions);
 template <int Dim>
 struct Comparison {
   Sample<Dim> fine;
-  Eigen::MatrixXd interpolated;
-  Eigen::MatrixXd exact;
+  DistanceMatrix interpolated;
+  DistanceMatrix exact;
 
   Comparison(Shape shape, int resolution) : fine(make_sample<Dim>(shape, 8, 0.2)) {
     const auto coarse = make_sample<Dim>(shape, resolution, 0.2);
@@ -35,7 +35,7 @@ struct Comparison {
     exact = distances_on(fine, build_topology(fine.mesh));
   }
 
-  static Eigen::MatrixXd distances_on(const Sample<Dim>& sample,
+  static DistanceMatrix distances_on(const Sample<Dim>& sample,
                                       const MeshTopology<Dim>& topology) {
     const auto sources = boundary_values(sample.cage, sample.mesh, topology).control_vertices;
     return geodesic_distances(sample.mesh, topology, sources);

@@ -69,7 +69,7 @@ TYPED_TEST(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExactly) {
     const Index n = meshes.coarse.num_control_points();
     MeshState<kDim> state;
     state.penalty = 2;
-    state.weights = linear_field<kDim>(n, meshes.coarse.mesh.points);
+    state.weights = SparseWeights(linear_field<kDim>(n, meshes.coarse.mesh.points));
     state.vertex_dual = state.weights;
     const Vectors<kDim> density = Vectors<kDim>::Constant(n, kDim, 0.5);
     state.flux_density = {n, meshes.coarse.mesh.num_cells(), [&](Index) { return density; }};
@@ -99,7 +99,8 @@ TYPED_TEST(CoarseToFineTest, BoundaryValuesAreExactWhateverTheCoarseWeights) {
   const auto fine = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   MeshState<kDim> state;
   state.penalty = 1;
-  state.weights = WeightMatrix::Random(coarse.num_control_points(), coarse.mesh.num_vertices());
+  state.weights = SparseWeights(
+      WeightMatrix::Random(coarse.num_control_points(), coarse.mesh.num_vertices()));
   const auto weights = Transfer<kDim>(coarse, state, fine).weights();
   const auto demanded = demanded_boundary_weights(sample.cage, sample.mesh);
   for (const Index v : fine.boundary.vertices) {
@@ -115,7 +116,7 @@ TYPED_TEST(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
   const auto fine = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const Index n = coarse.num_control_points();
   MeshState<kDim> state;
-  state.weights = WeightMatrix::Zero(n, coarse.mesh.num_vertices());
+  state.weights = SparseWeights(WeightMatrix::Zero(n, coarse.mesh.num_vertices()));
   state.flux_density = {n, coarse.mesh.num_cells(),
                         [&](Index) -> Vectors<kDim> { return Vectors<kDim>::Random(n, kDim); }};
   const Transfer<kDim> transfer(coarse, state, fine);
@@ -147,7 +148,7 @@ TYPED_TEST(CoarseToFineTest, LinearPotentialsGiveTheirCurlOnEveryMesh) {
     const Pair<kDim> meshes(shape);
     const auto& mesh = meshes.fine.mesh;
     MeshState<kDim> state;
-    state.weights = WeightMatrix::Zero(1, meshes.coarse.mesh.num_vertices());
+    state.weights = SparseWeights(WeightMatrix::Zero(1, meshes.coarse.mesh.num_vertices()));
     state.potential.resize(1, kSize * meshes.coarse.topology.num_facets());
     for (Index f = 0; f < meshes.coarse.topology.num_facets(); ++f) {
       Vector<kDim> center = Vector<kDim>::Zero();
@@ -183,7 +184,7 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
     for (int k = 0; k < 30; ++k) admm.iterate();
     MeshState<kDim> state;
     state.penalty = penalty;
-    state.weights = integrate_least_squares(problem, admm.gradients());
+    state.weights = SparseWeights(integrate_least_squares(problem, admm.gradients()));
     const auto flux = admm.flux();
     const auto density_of = [&](Index s) -> Vectors<kDim> {
       return flux.cell(s).transpose() / signed_measure(problem.mesh, s);
@@ -194,7 +195,7 @@ TYPED_TEST(CoarseToFineTest, TransferToTheSameMeshIsTheIdentity) {
     state.periods = admm.period_factors();
     const Transfer<kDim> transfer(problem, state, problem);
 
-    EXPECT_LT((transfer.weights() - state.weights).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((transfer.weights() - state.weights.dense()).cwiseAbs().maxCoeff(), 1e-12);
     gradient::GradientAdmm<double, kDim> other(problem, penalty, 1.8, periods);
     other.start_from_duals(
         transfer.weights(), [&](Index s) { return transfer.flux_density(s); },

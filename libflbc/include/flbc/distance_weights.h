@@ -36,7 +36,7 @@ class WeightFunctions {
   //! \param mesh  F cells, V vertices
   //! \param num_control_points  n
   template <int Dim>
-  WeightFunctions(DistanceScheme scheme, Eigen::MatrixXd distances, const DomainMesh<Dim>& mesh,
+  WeightFunctions(DistanceScheme scheme, DistanceMatrix distances, const DomainMesh<Dim>& mesh,
                   Index num_control_points);
 
   //! n, 0 if there are none.
@@ -48,8 +48,8 @@ class WeightFunctions {
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
 
-  //! Those it was made of, n x V, empty for kConstant; phi itself if given one by one.
-  const Eigen::MatrixXd& distances() const { return values_; }
+  //! Those it was made of, n x V; empty for kConstant, and if phi was given one by one.
+  const DistanceMatrix& distances() const { return distances_; }
 
   //! phi_i on one cell, in [0, 1] if made from distances. \param i  control point \param s  cell
   double operator()(Eigen::Index i, Eigen::Index s) const {
@@ -65,7 +65,8 @@ class WeightFunctions {
  private:
   double from_distances(Eigen::Index i, Eigen::Index s) const;
 
-  Eigen::MatrixXd values_;  // n x F if given, else the distances n x V
+  Eigen::MatrixXd values_;    // n x F, if given
+  DistanceMatrix distances_;  // n x V, else
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;

@@ -23,19 +23,21 @@ double relative_to_weight(DistanceScheme scheme, double distance) {
 }  // namespace
 
 template <int Dim>
-WeightFunctions::WeightFunctions(DistanceScheme scheme, Eigen::MatrixXd distances,
+WeightFunctions::WeightFunctions(DistanceScheme scheme, DistanceMatrix distances,
                                  const DomainMesh<Dim>& mesh, Index num_control_points)
-    : values_(std::move(distances)),
+    : distances_(std::move(distances)),
       cells_(mesh.cells),
       scheme_(scheme),
       num_control_points_(num_control_points) {
-  if (scheme != DistanceScheme::kConstant) scale_ = 1 / ((Dim + 1) * values_.maxCoeff());
+  if (scheme != DistanceScheme::kConstant) {
+    scale_ = 1 / ((Dim + 1) * static_cast<double>(distances_.maxCoeff()));
+  }
 }
 
 double WeightFunctions::from_distances(Eigen::Index i, Eigen::Index s) const {
   if (scheme_ == DistanceScheme::kConstant) return 1;
   double sum = 0;
-  for (Eigen::Index k = 0; k < cells_.rows(); ++k) sum += values_(i, cells_(k, s));
+  for (Eigen::Index k = 0; k < cells_.rows(); ++k) sum += distances_(i, cells_(k, s));
   return relative_to_weight(scheme_, scale_ * sum);
 }
 
@@ -51,9 +53,9 @@ Eigen::MatrixXd WeightFunctions::dense() const {
   return matrix;
 }
 
-template WeightFunctions::WeightFunctions(DistanceScheme, Eigen::MatrixXd, const DomainMesh<2>&,
+template WeightFunctions::WeightFunctions(DistanceScheme, DistanceMatrix, const DomainMesh<2>&,
                                           Index);
-template WeightFunctions::WeightFunctions(DistanceScheme, Eigen::MatrixXd, const DomainMesh<3>&,
+template WeightFunctions::WeightFunctions(DistanceScheme, DistanceMatrix, const DomainMesh<3>&,
                                           Index);
 
 }  // namespace flbc

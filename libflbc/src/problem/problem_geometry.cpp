@@ -31,7 +31,7 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh) {
 }
 
 template <int Dim>
-Eigen::MatrixXd distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem) {
+DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem) {
   if (scheme == DistanceScheme::kConstant) return {};
   return geodesic_distances(problem.mesh, problem.topology, problem.boundary.control_vertices);
 }
@@ -41,7 +41,7 @@ Eigen::MatrixXd distances_for(DistanceScheme scheme, const LbcProblem<Dim>& prob
                                          BoundaryValues<Dim>);                            \
   template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>);  \
   template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                     \
-  template Eigen::MatrixXd distances_for(DistanceScheme, const LbcProblem<Dim>&);
+  template DistanceMatrix distances_for(DistanceScheme, const LbcProblem<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -22,6 +22,6 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh);
 
 //! Distances from the control points on the problem's own mesh, n x V; empty for kConstant.
 template <int Dim>
-Eigen::MatrixXd distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem);
+DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem);
 
 }  // namespace flbc

@@ -13,6 +13,7 @@
 #include "flbc/solver.h"
 #include "flbc/solver_state.h"
 #include "solver/gap_criterion.h"
+#include "solver/supports/cold_start.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -50,8 +51,10 @@ template <int Dim>
 struct WarmStart {
   const Transfer<Dim>* from = nullptr;    //!< where to start
   MeshState<Dim>* final_state = nullptr;  //!< where to leave the last state
-  //! Called by methods that need `from` no longer once they have started; may be empty.
+  //! Called by methods that need neither any longer once they have started; may be empty.
   std::function<void()> started{};
+  //! Instead of `from`, for Method::kValue on supports; may be null, and is then computed.
+  const supports::ColdStart<Dim>* cold = nullptr;
 };
 
 //! Method::kGradient and kPaper.

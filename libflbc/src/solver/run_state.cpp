@@ -74,7 +74,7 @@ SolverOptions offering_levels(SolverOptions options, std::vector<LevelReport> le
 
 template <int Dim>
 SolverOptions offering_record(SolverOptions options, const Cage<Dim>& cage,
-                              const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& distances,
+                              const DomainMesh<Dim>& mesh, const DistanceMatrix& distances,
                               const DistanceReport& source, double setup_seconds,
                               double solve_seconds) {
   const auto start = std::chrono::steady_clock::now();
@@ -117,7 +117,7 @@ void refuse_state(const SolverOptions& options) {
 
 #define FLBC_INSTANTIATE(Dim)                                                                    \
   template SolverOptions offering_record(SolverOptions, const Cage<Dim>&,                        \
-                                         const DomainMesh<Dim>&, const Eigen::MatrixXd&,         \
+                                         const DomainMesh<Dim>&, const DistanceMatrix&,         \
                                          const DistanceReport&, double, double);                 \
   template RunRecord take_record(SolverOptions&, const Cage<Dim>&, const DomainMesh<Dim>&);
 FLBC_INSTANTIATE(2)

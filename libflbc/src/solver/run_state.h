@@ -10,6 +10,7 @@
 #include "flbc/byte_archive.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/geodesic_distances.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
 
@@ -17,7 +18,7 @@ namespace flbc {
 
 //! State of a run besides that of the iteration.
 struct RunRecord {
-  Eigen::MatrixXd distances{};  //!< behind phi, n x V; empty for kConstant
+  DistanceMatrix distances{};  //!< behind phi, n x V; empty for kConstant
   DistanceReport source{};
   double setup_seconds = 0;
   double solve_seconds = 0;           //!< until the state was written
@@ -37,7 +38,7 @@ SolverOptions offering_levels(SolverOptions options, std::vector<LevelReport> le
 //! \param distances  outlive the run; the seconds go on from now
 template <int Dim>
 SolverOptions offering_record(SolverOptions options, const Cage<Dim>& cage,
-                              const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& distances,
+                              const DomainMesh<Dim>& mesh, const DistanceMatrix& distances,
                               const DistanceReport& source, double setup_seconds,
                               double solve_seconds);
 

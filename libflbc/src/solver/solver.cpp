@@ -61,7 +61,7 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
   std::vector<CoarseProblem<Dim>> coarse;
   if (!resumes(storage)) {
     const auto sizes = start_sizes(problem, mesher, options);
-    coarse = make_coarse_problems(problem, mesher, sizes, options.phi);
+    coarse = make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
   }
   return finish<Solution>(problem, options, run_from(problem, std::move(coarse), options, storage));
 }

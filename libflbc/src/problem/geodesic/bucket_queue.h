@@ -45,8 +45,9 @@ class BucketQueue {
     return top == kEmpty ? -1 : entries_[top].vertex;
   }
 
-  //! For another source; only when it is empty.
+  //! For another source.
   void restart() {
+    std::fill(top_.begin(), top_.end(), kEmpty);
     current_ = 0;
     entries_.clear();
   }

@@ -4,39 +4,46 @@
 namespace flbc {
 namespace {
 
+// Coordinates of the sources, one after the other.
 template <int Dim>
-Eigen::VectorXd straight_distances(const PointList<Dim>& sources, const Vector<Dim>& point) {
-  return (sources.colwise() - point).colwise().norm().transpose();
+using Sources = Eigen::Array<float, Eigen::Dynamic, Dim>;
+
+template <int Dim>
+Eigen::ArrayXf straight_distances(const Sources<Dim>& sources, const Vector<Dim>& point) {
+  const Eigen::Array<float, Dim, 1> place = point.template cast<float>().array();
+  Eigen::ArrayXf squared = (sources.col(0) - place[0]).square();
+  for (int d = 1; d < Dim; ++d) squared += (sources.col(d) - place[d]).square();
+  return squared.sqrt();
 }
 
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd interpolated_distances(const KnownDistances<Dim>& known,
-                                       const PointList<Dim>& points,
-                                       const std::vector<Location<Dim>>& places) {
-  Eigen::MatrixXd detours = known.distances;
+DistanceMatrix interpolated_distances(const KnownDistances<Dim>& known,
+                                      const PointList<Dim>& points,
+                                      const std::vector<Location<Dim>>& places) {
+  const Sources<Dim> sources = known.sources.transpose().template cast<float>().array();
+  DistanceMatrix detours = known.distances;
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < known.mesh.num_vertices(); ++v) {
-    detours.col(v) -= straight_distances<Dim>(known.sources, known.mesh.points.col(v));
-    detours.col(v) = detours.col(v).cwiseMax(0.0);  // rounding
+    const auto straight = straight_distances<Dim>(sources, known.mesh.points.col(v));
+    detours.col(v).array() = (detours.col(v).array() - straight).max(0.0f);  // rounding
   }
-  Eigen::MatrixXd distances(known.sources.cols(), points.cols());
+  DistanceMatrix distances(known.sources.cols(), points.cols());
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
-    distances.col(p) = straight_distances<Dim>(known.sources, points.col(p));
+    distances.col(p) = straight_distances<Dim>(sources, points.col(p));
     for (int k = 0; k <= Dim; ++k) {
-      distances.col(p) +=
-          places[p].coordinates[k] * detours.col(known.mesh.cells(k, places[p].cell));
+      distances.col(p) += static_cast<float>(places[p].coordinates[k]) *
+                          detours.col(known.mesh.cells(k, places[p].cell));
     }
   }
   return distances;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                          \
-  template Eigen::MatrixXd interpolated_distances(const KnownDistances<Dim>&,          \
-                                                  const PointList<Dim>&,               \
-                                                  const std::vector<Location<Dim>>&);
+#define FLBC_INSTANTIATE(Dim)                     \
+  template DistanceMatrix interpolated_distances( \
+      const KnownDistances<Dim>&, const PointList<Dim>&, const std::vector<Location<Dim>>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "flbc/cell_locator.h"
+#include "flbc/geodesic_distances.h"
 
 namespace flbc {
 
 //! Distances that are known at the vertices of a mesh.
 template <int Dim>
 struct KnownDistances {
-  const DomainMesh<Dim>& mesh;       //!< of the domain
-  const PointList<Dim>& sources;     //!< n points, in the units of the mesh
-  const Eigen::MatrixXd& distances;  //!< n x V of this mesh, geodesic
+  const DomainMesh<Dim>& mesh;      //!< of the domain
+  const PointList<Dim>& sources;    //!< n points, in the units of the mesh
+  const DistanceMatrix& distances;  //!< n x V of this mesh, geodesic
 };
 
 //! A way is as long as the straight line and a detour round the boundary, of which the detour alone
@@ -23,8 +24,8 @@ struct KnownDistances {
 //! \param places  of the points in the mesh
 //! \return n x P, in the units of the mesh
 template <int Dim>
-Eigen::MatrixXd interpolated_distances(const KnownDistances<Dim>& known,
-                                       const PointList<Dim>& points,
-                                       const std::vector<Location<Dim>>& places);
+DistanceMatrix interpolated_distances(const KnownDistances<Dim>& known,
+                                      const PointList<Dim>& points,
+                                      const std::vector<Location<Dim>>& places);
 
 }  // namespace flbc

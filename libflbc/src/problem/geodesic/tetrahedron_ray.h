@@ -14,9 +14,9 @@ namespace flbc::distance {
 typedef float Float4 __attribute__((vector_size(16)));
 typedef std::int32_t Int4 __attribute__((vector_size(16)));
 
-//! The shape of a tetrahedron, shared by all sources, in one line of the cache, because the time goes into waiting for
-//! it. Pairs of corners are in the order (0, 1), (0, 2), (0, 3) and, opposite to these, (2, 3),
-//! (1, 3), (1, 2).
+//! The shape of a tetrahedron, shared by all sources, in one line of the cache, because the time
+//! goes into waiting for it. Pairs of corners are in the order (0, 1), (0, 2), (0, 3) and, opposite
+//! to these, (2, 3), (1, 3), (1, 2).
 struct alignas(64) Tetrahedron {
   Index corners[4];
   float lengths2[6];  //!< squared lengths of the edges

@@ -230,7 +230,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   report.seconds.recover = watch.lap();
   if (warm_start.final_state) {
     *warm_start.final_state = keep_state(*admm, problem, penalty);
-    warm_start.final_state->weights = result.weights;
+    warm_start.final_state->weights = SparseWeights(result.weights);
   }
   return result;
 }

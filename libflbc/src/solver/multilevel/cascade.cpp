@@ -76,8 +76,11 @@ class Cascade {
     }
     SolveReport report;
     MeshState<Dim> state;
-    run_method(level.problem, options, report, nullptr, {transfer.get(), &state, {}});
+    const auto started = [&level] { level.cold.reset(); };
+    run_method(level.problem, options, report, nullptr,
+               {transfer.get(), &state, started, level.cold ? &*level.cold : nullptr});
     state_ = std::move(state);
+    level.problem.phi = {};  // finer ones have theirs
     level.report.iterations = report.iterations;
     level.report.solve_seconds = watch.lap();
     ++num_solved_;

@@ -7,8 +7,11 @@
 
 #include "base/stopwatch.h"
 #include "flbc/mesh_parts.h"
+#include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
+#include "solver/linear_solver_choice.h"
+#include "solver/supports/choice.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -31,54 +34,99 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
+// Vertices by control point: the supports, and what shares a cell with them.
+template <int Dim>
+VertexItems<Index> needed_by(const LbcProblem<Dim>& geometry,
+                             const supports::SupportLists& supports) {
+  return items_by_vertex<Index>(geometry.num_control_points(), [&](const auto& visit) {
+    for (Index v = 0; v < geometry.mesh.num_vertices(); ++v) {
+      for (const auto i : supports.of(v)) visit(i, v);
+    }
+  });
+}
+
+// Distances as far as the solution on supports needs them, if there is to be one.
+template <int Dim>
+std::optional<DistanceMatrix> measure_on_supports(CoarseProblem<Dim>& level,
+                                                  const SolverOptions& options) {
+  const auto& geometry = level.problem;
+  if (options.phi == DistanceScheme::kConstant || !supports::serve(geometry, options)) return {};
+  auto cold = supports::cold_start(geometry, linear_solver_for(geometry, options));
+  if (!supports::pay(geometry, options, cold.supports)) return {};
+  auto bounded =
+      bounded_distances(geometry.mesh, geometry.topology, geometry.boundary.control_vertices,
+                        needed_by(geometry, cold.supports));
+  level.cold = std::move(cold);
+  level.reach = std::move(bounded.reach);
+  return std::move(bounded.distances);
+}
+
+// They are checked where the finest mesh takes them over.
+template <int Dim>
+DistanceMatrix inherit_distances(const CoarseProblem<Dim>& below, CoarseProblem<Dim>& level) {
+  level.reach = static_cast<float>(enlargement(below.problem, level.problem)) * below.reach;
+  return distances_from(below.problem, level.problem,
+                        places_in_coarse(below.problem, level.problem, level.problem.mesh.points));
+}
+
+//! \param below  the next coarser problem, null for none
+template <int Dim>
+void set_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
+             CoarseProblem<Dim>& level) {
+  std::optional<DistanceMatrix> distances;
+  if (use.distances && below != nullptr) {
+    distances = inherit_distances(*below, level);
+  } else if (use.distances && use.start) {
+    distances = measure_on_supports(level, options);
+  }
+  if (!distances) distances = distances_for(options.phi, level.problem);
+  level.problem.phi = {options.phi, std::move(*distances), level.problem.mesh,
+                       level.problem.num_control_points()};
+}
+
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                               const std::vector<Location<Dim>>& places) {
-  return enlargement(coarse, problem) *
-         interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
-                                     points_in_coarse(coarse, problem, problem.mesh.points),
-                                     places);
+DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                              const std::vector<Location<Dim>>& places) {
+  auto distances =
+      interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
+                                  points_in_coarse(coarse, problem, problem.mesh.points), places);
+  distances *= static_cast<float>(enlargement(coarse, problem));
+  return distances;
 }
 
 template <int Dim>
 std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
                                                      const CoarseMesher<Dim>& mesher,
                                                      const std::vector<Index>& sizes,
-                                                     DistanceScheme scheme, bool interpolates) {
+                                                     const SolverOptions& options, CoarseUse use) {
   std::vector<CoarseProblem<Dim>> coarse;
   for (const Index size : sizes) {
     Stopwatch watch;
-    const Index vertices_below = coarse.empty() ? 0 : coarse.back().report.vertices;
-    auto mesh = make_mesh(mesher, problem.cage, size, vertices_below, problem.mesh.num_vertices());
+    const auto* below = coarse.empty() ? nullptr : &coarse.back();
+    auto mesh = make_mesh(mesher, problem.cage, size, below ? below->report.vertices : 0,
+                          problem.mesh.num_vertices());
     if (!mesh) continue;
     LevelReport report;
     report.vertices = mesh->num_vertices();
     report.cells = mesh->num_cells();
     report.mesh_seconds = watch.lap();
-    auto geometry = make_geometry(problem.cage, std::move(*mesh));
-    // They are checked where the finest mesh takes them over.
-    const auto interpolated = [&] {
-      const auto& below = coarse.back().problem;
-      return distances_from(below, geometry,
-                            places_in_coarse(below, geometry, geometry.mesh.points));
-    };
-    auto distances =
-        interpolates && !coarse.empty() ? interpolated() : distances_for(scheme, geometry);
-    geometry.phi = {scheme, std::move(distances), geometry.mesh, problem.num_control_points()};
+    CoarseProblem<Dim> level{make_geometry(problem.cage, std::move(*mesh))};
+    set_phi(below, options, use, level);
     report.setup_seconds = watch.lap();
-    coarse.push_back({std::move(geometry), {}, report});
+    level.report = report;
+    coarse.push_back(std::move(level));
   }
   return coarse;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template Eigen::MatrixXd distances_from(const LbcProblem<Dim>&, const LbcProblem<Dim>&,          \
-                                          const std::vector<Location<Dim>>&);                      \
-  template std::vector<CoarseProblem<Dim>> make_coarse_problems(                                   \
-      const LbcProblem<Dim>&, const CoarseMesher<Dim>&, const std::vector<Index>&, DistanceScheme, \
-      bool);
+#define FLBC_INSTANTIATE(Dim)                                                            \
+  template DistanceMatrix distances_from(const LbcProblem<Dim>&, const LbcProblem<Dim>&, \
+                                         const std::vector<Location<Dim>>&);             \
+  template std::vector<CoarseProblem<Dim>> make_coarse_problems(                         \
+      const LbcProblem<Dim>&, const CoarseMesher<Dim>&, const std::vector<Index>&,       \
+      const SolverOptions&, CoarseUse);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

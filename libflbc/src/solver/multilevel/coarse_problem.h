@@ -3,12 +3,15 @@
 //! Problems on coarser meshes of the same cage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "flbc/cell_locator.h"
 #include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/options.h"
 #include "flbc/report.h"
+#include "solver/supports/cold_start.h"
 
 namespace flbc {
 
@@ -18,27 +21,38 @@ struct CoarseProblem {
   LbcProblem<Dim> problem;
   std::vector<Location<Dim>> finest_vertices{};  //!< places of the finest mesh's vertices, if known
   LevelReport report{};                          //!< sizes and seconds of mesh and set-up
+  //! Up to which distances from each control point are known, see BoundedDistances; empty if
+  //! everywhere.
+  Eigen::VectorXf reach{};
+  std::optional<supports::ColdStart<Dim>> cold{};  //!< that they were bounded by
+};
+
+//! What coarse problems are made for.
+struct CoarseUse {
+  bool start = true;       //!< they are solved
+  bool distances = false;  //!< finer meshes interpolate theirs
 };
 
 //! Distances by those of a coarse problem, n x V.
 //! \param places  of the V vertices in the coarse mesh
 template <int Dim>
-Eigen::MatrixXd distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                               const std::vector<Location<Dim>>& places);
+DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                              const std::vector<Location<Dim>>& places);
 
 //! Meshes the cage and sets the problems up. Left out are meshes on which the mesher fails (the
-//! cage may be too fine for so few vertices) or that are not clearly coarser than the next.
+//! cage may be too fine for so few vertices) or that are not clearly coarser than the next. The
+//! coarsest one alone computes distances if finer meshes are to interpolate theirs; and where it is
+//! solved on supports, only as far as these need them.
 //! \param problem  the finest one, whose phi is not asked for
 //! \param mesher  not empty
 //! \param sizes  numbers of vertices, ascending
-//! \param interpolates  whether only the coarsest computes distances
+//! \param options  resolved
 //! \return coarsest first
 //! \throws InputError if a coarse mesh does not belong to the cage
 template <int Dim>
 std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
                                                      const CoarseMesher<Dim>& mesher,
                                                      const std::vector<Index>& sizes,
-                                                     DistanceScheme scheme,
-                                                     bool interpolates = false);
+                                                     const SolverOptions& options, CoarseUse use);
 
 }  // namespace flbc

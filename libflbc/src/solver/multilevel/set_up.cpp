@@ -42,11 +42,12 @@ Index size_for_distances(Index finest, double tolerance) {
 
 // Some control points: from the one that is the farthest from a part of the domain, in even steps
 // to the one that is the nearest to all of it.
-std::vector<Index> choose_control_points(const Eigen::MatrixXd& distances) {
+std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   constexpr Index kOneIn = 32;
+  constexpr Index kMost = 10;
   const auto n = static_cast<Index>(distances.rows());
-  const Index count = std::min(n, 2 + n / kOneIn);
-  const Eigen::VectorXd farthest = distances.rowwise().maxCoeff();
+  const Index count = std::min({n, 2 + n / kOneIn, kMost});
+  const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -56,20 +57,25 @@ std::vector<Index> choose_control_points(const Eigen::MatrixXd& distances) {
   return chosen;
 }
 
-// Puts exact distances in for some control points and tells how far phi was off there.
+// Puts exact distances in for some control points and tells how far phi was off there, within the
+// reaches.
 template <int Dim>
 double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
-                       Eigen::MatrixXd& distances) {
+                       const Eigen::VectorXf& reach, DistanceMatrix& distances) {
   const auto chosen = choose_control_points(distances);
   const auto count = static_cast<Index>(chosen.size());
   std::vector<Index> sources;
-  Eigen::MatrixXd both(2 * count, distances.cols());
+  DistanceMatrix both(2 * count, distances.cols());
   for (Index k = 0; k < count; ++k) {
     sources.push_back(problem.boundary.control_vertices[chosen[k]]);
     both.row(k) = distances.row(chosen[k]);
   }
   both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
-  for (Index k = 0; k < count; ++k) distances.row(chosen[k]) = both.row(count + k);
+  for (Index k = 0; k < count; ++k) {
+    distances.row(chosen[k]) = both.row(count + k);
+    if (reach.size() == 0) continue;
+    for (const Index row : {k, count + k}) both.row(row) = both.row(row).cwiseMin(reach[chosen[k]]);
+  }
   const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
   double difference2 = 0, length2 = 0;
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
@@ -88,13 +94,15 @@ double weight_error(double phi_error) {
 }
 
 template <int Dim>
-Eigen::MatrixXd choose_distances(SetUp<Dim>& result, const SolverOptions& options) {
+DistanceMatrix choose_distances(SetUp<Dim>& result, const SolverOptions& options) {
   constexpr double kPart = 0.5;  // of the tolerance
   auto& coarse = result.coarse.back();
   coarse.finest_vertices =
       places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
   auto distances = distances_from(coarse.problem, result.problem, coarse.finest_vertices);
-  const double error = check_on_sample(result.problem, options.phi, distances);
+  const auto enlarged = static_cast<float>(enlargement(coarse.problem, result.problem));
+  const double error =
+      check_on_sample(result.problem, options.phi, enlarged * coarse.reach, distances);
   if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
     return distances_for(options.phi, result.problem);
   }
@@ -133,7 +141,8 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   if (interpolates && !starts_coarse) {
     sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
   }
-  result.coarse = make_coarse_problems(problem, mesher, sizes, options.phi, interpolates);
+  result.coarse =
+      make_coarse_problems(problem, mesher, sizes, options, {starts_coarse, interpolates});
   const StageScope scope(told_of(options, Stage::kDistances));
   auto distances = interpolates && !result.coarse.empty() ? choose_distances(result, options)
                                                           : distances_for(options.phi, problem);

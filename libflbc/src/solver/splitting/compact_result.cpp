@@ -60,7 +60,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>
   for (int d = 0; d < Dim; ++d) {
     for (Index i = 0; i < n_; ++i) density(i, d) = scale * rows[d * stride_ + i];
   }
-  shorten_to(problem_.phi.col(cell), density);
+  shorten_to(problem_.phi, cell, density);
   return density;
 }
 

@@ -9,6 +9,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "solver/iterative_method.h"
+#include "solver/linear_solver_choice.h"
 #include "solver/run_state.h"
 #include "solver/splitting/compact_splitting.h"
 #include "solver/splitting/value_run.h"
@@ -19,15 +20,6 @@
 
 namespace flbc {
 namespace {
-
-// A factor of a large mesh takes more time and memory than the iteration itself; in 3D soon, in 2D
-// where meshes hardly get.
-template <int Dim>
-LinearSolver linear_solver_for(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  constexpr Index kLargest = Dim == 2 ? 2000000 : 20000;  // vertices
-  if (options.linear_solver != LinearSolver::kAuto) return options.linear_solver;
-  return problem.mesh.num_vertices() > kLargest ? LinearSolver::kMultigrid : LinearSolver::kDirect;
-}
 
 // The coarser the mesh, the more roundings of duals move the weights; and small meshes are fast as
 // they are.
@@ -144,12 +136,13 @@ class ValueSolve {
     }
   }
 
-  supports::SupportLists supports_of_start(bool cold) const {
-    // Harmonic coordinates reach farther than the weights that follow from them.
-    constexpr double kLeastHarmonic = 3e-3;
-    if (cold) return supports::supports_of(problem_, start_->weights, kLeastHarmonic);
-    return supports::supports_from(problem_, *warm_start_.from,
-                                   supports::threshold_for(options_.tolerance));
+  // \return supports of the start
+  supports::SupportLists start_cold() {
+    auto cold = warm_start_.cold
+                    ? *warm_start_.cold
+                    : supports::cold_start(problem_, linear_solver_for(problem_, options_));
+    start_ = cold.state();
+    return std::move(cold.supports);
   }
 
   // A coarse mesh has told then where weights are.
@@ -163,8 +156,9 @@ class ValueSolve {
   std::optional<MethodResult> on_supports() {
     const bool cold = !start_;
     const double of_all_pairs = choose_penalty();
-    if (cold) start_ = supports::cold_start(problem_, linear_solver_for(problem_, options_));
-    auto lists = supports_of_start(cold);
+    auto lists = cold ? start_cold()
+                      : supports::supports_from(problem_, *warm_start_.from,
+                                                supports::threshold_for(options_.tolerance));
     if (!supports::pay(problem_, options_, lists)) {
       if (cold) start_.reset();
       return {};
@@ -203,13 +197,18 @@ class ValueSolve {
     MeshState<Dim> state;
     state.flux_density = {n, problem_.mesh.num_cells(), start.flux_density};
     state.penalty = start.penalty;
-    state.weights = WeightMatrix::Zero(n, problem_.mesh.num_vertices());
-    if (start.vertex_dual) state.vertex_dual = state.weights;
-    for (const Index v : problem_.boundary.interior_vertices()) {
-      state.weights.col(v) = start.weights(v);
-      if (start.vertex_dual) state.vertex_dual.col(v) = start.vertex_dual(v);
-    }
-    problem_.boundary.impose_on(state.weights);
+    const auto& boundary = problem_.boundary;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
+    state.weights = SparseWeights::of(n, problem_.mesh.num_vertices(), [&](Index v) {
+      if (boundary.is_interior(v)) return start.weights(v);
+      Eigen::VectorXd given = none;
+      boundary.scatter(boundary.boundary_index[v], given);
+      return given;
+    });
+    if (!start.vertex_dual) return state;
+    state.vertex_dual = SparseWeights::of(n, problem_.mesh.num_vertices(), [&](Index v) {
+      return boundary.is_interior(v) ? start.vertex_dual(v) : none;
+    });
     return state;
   }
 

@@ -98,8 +98,8 @@ MeshState<Dim> state_of(Splitting<Scalar, Dim>& splitting, const LbcProblem<Dim>
                         double per_measure) {
   MeshState<Dim> state;
   state.penalty = per_measure;
-  state.weights = splitting.weights();
-  state.vertex_dual = splitting.vertex_dual();
+  state.weights = SparseWeights(splitting.weights());
+  state.vertex_dual = SparseWeights(splitting.vertex_dual());
   state.flux_density = flux_densities(problem, splitting.flux());
   return state;
 }

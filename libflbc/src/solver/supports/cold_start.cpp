@@ -1,25 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/supports/cold_start.h"
 
-#include <memory>
+#include <utility>
 
 #include "coordinates/poisson_weights.h"
 
 namespace flbc::supports {
 
 template <int Dim>
-DualStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
-  const DirichletProblem<Dim> laplace(problem.mesh, problem.boundary, linear_solver);
-  const auto weights = std::make_shared<const WeightMatrix>(harmonic_coordinates(problem, laplace));
+DualStart<Dim> ColdStart<Dim>::state() const {
   DualStart<Dim> start;
-  start.weights = [weights](Index v) -> Eigen::VectorXd { return weights->col(v); };
-  start.flux_density = [n = problem.num_control_points()](Index) {
+  start.weights = [all = weights](Index v) -> Eigen::VectorXd {
+    return all->col(v).template cast<double>();
+  };
+  start.flux_density = [n = weights->rows()](Index) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
   };
   return start;
 }
 
-template DualStart<2> cold_start(const LbcProblem<2>&, LinearSolver);
-template DualStart<3> cold_start(const LbcProblem<3>&, LinearSolver);
+template <int Dim>
+ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
+  // Harmonic coordinates reach farther than the weights that follow from them.
+  constexpr double kLeastHarmonic = 3e-3;
+  const DirichletProblem<Dim> laplace(problem.mesh, problem.boundary, linear_solver);
+  ColdStart<Dim> cold;
+  cold.weights = std::make_shared<const Eigen::MatrixXf>(
+      harmonic_coordinates(problem, laplace).template cast<float>());
+  cold.supports = supports_of(problem, cold.state().weights, kLeastHarmonic);
+  return cold;
+}
+
+template struct ColdStart<2>;
+template struct ColdStart<3>;
+template ColdStart<2> cold_start(const LbcProblem<2>&, LinearSolver);
+template ColdStart<3> cold_start(const LbcProblem<3>&, LinearSolver);
 
 }  // namespace flbc::supports

@@ -15,9 +15,12 @@ namespace {
 using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 // Of every vertex, the control points that matter at it or next to it. n x V
-template <int Dim>
-Flags flags_of(const DomainMesh<Dim>& mesh, const WeightMatrix& weights, double threshold) {
-  const Flags matters = weights.array() > threshold;
+//! \param matters_at  of a vertex, n flags
+template <int Dim, class MattersAt>
+Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const MattersAt& matters_at) {
+  Flags matters(num_control_points, mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < mesh.num_vertices(); ++v) matters.col(v) = matters_at(v);
   Flags near = matters;
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     Eigen::Array<bool, Eigen::Dynamic, 1> any = matters.col(mesh.cells(0, s)).array();
@@ -138,7 +141,10 @@ SupportLists supports_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& 
                            double threshold) {
   constexpr double kNotInterpolated = 1e-12;
   const auto& mesh = coarse.coarse_mesh();
-  const Flags near = flags_of(mesh, coarse.coarse_weights(), threshold);
+  const auto& weights = coarse.coarse_weights();
+  const Flags near = flags_of(mesh, problem.num_control_points(), [&](Index v) {
+    return (weights.at(v).array() > threshold).eval();
+  });
   Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
@@ -155,13 +161,18 @@ SupportLists supports_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& 
 template <int Dim>
 SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                          double threshold) {
-  WeightMatrix all = WeightMatrix::Zero(problem.num_control_points(), problem.mesh.num_vertices());
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.is_interior(v)) all.col(v) = weights(v);
-  }
-  problem.boundary.impose_on(all);
-  return completed(problem, weights, flags_of(problem.mesh, all, threshold));
+  const auto& boundary = problem.boundary;
+  const Index n = problem.num_control_points();
+  auto flags = flags_of(problem.mesh, n, [&](Index v) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(n);
+    if (boundary.is_interior(v)) {
+      all = weights(v);
+    } else {
+      boundary.scatter(boundary.boundary_index[v], all);
+    }
+    return (all.array() > threshold).eval();
+  });
+  return completed(problem, weights, std::move(flags));
 }
 
 template <int Dim>

@@ -170,7 +170,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> SupportSplitting<Scalar, Stored, Dim>
     for (int d = 0; d < Dim; ++d) density(i, d) = scale * rows[d * patch.stride + j];
   }
   // Relaxed duals may be longer.
-  shorten_to(problem_.phi.col(cell), density);
+  shorten_to(problem_.phi, cell, density);
   return density;
 }
 

@@ -11,20 +11,31 @@ FluxDensities<Dim>::FluxDensities(Index num_control_points, Index num_cells,
     : num_control_points_(num_control_points),
       blocks_((num_cells + kBlockCells - 1) / kBlockCells) {
   const auto num_blocks = static_cast<Index>(blocks_.size());
-#pragma omp parallel for schedule(static)
-  for (Index b = 0; b < num_blocks; ++b) {
-    Block& block = blocks_[b];
-    for (Index s = b * kBlockCells; s < std::min(num_cells, (b + 1) * kBlockCells); ++s) {
-      const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = of_cell(s);
-      for (Index i = 0; i < num_control_points; ++i) {
-        if ((density.row(i).array() == 0).all()) continue;
-        block.control_points.push_back(i);
-        for (int d = 0; d < Dim; ++d) block.vectors.push_back(static_cast<float>(density(i, d)));
-      }
-      block.starts.push_back(static_cast<Index>(block.control_points.size()));
+#pragma omp parallel
+  {
+    Block block;  // grows once, which leaves no holes between those that are kept
+#pragma omp for schedule(static)
+    for (Index b = 0; b < num_blocks; ++b) {
+      fill(b, num_cells, of_cell, block);
+      blocks_[b] = block;
     }
-    block.control_points.shrink_to_fit();
-    block.vectors.shrink_to_fit();
+  }
+}
+
+template <int Dim>
+void FluxDensities<Dim>::fill(Index number, Index num_cells, const VectorsAt<Dim>& of_cell,
+                              Block& block) const {
+  block.starts.assign(1, 0);
+  block.control_points.clear();
+  block.vectors.clear();
+  for (Index s = number * kBlockCells; s < std::min(num_cells, (number + 1) * kBlockCells); ++s) {
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = of_cell(s);
+    for (Index i = 0; i < num_control_points_; ++i) {
+      if ((density.row(i).array() == 0).all()) continue;
+      block.control_points.push_back(i);
+      for (int d = 0; d < Dim; ++d) block.vectors.push_back(static_cast<float>(density(i, d)));
+    }
+    block.starts.push_back(static_cast<Index>(block.control_points.size()));
   }
 }
 

@@ -33,6 +33,8 @@ class FluxDensities {
   };
   static constexpr Index kBlockCells = 64;
 
+  void fill(Index number, Index num_cells, const VectorsAt<Dim>& of_cell, Block& block) const;
+
   Index num_control_points_ = 0;
   std::vector<Block> blocks_;
 };

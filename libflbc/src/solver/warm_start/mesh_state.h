@@ -3,6 +3,7 @@
 //! The state of an iteration in a form that other meshes of the same cage understand.
 #pragma once
 
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 #include "solver/warm_start/flux_densities.h"
 
@@ -17,12 +18,12 @@ struct MeshState {
   static constexpr int kPotentialSize = Dim == 2 ? 1 : 3;
 
   double penalty = 0;                 //!< used last
-  WeightMatrix weights;               //!< n x V
+  SparseWeights weights{};            //!< of V points
   FluxDensities<Dim> flux_density{};  //!< p_s / A_s, at most phi long
 
-  //! Method::kValue: q - w of the constraint u = w, u >= 0, n x V; for the penalty above. Empty
-  //! without the constraint.
-  WeightMatrix vertex_dual;
+  //! Method::kValue: q - w of the constraint u = w, u >= 0, without its zeros, of V points; for the
+  //! penalty above. No points without the constraint.
+  SparseWeights vertex_dual{};
 
   //! Method::kGradient: potential of the flux at the middle of each facet, n x (kPotentialSize E).
   Eigen::MatrixXd potential;

@@ -77,9 +77,20 @@ Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
   return transfer;
 }
 
+// n x V
+template <int Dim>
+WeightMatrix Transfer<Dim>::at_vertices(const SparseWeights& coarse) const {
+  WeightMatrix fine(coarse.num_control_points(), fine_.mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < fine_.mesh.num_vertices(); ++v) {
+    fine.col(v) = interpolate(coarse_.mesh, coarse, vertices_[v]);
+  }
+  return fine;
+}
+
 template <int Dim>
 WeightMatrix Transfer<Dim>::weights() const {
-  auto weights = interpolate(coarse_.mesh, state_.weights, vertices_);
+  auto weights = at_vertices(state_.weights);
   fine_.boundary.impose_on(weights);
   return weights;
 }
@@ -92,19 +103,19 @@ Eigen::VectorXd Transfer<Dim>::weights_at(Index vertex) const {
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cell) const {
   auto density = state_.flux_density.cell(cells_[cell]);
-  shorten_to(fine_.phi.col(cell), density);
+  shorten_to(fine_.phi, cell, density);
   return density;
 }
 
 template <int Dim>
 WeightMatrix Transfer<Dim>::vertex_dual(double penalty) const {
-  if (state_.vertex_dual.size() == 0) return {};
-  return this->penalty() / penalty * interpolate(coarse_.mesh, state_.vertex_dual, vertices_);
+  if (state_.vertex_dual.num_points() == 0) return {};
+  return this->penalty() / penalty * at_vertices(state_.vertex_dual);
 }
 
 template <int Dim>
 VectorsAt<1> Transfer<Dim>::vertex_dual_at(double penalty) const {
-  if (state_.vertex_dual.size() == 0) return {};
+  if (state_.vertex_dual.num_points() == 0) return {};
   return [this, factor = this->penalty() / penalty](Index vertex) -> Eigen::VectorXd {
     return factor * interpolate(coarse_.mesh, state_.vertex_dual, vertices_[vertex]);
   };

@@ -56,17 +56,17 @@ class Transfer {
   //! Where a fine vertex lies in the coarse mesh.
   const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
 
-  //! The coarse mesh and the weights there, n x V of that mesh.
+  //! The coarse mesh and the weights there.
   const DomainMesh<Dim>& coarse_mesh() const { return coarse_.mesh; }
-  const WeightMatrix& coarse_weights() const { return state_.weights; }
+  const SparseWeights& coarse_weights() const { return state_.weights; }
 
   //! In a fine cell: that of the coarse cell which contains its middle, no longer than phi. n x Dim
   Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 
-  //! Interpolated, n x V; empty if the coarse one is. \param penalty  of the fine iteration
+  //! Interpolated, n x V; empty if there is none. \param penalty  of the fine iteration
   WeightMatrix vertex_dual(double penalty) const;
 
-  //! The same on demand, one vertex at a time; null if the coarse one is empty.
+  //! The same on demand, one vertex at a time; null if there is none.
   VectorsAt<1> vertex_dual_at(double penalty) const;
 
   //! mu u on a fine facet's first side, n x Dim.
@@ -79,6 +79,8 @@ class Transfer {
   struct Unlocated {};
   Transfer(Unlocated, const LbcProblem<Dim>& coarse, const MeshState<Dim>& state,
            const LbcProblem<Dim>& fine);
+
+  WeightMatrix at_vertices(const SparseWeights& coarse) const;
 
   const LbcProblem<Dim>& coarse_;
   const MeshState<Dim>& state_;

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with cells that see the
+//! source as a point, so that straight ways are exact. Distances grow outward from the source;
+//! where a cell has an obtuse angle, a vertex may be improved again after it has been passed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "problem/geodesic/bucket_queue.h"
+#include "problem/geodesic/cell_tasks.h"
+#include "problem/geodesic/eikonal_mesh.h"
+
+namespace flbc::distance {
+
+//! Of a vertex.
+enum class State : std::uint8_t { kFar, kWaiting, kPassed };
+
+//! How far the front has come at a vertex.
+struct Arrival {
+  float distance = std::numeric_limits<float>::max();
+  State state = State::kFar;
+  bool along_edge = false;  // no ray has been found yet
+};
+
+//! The distances from one source after the other.
+template <int Dim>
+class March {
+ public:
+  //! \param mesh  is kept by reference
+  explicit March(const EikonalMesh<Dim>& mesh)
+      : mesh_(mesh),
+        cells_(mesh.cells.data()),
+        // Narrow enough for vertices to come nearly in order.
+        queue_(0.02f * mesh.mean_length),
+        tolerance_(2e-5f * mesh.mean_length) {}
+
+  //! To everywhere. \return of all vertices, until the next run
+  const std::vector<Arrival>& run(Index source) {
+    return run(source, [](Index, float) { return true; });
+  }
+
+  //! As far as it is wanted.
+  //! \param goes_on  is told of a vertex that is passed and of its distance; false ends the march
+  template <class GoesOn>
+  const std::vector<Arrival>& run(Index source, GoesOn&& goes_on) {
+    arrivals_.assign(mesh_.num_vertices(), Arrival{});
+    passed_.assign(mesh_.cells.size(), 0);
+    queue_.restart();
+    arrive(source, 0, false);
+    for (Index v = queue_.pop(); v >= 0; v = queue_.pop()) {
+      if (arrivals_[v].state != State::kWaiting) continue;
+      if constexpr (Dim == 3) {
+        if (arrivals_[v].along_edge) look_through_facets(v);
+      }
+      arrivals_[v].state = State::kPassed;
+      fetch_lists(queue_.next());
+      note_cells(v);
+      pass_on_along_edges(v);
+      if constexpr (Dim == 3) pass_on_round_bends(v);
+      pass_on_through_cells(v);
+      if (!goes_on(v, arrivals_[v].distance)) break;
+    }
+    return arrivals_;
+  }
+
+ private:
+  // Larger meshes do not fit in the near caches, and what is read for one vertex has little to do
+  // with what was read for the one before. (A call that only fetches has no effect to the compiler,
+  // which drops it unless it is part of its caller from the beginning.)
+  [[gnu::always_inline]] void fetch_lists(Index vertex) const {
+    if (vertex < 0) return;
+    constexpr int kEdgesPerLine = 64 / sizeof(EdgeTo);
+    __builtin_prefetch(mesh_.corners.of(vertex).begin());
+    __builtin_prefetch(mesh_.edges.of(vertex).begin());
+    __builtin_prefetch(mesh_.edges.of(vertex).begin() + kEdgesPerLine);
+  }
+
+  void arrive(Index vertex, float distance, bool along_edge) {
+    auto& arrival = arrivals_[vertex];
+    if (arrival.state == State::kPassed) {
+      for (const Corner at : mesh_.corners.of(vertex)) {
+        passed_[at.simplex()] = static_cast<std::uint8_t>(passed_[at.simplex()] & ~at.bit());
+      }
+    }
+    arrival = {distance, State::kWaiting, along_edge};
+    queue_.push(vertex, distance);
+  }
+
+  // Marks the vertex as passed in its cells, and notes and fetches those that have at most one
+  // corner left.
+  void note_cells(Index vertex) {
+    static constexpr CellTasks kTasks = cell_tasks<Dim>();
+    const auto corners = mesh_.corners.of(vertex);
+    const auto most = static_cast<std::size_t>(corners.end() - corners.begin());
+    if (noted_.size() < most) noted_.resize(most);
+    // Bytes may be anything to the compiler, also members of this class: it must not look there.
+    std::uint8_t* const passed = passed_.data();
+    Corner* const noted = noted_.data();
+    std::size_t num_noted = 0;
+    for (const Corner at : corners) {
+      const unsigned set = passed[at.simplex()] | at.bit();
+      passed[at.simplex()] = static_cast<std::uint8_t>(set);
+      noted[num_noted] = at;
+      num_noted += kTasks.is_something[set];  // a branch could not be foreseen
+    }
+    for (std::size_t k = 0; k < num_noted; ++k) __builtin_prefetch(cells_ + noted[k].simplex());
+    num_noted_ = num_noted;
+  }
+
+  void pass_on_along_edges(Index vertex) {
+    const Arrival* const arrivals = arrivals_.data();
+    const float distance = arrivals[vertex].distance;
+    const float tolerance = tolerance_;
+    for (const EdgeTo& edge : mesh_.edges.of(vertex)) {
+      const float along = distance + edge.length;
+      if (along < arrivals[edge.vertex].distance - tolerance) arrive(edge.vertex, along, true);
+    }
+  }
+
+  // Ways bend round reflex edges of the boundary: rays leave these within facets.
+  void pass_on_round_bends(Index vertex) {
+    for (const Corner at : mesh_.bends.of(vertex)) {
+      const Index* corners = corners_of_facet(at.simplex());
+      const int first = next(at.corner());
+      const Index other = corners[corners[first] == vertex ? next(first) : first];
+      if (arrivals_[other].state != State::kPassed) continue;
+      const Index apex = corners[at.corner()];
+      const float within = distance_within_facet(at, arrivals_[apex].distance - tolerance_);
+      if (within >= 0) arrive(apex, within, false);
+    }
+  }
+
+  // A ray through a cell is known once all corners but one have been passed. An improvement on the
+  // way may have made a cell that was complete one of these.
+  void pass_on_through_cells(Index vertex) {
+    static constexpr CellTasks kTasks = cell_tasks<Dim>();
+    const float distance = arrivals_[vertex].distance;
+    const Corner* const end = noted_.data() + num_noted_;
+    for (const Corner* at = noted_.data(); at != end; ++at) {
+      const unsigned set = passed_[at->simplex()];
+      if (kTasks.is_something[set] == 0) continue;
+      if (kTasks.missing[set] == CellTasks::kAll) {
+        look_back(*at, distance);
+      } else {
+        look_through(at->simplex(), kTasks.missing[set]);
+      }
+    }
+  }
+
+  // A corner that has been passed before can only profit from this one at an obtuse angle.
+  void look_back(Corner at, float distance) {
+    const auto& bounds = mesh_.look_back[at.simplex()];
+    for (unsigned left = bounds.obtuse_beside(at.corner()); left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      const float present = arrivals_[cells_[at.simplex()].corners[k]].distance;
+      if (bounds.can_help(present, distance)) look_through(at.simplex(), k);
+    }
+  }
+
+  void look_through(std::size_t s, int corner) {
+    const auto& cell = cells_[s];
+    const auto of = [&](int k) { return arrivals_[cell.corners[k]].distance; };
+    const float limit = of(corner) - tolerance_;
+    float through;
+    if constexpr (Dim == 3) {
+      through =
+          distance_through(cell, corner, {of(corner ^ 1), of(corner ^ 2), of(corner ^ 3)}, limit);
+    } else {
+      through = distance_through(cell, corner, of(next(corner)), of(next(next(corner))), limit);
+    }
+    if (through >= 0) arrive(cell.corners[corner], through, false);
+  }
+
+  // For a vertex that no ray has reached through a cell.
+  void look_through_facets(Index vertex) {
+    for (const Corner at : mesh_.corners.of(vertex)) {
+      const unsigned others = 15u - at.bit();
+      const unsigned waiting = others & ~passed_[at.simplex()];
+      if ((waiting & (waiting - 1)) != 0) continue;  // more than one
+      // A facet lies opposite to a corner and needs the others. Its first cell is to look at it.
+      const auto s = static_cast<Index>(at.simplex());
+      for (unsigned left = waiting == 0 ? others : waiting; left != 0; left &= left - 1) {
+        const Index facet = mesh_.topology.cell_facets(__builtin_ctz(left), s);
+        if (mesh_.topology.sides(0, facet) == s) look_through_facet(facet, vertex);
+      }
+    }
+  }
+
+  void look_through_facet(Index facet, Index vertex) {
+    const Index* corners = corners_of_facet(static_cast<std::size_t>(facet));
+    const int corner = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    float& distance = arrivals_[vertex].distance;
+    const float within = distance_within_facet({facet, corner}, distance);
+    if (within >= 0) distance = within;
+  }
+
+  float distance_within_facet(Corner at, float limit) const {
+    const Index* corners = corners_of_facet(at.simplex());
+    const auto of = [&](int k) { return arrivals_[corners[k]].distance; };
+    const int first = next(at.corner());
+    return distance_through(mesh_.facets[at.simplex()], at.corner(), of(first), of(next(first)),
+                            limit);
+  }
+
+  const Index* corners_of_facet(std::size_t facet) const {
+    return mesh_.topology.facets.data() + facet * Dim;
+  }
+
+  // Of a triangle.
+  static int next(int corner) { return corner == 2 ? 0 : corner + 1; }
+
+  const EikonalMesh<Dim>& mesh_;
+  const EikonalCell<Dim>* const cells_;
+  BucketQueue queue_;
+  const float tolerance_;  // smaller improvements are not passed on
+  std::vector<Arrival> arrivals_;
+  std::vector<std::uint8_t> passed_;  // corners of each cell, as bits
+  std::vector<Corner> noted_;         // the cells to look at after the present vertex: the first
+  std::size_t num_noted_ = 0;         // so many of them
+};
+
+}  // namespace flbc::distance
