@@ -90,10 +90,8 @@ SolverOptions telling_whole(SolverOptions options, double before, double share, 
     };
   }
   if (options.stage_progress) {
-    options.stage_progress = [tell = options.stage_progress, before, share](Stage stage,
-                                                                            double done) {
-      tell(stage, before + share * done);
-    };
+    options.stage_progress = [tell = options.stage_progress, before, share](
+                                 Stage stage, double done) { tell(stage, before + share * done); };
   }
   return options;
 }
@@ -168,11 +166,55 @@ SolveReport join(std::vector<SolveReport> parts) {
   return whole;
 }
 
+// The solution of a part, in the form that is wanted of the whole.
+template <int Dim>
+void solve_part(const Part<Dim>& part, const SolverOptions& options,
+                const CoarseMesher<Dim>& mesher, Solution& solution) {
+  solution = solve(part.cage, part.domain.mesh, options, mesher);
+}
+template <int Dim>
+void solve_part(const Part<Dim>& part, const SolverOptions& options,
+                const CoarseMesher<Dim>& mesher, SparseSolution& solution) {
+  solution = solve_sparse(part.cage, part.domain.mesh, options, mesher);
+}
+
+// Weights of the whole by those of its parts.
+template <int Dim>
+void put_together(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
+                  Index num_control_points, Index num_vertices, WeightMatrix& weights) {
+  weights = WeightMatrix::Zero(num_control_points, num_vertices);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    weights(parts[p].control_points, parts[p].domain.vertices) = solved[p].weights;
+  }
+}
+template <int Dim>
+void put_together(const std::vector<Part<Dim>>& parts, const std::vector<SparseSolution>& solved,
+                  Index num_control_points, Index num_vertices, SparseWeights& weights) {
+  struct Place {
+    std::size_t part;
+    Index vertex;  // of the part
+  };
+  std::vector<Place> places(num_vertices);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& vertices = parts[p].domain.vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      places[vertices[k]] = {p, static_cast<Index>(k)};
+  }
+  weights = SparseWeights::of(num_control_points, num_vertices, [&](Index v) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(num_control_points);
+    const auto& [part, vertex] = places[v];
+    solved[part].weights.visit(vertex, [&, part = part](Index i, double weight) {
+      all[parts[part].control_points[i]] = weight;
+    });
+    return all;
+  });
+}
+
 }  // namespace
 
-template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                     const SolverOptions& options, const CoarseMesher<Dim>& mesher) {
+template <class Result, int Dim>
+Result solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
+                   const CoarseMesher<Dim>& mesher) {
   refuse_state(options);
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {
@@ -181,25 +223,29 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   double all = 0, before = 0;
   for (const auto& part : parts) all += unknowns(part);
 
-  Solution whole{WeightMatrix::Zero(cage.size(), mesh.num_vertices()), {}};
+  std::vector<Result> solved(parts.size());
   std::vector<SolveReport> reports;
-  for (const auto& part : parts) {
-    const double share = unknowns(part) / all;
-    const auto to_come = static_cast<int>(parts.size() - reports.size()) - 1;
-    auto solved = solve(part.cage, part.domain.mesh,
-                        telling_whole(options, before, share, to_come), mesher);
-    whole.weights(part.control_points, part.domain.vertices) = solved.weights;
-    reports.push_back(std::move(solved.report));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double share = unknowns(parts[p]) / all;
+    const auto to_come = static_cast<int>(parts.size() - p) - 1;
+    solve_part<Dim>(parts[p], telling_whole(options, before, share, to_come), mesher, solved[p]);
+    reports.push_back(std::move(solved[p].report));
     before += share;
   }
+  Result whole;
+  put_together(parts, solved, cage.size(), mesh.num_vertices(), whole.weights);
   whole.report = join(std::move(reports));
   whole.report.quality = measure_quality(cage.points, mesh.points, whole.weights);
   return whole;
 }
 
-template Solution solve_parts(const Cage<2>&, const DomainMesh<2>&, const SolverOptions&,
-                              const CoarseMesher<2>&);
-template Solution solve_parts(const Cage<3>&, const DomainMesh<3>&, const SolverOptions&,
-                              const CoarseMesher<3>&);
+#define FLBC_INSTANTIATE(Result, Dim)                                           \
+  template Result solve_parts<Result>(const Cage<Dim>&, const DomainMesh<Dim>&, \
+                                      const SolverOptions&, const CoarseMesher<Dim>&);
+FLBC_INSTANTIATE(Solution, 2)
+FLBC_INSTANTIATE(Solution, 3)
+FLBC_INSTANTIATE(SparseSolution, 2)
+FLBC_INSTANTIATE(SparseSolution, 3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

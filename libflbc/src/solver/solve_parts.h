@@ -7,11 +7,12 @@
 
 namespace flbc {
 
-//! Calls solve() for every part of the mesh with the control points that are its vertices.
+//! Calls solve() or solve_sparse() for every part of the mesh with the control points that are its
+//! vertices. \tparam Result  Solution or SparseSolution
 //! \param options  valid
 //! \throws InputError as solve(), and if the parts of mesh and cage are not the same
-template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                     const SolverOptions& options, const CoarseMesher<Dim>& mesher);
+template <class Result, int Dim>
+Result solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
+                   const CoarseMesher<Dim>& mesher);
 
 }  // namespace flbc

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/solver.h"
 
-#include <type_traits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -104,21 +103,12 @@ Result go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions o
   return solution;
 }
 
-// Parts are few and small: they are put together with their zeros.
-template <class Result>
-Result of_parts(Solution solution) {
-  if constexpr (std::is_same_v<Result, Solution>)
-    return solution;
-  else
-    return {SparseWeights(solution.weights), std::move(solution.report)};
-}
-
 // solve() of a cage and a mesh, in the form that is wanted.
 template <class Result, int Dim>
 Result solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                   const CoarseMesher<Dim>& mesher) {
   require_valid_set_up(options, bool(mesher));
-  if (count_parts(mesh) > 1) return of_parts<Result>(solve_parts<Dim>(cage, mesh, options, mesher));
+  if (count_parts(mesh) > 1) return solve_parts<Result, Dim>(cage, mesh, options, mesher);
   const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
   if (!resolved.resume_from.empty()) return go_on<Result>(cage, mesh, resolved);
