@@ -13,6 +13,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
 #include "problem/geodesic/eikonal_mesh.h"
+#include "problem/geodesic/march.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -119,6 +120,27 @@ TYPED_TEST(DistanceWeightsTest, GoRoundHoles) {
   const double coarse = error_of(kDim == 2 ? 4 : 3);
   const double fine = error_of(kDim == 2 ? 32 : 9);
   EXPECT_LT(fine, coarse);
+}
+
+// Rounding in cells that are nearly flat must not pass for improvements, which would go on and on.
+TYPED_TEST(DistanceWeightsTest, EndSoonInFlatCells) {
+  constexpr int kDim = TypeParam::value;
+  for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
+    for (const double flatness : {1e-4, 1e-5, 1e-6}) {
+      auto sample = make_sample<kDim>(shape, kDim == 2 ? 30 : 8, 0.3);
+      sample.mesh.points.row(kDim - 1) *= flatness;
+      const auto& mesh = sample.mesh;
+      const auto topology = build_topology(mesh);
+      const distance::EikonalMesh<kDim> eikonal(mesh, topology);
+      distance::March<kDim> march(eikonal);
+      const Index most = 32 * mesh.num_vertices();
+      for (Index source = 0; source < mesh.num_vertices(); source += 7) {
+        Index passes = 0;
+        march.run(source, [&](Index, float) { return ++passes < most; });
+        EXPECT_LT(passes, most) << flatness << ' ' << source;
+      }
+    }
+  }
 }
 
 TYPED_TEST(DistanceWeightsTest, AreTheSameForAnyNumberOfThreads) {

@@ -24,6 +24,7 @@ struct Arrival {
   float distance = std::numeric_limits<float>::max();
   State state = State::kFar;
   bool along_edge = false;  // no ray has been found yet
+  std::uint8_t improved = 0;  // how often after it had been passed
 };
 
 //! The distances from one source after the other.
@@ -80,13 +81,17 @@ class March {
   }
 
   void arrive(Index vertex, float distance, bool along_edge) {
+    // In cells that are flat to rounding, vertices could improve each other for ever.
+    constexpr std::uint8_t kMostImprovements = 30;
     auto& arrival = arrivals_[vertex];
     if (arrival.state == State::kPassed) {
+      if (arrival.improved == kMostImprovements) return;
+      ++arrival.improved;
       for (const Corner at : mesh_.corners.of(vertex)) {
         passed_[at.simplex()] = static_cast<std::uint8_t>(passed_[at.simplex()] & ~at.bit());
       }
     }
-    arrival = {distance, State::kWaiting, along_edge};
+    arrival = {distance, State::kWaiting, along_edge, arrival.improved};
     queue_.push(vertex, distance);
   }
 
