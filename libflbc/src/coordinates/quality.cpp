@@ -57,7 +57,8 @@ template <int Dim>
 class SparseGradients {
  public:
   explicit SparseGradients(Index num_control_points)
-      : gradients_(GradientRows::Zero(num_control_points, Dim)) {}
+      : gradients_(GradientRows::Zero(num_control_points, Dim)),
+        is_touched_(num_control_points, 0) {}
 
   // Calls action(i, grad w_i) for the control points with a weight at a corner.
   template <class Action>
@@ -68,14 +69,14 @@ class SparseGradients {
       for (std::int64_t e = weights.starts()[v]; e < weights.starts()[v + 1]; ++e) {
         const auto i = static_cast<Index>(weights.control_points()[e]);
         gradients_.row(i) += weights.values()[e] * geometry.hat_gradients.col(k).transpose();
-        touched_.push_back(i);
+        if (!is_touched_[i]) touched_.push_back(i);
+        is_touched_[i] = 1;
       }
     }
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (const Index i : touched_) {
       action(i, gradients_.row(i));
       gradients_.row(i).setZero();
+      is_touched_[i] = 0;
     }
     touched_.clear();
   }
@@ -83,6 +84,7 @@ class SparseGradients {
  private:
   using GradientRows = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
   GradientRows gradients_;  // zero but during a visit
+  std::vector<char> is_touched_;  // by control point
   std::vector<Index> touched_;
 };
 
