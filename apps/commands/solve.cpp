@@ -65,7 +65,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   CageSolver<Dim> solver(cage, model, settings);
   solver.make_domain(arguments.quiet);
   solver.solve(arguments.quiet);
-  const auto rows = solver.rows();
+  const auto& rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);
   const auto json = to_text(solver.json(delivered));
   {

@@ -232,10 +232,12 @@ void CageSolver<Dim>::forget_checkpoint() const {
 
 template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
-  if (is_cached_) return;
-  compute(quiet);
-  if (checkpoint_) checkpoint_->release_signals();
-  if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
+  if (!is_cached_) {
+    compute(quiet);
+    if (checkpoint_) checkpoint_->release_signals();
+    if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
+  }
+  if (!settings_.model.empty()) rows_ = weights_of_model();
 }
 
 template <int Dim>
@@ -245,8 +247,7 @@ const PointList<Dim>& CageSolver<Dim>::points() const {
 }
 
 template <int Dim>
-SparseWeights CageSolver<Dim>::rows() const {
-  if (settings_.model.empty()) return domain_weights();
+SparseWeights CageSolver<Dim>::weights_of_model() const {
   auto rows = weights_at(cage_, solved_.domain, domain_weights(), placement_);
   if (!settings_.embed) return rows;
   return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {

@@ -54,7 +54,7 @@ class CageSolver {
   //! cage are where their weights put them.
   const PointList<Dim>& points() const;
   //! Their weights.
-  SparseWeights rows() const;
+  const SparseWeights& rows() const { return settings_.model.empty() ? domain_weights() : rows_; }
 
   //! Where the model's vertices are; empty without a model.
   const Placement<Dim>& placement() const { return placement_; }
@@ -64,6 +64,7 @@ class CageSolver {
 
  private:
   WeightOrigin<Dim> origin() const;
+  SparseWeights weights_of_model() const;
   bool find_in_cache();
   bool find_checkpoint(bool quiet);
   void compute(bool quiet);
@@ -80,6 +81,7 @@ class CageSolver {
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
+  SparseWeights rows_;  // at the model's vertices, once solved
 };
 
 //! How many vertices lie beside the cage, and what became of them; empty for none.

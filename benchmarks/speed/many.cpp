@@ -30,7 +30,7 @@ constexpr Case kCases[] = {{0, 6640, 1e-5, 3},    {0, 6640, 1e-7, 3},    {250, 1
                            {250, 10000, 1e-7, 2}, {50, 20000, 1e-6, 2},  {110, 20000, 1e-6, 2},
                            {250, 20000, 1e-6, 1}, {500, 20000, 1e-6, 1}, {1000, 20000, 1e-6, 1}};
 
-// What a child process tells of its run.
+// The report of a child process on its run.
 struct Run {
   Index control_points = 0;
   Index vertices = 0;

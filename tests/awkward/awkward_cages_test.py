@@ -74,7 +74,7 @@ class Command:
         self.seconds = used_seconds() - before
 
     def faults(self, file):
-        """What no command may do, whatever the cage."""
+        """Faults of a command whatever the cage."""
         if self.hung or self.seconds > MOST_SECONDS:
             yield f"took {self.seconds:.1f} s"
         if self.status < 0:

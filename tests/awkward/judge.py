@@ -37,7 +37,7 @@ def read_points(path, dim):
 
 
 def faults(rows, places, points):
-    """What is wrong with rows of weights at places; errors are relative to the cage's size."""
+    """Faults of rows of weights at places; errors are relative to the cage's size."""
     if len(rows) != len(places) or any(len(row) != len(points) for row in rows):
         yield f"{len(rows)} rows of weights for {len(places)} vertices"
         return
@@ -58,7 +58,7 @@ def faults(rows, places, points):
         error = max(error, max(
             abs(math.fsum(w * a for w, a in zip(row, along)) - (place[axis] - points[0][axis]) / size)
             for row, place in zip(rows, places)))
-    # What the places themselves are rounded to.
+    # The rounding of the places themselves.
     rounding = 4 * sys.float_info.epsilon * max(abs(x) for p in points for x in p) / size
     if error > MOST_ERROR + rounding:
         yield f"vertices are reproduced to {error} of the size only"

@@ -23,6 +23,6 @@ using DistanceMatrix = Eigen::MatrixXf;
 //! \return #sources x V, in the units of the mesh, >= 0
 template <int Dim>
 DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
-                                   const std::vector<Index>& sources);
+                                  const std::vector<Index>& sources);
 
 }  // namespace flbc

@@ -36,8 +36,11 @@ template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights, const std::vector<Index>& columns);
 
-//! The same for weights without their zeros.
+//! The same for weights without their zeros, all or some.
 //! \return weights of all points
+template <int Dim>
+SparseWeights project_non_negative(const PointList<Dim>& control_points,
+                                   const PointList<Dim>& points, const SparseWeights& weights);
 template <int Dim>
 SparseWeights project_non_negative(const PointList<Dim>& control_points,
                                    const PointList<Dim>& points, const SparseWeights& weights,

@@ -66,12 +66,11 @@ class SparseGradients {
              const SparseWeights& weights, const Action& action) {
     for (int k = 0; k <= Dim; ++k) {
       const Index v = mesh.cells(k, s);
-      for (std::int64_t e = weights.starts()[v]; e < weights.starts()[v + 1]; ++e) {
-        const auto i = static_cast<Index>(weights.control_points()[e]);
-        gradients_.row(i) += weights.values()[e] * geometry.hat_gradients.col(k).transpose();
+      weights.visit(v, [&](Index i, double weight) {
+        gradients_.row(i) += weight * geometry.hat_gradients.col(k).transpose();
         if (!is_touched_[i]) touched_.push_back(i);
         is_touched_[i] = 1;
-      }
+      });
     }
     for (const Index i : touched_) {
       action(i, gradients_.row(i));

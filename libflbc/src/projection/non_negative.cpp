@@ -88,6 +88,12 @@ void project_columns(const PointList<Dim>& control_points, const PointList<Dim>&
       ": no weights >= 0 reproduce it");
 }
 
+std::vector<Index> all_columns(Eigen::Index count) {
+  std::vector<Index> columns(static_cast<std::size_t>(count));
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -119,15 +125,21 @@ SparseWeights project_non_negative(const PointList<Dim>& control_points,
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights) {
-  std::vector<Index> columns(points.cols());
-  std::iota(columns.begin(), columns.end(), 0);
-  project_non_negative(control_points, points, weights, columns);
+  project_non_negative(control_points, points, weights, all_columns(points.cols()));
+}
+
+template <int Dim>
+SparseWeights project_non_negative(const PointList<Dim>& control_points,
+                                   const PointList<Dim>& points, const SparseWeights& weights) {
+  return project_non_negative(control_points, points, weights, all_columns(points.cols()));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&); \
   template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&,  \
                                      const std::vector<Index>&);                                   \
+  template SparseWeights project_non_negative(const PointList<Dim>&, const PointList<Dim>&,        \
+                                              const SparseWeights&);                               \
   template SparseWeights project_non_negative(const PointList<Dim>&, const PointList<Dim>&,        \
                                               const SparseWeights&, const std::vector<Index>&);
 FLBC_INSTANTIATE(2)

@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -189,9 +188,7 @@ SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim
   const StageScope scope(told_of(options));
   const auto projected = [&] {
     const StageScope silent({});
-    std::vector<Index> all(static_cast<std::size_t>(points.cols()));
-    std::iota(all.begin(), all.end(), 0);
-    return project_non_negative(control_points, points, weights, all);
+    return project_non_negative(control_points, points, weights);
   }();
   const PointSparsifier<Dim> sparsifier(control_points, options);
   LoopProgress progress(static_cast<Index>(points.cols()));

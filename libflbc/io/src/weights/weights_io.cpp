@@ -31,9 +31,9 @@ void check_finite(const WeightMatrix& weights) {
 
 void check_finite(const SparseWeights& weights) {
   for (Index p = 0; p < weights.num_points(); ++p) {
-    for (std::int64_t k = weights.starts()[p]; k < weights.starts()[p + 1]; ++k) {
-      if (!std::isfinite(weights.values()[k])) refuse_not_finite(weights.control_points()[k], p);
-    }
+    weights.visit(p, [&](Index i, double weight) {
+      if (!std::isfinite(weight)) refuse_not_finite(i, p);
+    });
   }
 }
 

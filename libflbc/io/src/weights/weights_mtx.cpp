@@ -136,10 +136,9 @@ void write_mtx(std::ostream& out, const SparseWeights& weights) {
          << weights.num_points() << " " << weights.num_control_points() << " "
          << weights.starts().back() << "\n";
   for (Index p = 0; p < weights.num_points(); ++p) {
-    for (std::int64_t k = weights.starts()[p]; k < weights.starts()[p + 1]; ++k) {
-      const auto control_point = std::int64_t{weights.control_points()[k]};
-      writer << p + 1 << " " << control_point + 1 << " " << weights.values()[k] << "\n";
-    }
+    weights.visit(p, [&](Index i, double weight) {
+      writer << p + 1 << " " << i + 1 << " " << weight << "\n";
+    });
   }
   writer.flush();
 }

@@ -92,11 +92,14 @@ BoundedDistances bounded_distances(const DomainMesh<Dim>& mesh, const MeshTopolo
   const EikonalMesh<Dim> eikonal(mesh, topology);
   const auto num_sources = static_cast<Index>(sources.size());
   const Eigen::Matrix<float, Dim, Eigen::Dynamic> points = mesh.points.template cast<float>();
-  BoundedDistances result{{}, Eigen::VectorXf(num_sources)};
+  const auto whole = measure_everywhere(eikonal, sources);
+  BoundedDistances result{{}, Eigen::VectorXf::Zero(num_sources)};
+  for (const Index i : whole.sources) result.reach[i] = kEverywhere;
   result.distances = distance::by_source_rows(num_sources, mesh.num_vertices(), [&] {
     return [&, march = March<Dim>(eikonal),
             until = UntilPassed(mesh.num_vertices(), eikonal.mean_length)](
                Index i, distance::SourceRows& rows, Index row) mutable {
+      if (result.reach[i] == kEverywhere) return;  // its row comes below
       until.want(i, needed.of(i));
       const auto& arrivals = march.run(sources[i], until);
       const float reach = result.reach[i] = until.reach();
@@ -108,10 +111,8 @@ BoundedDistances bounded_distances(const DomainMesh<Dim>& mesh, const MeshTopolo
       }
     };
   });
-  const auto whole = measure_everywhere(eikonal, sources);
   for (std::size_t k = 0; k < whole.sources.size(); ++k) {
     result.distances.row(whole.sources[k]) = whole.distances.col(static_cast<Index>(k)).transpose();
-    result.reach[whole.sources[k]] = kEverywhere;
   }
   return result;
 }

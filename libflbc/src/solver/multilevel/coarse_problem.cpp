@@ -34,7 +34,7 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// Vertices by control point: the supports, and what shares a cell with them.
+// The vertices of every control point's support.
 template <int Dim>
 VertexItems<Index> needed_by(const LbcProblem<Dim>& geometry,
                              const supports::SupportLists& supports) {

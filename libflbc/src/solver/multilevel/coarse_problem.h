@@ -27,7 +27,7 @@ struct CoarseProblem {
   std::optional<supports::ColdStart<Dim>> cold{};  //!< that they were bounded by
 };
 
-//! What coarse problems are made for.
+//! The purposes of coarse problems.
 struct CoarseUse {
   bool start = true;       //!< they are solved
   bool distances = false;  //!< finer meshes interpolate theirs

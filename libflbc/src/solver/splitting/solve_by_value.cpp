@@ -197,17 +197,12 @@ class ValueSolve {
     MeshState<Dim> state;
     state.flux_density = {n, problem_.mesh.num_cells(), start.flux_density};
     state.penalty = start.penalty;
-    const auto& boundary = problem_.boundary;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
-    state.weights = SparseWeights::of(n, problem_.mesh.num_vertices(), [&](Index v) {
-      if (boundary.is_interior(v)) return start.weights(v);
-      Eigen::VectorXd given = none;
-      boundary.scatter(boundary.boundary_index[v], given);
-      return given;
-    });
+    state.weights = SparseWeights::of(n, problem_.mesh.num_vertices(),
+                                      with_known_values(problem_, start.weights));
     if (!start.vertex_dual) return state;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
     state.vertex_dual = SparseWeights::of(n, problem_.mesh.num_vertices(), [&](Index v) {
-      return boundary.is_interior(v) ? start.vertex_dual(v) : none;
+      return problem_.boundary.is_interior(v) ? start.vertex_dual(v) : none;
     });
     return state;
   }

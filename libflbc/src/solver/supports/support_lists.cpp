@@ -161,17 +161,9 @@ SupportLists supports_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& 
 template <int Dim>
 SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                          double threshold) {
-  const auto& boundary = problem.boundary;
-  const Index n = problem.num_control_points();
-  auto flags = flags_of(problem.mesh, n, [&](Index v) {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(n);
-    if (boundary.is_interior(v)) {
-      all = weights(v);
-    } else {
-      boundary.scatter(boundary.boundary_index[v], all);
-    }
-    return (all.array() > threshold).eval();
-  });
+  const auto of_vertex = with_known_values(problem, weights);
+  auto flags = flags_of(problem.mesh, problem.num_control_points(),
+                        [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
   return completed(problem, weights, std::move(flags));
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "flbc/cell_field.h"
 #include "solver/warm_start/transfer.h"
@@ -26,6 +27,17 @@ struct DualStart {
     };
   }
 };
+
+//! Weights of any vertex, known ones on the boundary, by those of interior vertices.
+template <int Dim>
+VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weights) {
+  return [&problem, weights = std::move(weights)](Index v) -> Eigen::VectorXd {
+    if (problem.boundary.is_interior(v)) return weights(v);
+    Eigen::VectorXd known = Eigen::VectorXd::Zero(problem.num_control_points());
+    problem.boundary.scatter(problem.boundary.boundary_index[v], known);
+    return known;
+  };
+}
 
 //! The same start for an iteration with another penalty.
 template <int Dim>
