@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/parallel.h"
 #include "flbc/errors.h"
 #include "support/sample_meshes.h"
 
@@ -122,6 +123,27 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   for (Index& v : mesh.cells.reshaped()) v = v == last ? second : v;
   mesh.points.conservativeResize(kDim, last);
   expect_refused(mesh, "merely touch, at (1, 1");
+}
+
+// Found by several threads, each in its part of the mesh.
+TYPED_TEST(DomainMeshTest, NamesTheFirstOfManyDefectsForAnyNumberOfThreads) {
+  constexpr int kDim = TypeParam::value;
+  const auto sound = make_sample<kDim>(Shape::kBox, kDim == 2 ? 40 : 12).mesh;
+  ASSERT_GT(sound.num_vertices(), 1500);
+  const Index many = sound.num_cells();
+  for (const int threads : {1, 2, 5}) {
+    const ThreadScope scope(threads);
+    auto mesh = sound;
+    for (const Index s : {many - 3, many / 2, 77}) mesh.cells(0, s) = mesh.cells(1, s);
+    expect_refused(mesh, "cell 77 of the domain mesh is degenerate");
+
+    mesh = sound;
+    mesh.cells.conservativeResize(kDim + 1, many + 4);
+    for (const Index k : {0, 1}) mesh.cells.col(many + k) = sound.cells.col(many - 1);
+    for (const Index k : {2, 3}) mesh.cells.col(many + k) = sound.cells.col(0);
+    expect_refused(mesh, "cells 0, " + std::to_string(many + 2) + " and " +
+                             std::to_string(many + 3) + " of the domain mesh share one facet");
+  }
 }
 
 }  // namespace

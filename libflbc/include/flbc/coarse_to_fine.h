@@ -12,7 +12,8 @@
 namespace flbc {
 
 //! Makes a mesh of a cage's interior with about so many vertices, as triangulate() and
-//! tetrahedralize() do (meshing.h). The cage is scaled; the mesh has to fill it as it is.
+//! tetrahedralize() do (meshing.h). The cage is scaled; the mesh has to fill it as it is. With
+//! several threads it is called from a thread of its own, by one at a time.
 template <int Dim>
 using CoarseMesher = std::function<DomainMesh<Dim>(const Cage<Dim>& cage, Index vertices)>;
 

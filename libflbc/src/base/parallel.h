@@ -53,4 +53,17 @@ Sum parallel_sum(Index count, Sum zero, const Body& body) {
   return sum;
 }
 
+//! The first of the numbers [0, count) that a predicate holds for, count if it holds for none. Asks
+//! in parallel, and of all up to that number at least. \param holds  bool(Index); must not throw
+template <class Predicate>
+Index first_where(Index count, const Predicate& holds) {
+  constexpr Index kFewest = 1000;
+  Index first = count;
+#pragma omp parallel for schedule(static) reduction(min : first) if (count >= kFewest)
+  for (Index k = 0; k < count; ++k) {
+    if (k < first && holds(k)) first = k;
+  }
+  return first;
+}
+
 }  // namespace flbc

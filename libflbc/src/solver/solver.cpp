@@ -59,7 +59,8 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
       threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices()));
   std::vector<CoarseProblem<Dim>> coarse;
   if (!resumes(storage)) {
-    const auto sizes = start_sizes(problem, mesher, options);
+    const auto sizes = start_sizes(problem.num_control_points(), problem.mesh.num_vertices(),
+                                   mesher, options);
     coarse = make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
   }
   return finish<Solution>(problem, options, run_from(problem, std::move(coarse), options, storage));

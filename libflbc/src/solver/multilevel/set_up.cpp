@@ -5,12 +5,14 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/level_sizes.h"
+#include "solver/multilevel/mesh_ahead.h"
 #include "solver/supports/choice.h"
 #include "solver/warm_start/transfer.h"
 
@@ -23,25 +25,25 @@ constexpr double kLeastTolerance = 1e-7;
 
 // Whether distances are to be interpolated if they turn out to be good enough.
 template <int Dim>
-bool tries_to_interpolate(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                          const CoarseMesher<Dim>& mesher, bool has_coarse_mesh) {
+bool tries_to_interpolate(Index finest, const CoarseMesher<Dim>& mesher,
+                          const SolverOptions& options, bool has_coarse_mesh) {
   // Below, a mesh for the distances alone takes as long as the distances.
   constexpr Index kFewestVertices = 3000;
   if (!mesher || options.phi == DistanceScheme::kConstant) return false;
   if (options.distances != Distances::kAuto) return options.distances == Distances::kInterpolated;
   if (options.method != Method::kValue || options.tolerance < kLeastTolerance) return false;
-  return has_coarse_mesh || (Dim == 3 && problem.mesh.num_vertices() >= kFewestVertices);
+  return has_coarse_mesh || (Dim == 3 && finest >= kFewestVertices);
 }
 
 // In 3D a coarse start of kValue saves the first iterations and none of the last, which are most of
 // them where the tolerance is small; a cold one is faster then, as measured.
 template <int Dim>
-bool gains_by_start(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+bool gains_by_start(Index n, Index finest, const SolverOptions& options) {
   constexpr double kSmall = 3e-7;
   const bool is_open =
       options.coarse_to_fine == CoarseToFine::kAuto && options.coarse_levels.coarsest == 0;
   return Dim == 2 || options.method != Method::kValue || !is_open || options.tolerance >= kSmall ||
-         supports::serve(problem, options);
+         supports::serve<Dim>(n, finest, options);
 }
 
 // The coarse mesh for distances alone: as coarse as the cage allows, or a twelfth of the vertices.
@@ -49,6 +51,24 @@ Index size_for_distances(Index finest, double tolerance) {
   constexpr double kCoarsestIsEnough = 1e-6;
   constexpr Index kRatio = 12;
   return tolerance >= kCoarsestIsEnough ? 1 : finest / kRatio;
+}
+
+// The coarser meshes that a solve takes, and their purposes.
+struct CoarsePlan {
+  std::vector<Index> sizes;
+  CoarseUse use;
+};
+
+//! \param n  number of control points \param finest  number of vertices
+template <int Dim>
+CoarsePlan plan_coarse(Index n, Index finest, const SolverOptions& options,
+                       const CoarseMesher<Dim>& mesher) {
+  if (!minimises(options.method)) return {{}, {false, false}};
+  auto sizes = start_sizes(n, finest, mesher, options);
+  const bool starts = !sizes.empty();
+  const bool interpolates = tries_to_interpolate(finest, mesher, options, starts);
+  if (interpolates && !starts) sizes = {size_for_distances(finest, options.tolerance)};
+  return {std::move(sizes), {starts, interpolates}};
 }
 
 // Some control points: from the one that is the farthest from a part of the domain, in even steps
@@ -88,13 +108,17 @@ double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
     for (const Index row : {k, count + k}) both.row(row) = both.row(row).cwiseMin(reach[chosen[k]]);
   }
   const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
-  double difference2 = 0, length2 = 0;
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    const Eigen::VectorXd on_cell = phi.col(s);
-    difference2 += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
-    length2 += on_cell.tail(count).squaredNorm();
-  }
-  return std::sqrt(difference2 / length2);
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  const auto squares = parallel_sum(problem.mesh.num_cells(), zero, [&](Index begin, Index end) {
+    Eigen::Vector2d sum = zero;  // of the differences, and of phi
+    for (Index s = begin; s < end; ++s) {
+      const Eigen::VectorXd on_cell = phi.col(s);
+      sum[0] += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
+      sum[1] += on_cell.tail(count).squaredNorm();
+    }
+    return sum;
+  });
+  return std::sqrt(squares[0] / squares[1]);
 }
 
 // The mean squared change of weights by a relative error of phi: four times what it was on any
@@ -124,16 +148,16 @@ DistanceMatrix choose_distances(SetUp<Dim>& result, const SolverOptions& options
 }  // namespace
 
 template <int Dim>
-std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& mesher,
                                const SolverOptions& options) {
   if (!mesher || options.coarse_to_fine == CoarseToFine::kOff || !inherits(options.method)) {
     return {};
   }
   // A penalty of the metric A^2 belongs to one mesh, and who gives it wants the iteration as it is.
   if (options.method == Method::kLbc2014 && options.penalty > 0) return {};
-  if (!gains_by_start(problem, options)) return {};
-  return level_sizes<Dim>(problem.mesh.num_vertices(), problem.num_control_points(), options.method,
-                          supports::serve(problem, options), options.coarse_levels);
+  if (!gains_by_start<Dim>(n, finest, options)) return {};
+  return level_sizes<Dim>(finest, n, options.method, supports::serve<Dim>(n, finest, options),
+                          options.coarse_levels);
 }
 
 template <int Dim>
@@ -141,25 +165,21 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
                   const CoarseMesher<Dim>& mesher) {
   Stopwatch watch;
   require_connected(mesh);
+  const auto plan = plan_coarse(cage.size(), mesh.num_vertices(), options, mesher);
+  const MeshAhead<Dim> ahead(cage, mesh, plan.sizes, mesher);
   SetUp<Dim> result{make_geometry(std::move(cage), std::move(mesh))};
   auto& problem = result.problem;
   if (!minimises(options.method)) {
     result.seconds = watch.lap();
     return result;
   }
-  auto sizes = start_sizes(problem, mesher, options);
-  const bool starts_coarse = !sizes.empty();
-  const bool interpolates = tries_to_interpolate(problem, options, mesher, starts_coarse);
-  if (interpolates && !starts_coarse) {
-    sizes = {size_for_distances(problem.mesh.num_vertices(), options.tolerance)};
-  }
-  result.coarse =
-      make_coarse_problems(problem, mesher, sizes, options, {starts_coarse, interpolates});
+  result.coarse = make_coarse_problems(problem, ahead.mesher(), plan.sizes, options, plan.use);
   const StageScope scope(told_of(options, Stage::kDistances));
-  auto distances = interpolates && !result.coarse.empty() ? choose_distances(result, options)
-                                                          : distances_for(options.phi, problem);
+  auto distances = plan.use.distances && !result.coarse.empty()
+                       ? choose_distances(result, options)
+                       : distances_for(options.phi, problem);
   problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
-  if (!starts_coarse) result.coarse.clear();
+  if (!plan.use.start) result.coarse.clear();
   result.seconds = watch.lap();
   for (const auto& level : result.coarse) {
     result.seconds -= level.report.mesh_seconds + level.report.setup_seconds;
@@ -167,10 +187,10 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                               \
-  template std::vector<Index> start_sizes(const LbcProblem<Dim>&, const CoarseMesher<Dim>&, \
-                                          const SolverOptions&);                            \
-  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,              \
+#define FLBC_INSTANTIATE(Dim)                                                     \
+  template std::vector<Index> start_sizes(Index, Index, const CoarseMesher<Dim>&, \
+                                          const SolverOptions&);                  \
+  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,    \
                              const CoarseMesher<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

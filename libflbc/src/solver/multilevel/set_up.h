@@ -19,15 +19,17 @@ struct SetUp {
 };
 
 //! Numbers of vertices of the coarser meshes to start from; none where they do not pay or are not
-//! wanted. \param options  resolved
+//! wanted. \param n  number of control points \param finest  number of vertices
+//! \param options  resolved
 template <int Dim>
-std::vector<Index> start_sizes(const LbcProblem<Dim>& problem, const CoarseMesher<Dim>& mesher,
+std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& mesher,
                                const SolverOptions& options);
 
 //! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
 //! options say so, and without phi where the method does not need it.
 //! \param options  resolved
-//! \param mesher  may be empty unless options demand it
+//! \param mesher  may be empty unless options demand it; with several threads it is called from
+//! one of its own
 //! \throws InputError, SolverError
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,

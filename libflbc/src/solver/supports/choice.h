@@ -10,19 +10,22 @@
 namespace flbc::supports {
 
 //! Whether supports are to be looked for: where they pay, and nothing is asked for that they do not
-//! give.
+//! give. \param n  number of control points
 template <int Dim>
-bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+bool serve(Index n, Index num_vertices, const SolverOptions& options) {
   // Below, lists of control points are not much shorter than all of them, as measured; in 2D they
   // hold too few to leave the iteration freedom.
   constexpr Index kFewest = 80;
-  const Index n = problem.num_control_points();
   if (options.method != Method::kValue || n > kMostControlPoints) return false;
   if (options.active_pairs != ActivePairs::kAuto) return options.active_pairs == ActivePairs::kOn;
   // Small meshes are fast as they are.
   constexpr double kFewestPairs = 4e5;
-  if (static_cast<double>(n) * problem.mesh.num_vertices() < kFewestPairs) return false;
+  if (static_cast<double>(n) * num_vertices < kFewestPairs) return false;
   return Dim == 3 && n >= kFewest && !options.certify;
+}
+template <int Dim>
+bool serve(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  return serve<Dim>(problem.num_control_points(), problem.mesh.num_vertices(), options);
 }
 
 //! Whether so many pairs take less time than all.
