@@ -1,207 +1,133 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/results.md, "Automatic cages".
+"""Cages from models and repaired cages, as flbc makes them.
 
-    measure.py FLBC MODELS_FOLDER MESHES_FOLDER [--control-points 100] [--vertices 4000]
-
-For every model: a cage by flbc cage, judged here from the two files alone (vertices inside by winding
+For every model: a cage by flbc cage, judged from the two files alone (vertices inside by winding
 numbers, edges that cross, mean distance of points drawn from the cage to the model), then flbc check
 and flbc solve. For every defective cage: what flbc check finds, flbc cage --repair, flbc solve.
-Needs NumPy; takes a minute or two.
+Needs NumPy.
 """
 
-import argparse
 import json
-import os
 import pathlib
-import subprocess
+import re
 import tempfile
-import time
 
-import numpy as np
-
-SAMPLES = 3000  # points on a cage whose distances are averaged
-BLOCK = 2_000_000  # numbers of a temporary
-
-
-def read_obj(path):
-    """Vertices and facets: triangles, or the edges of a plane figure."""
-    points, facets, lines = [], [], []
-    for line in path.read_text().splitlines():
-        words = line.split()
-        if not words:
-            continue
-        numbers = [int(word.split("/")[0]) - 1 for word in words[1:] if words[0] in "fl"]
-        if words[0] == "v":
-            points.append([float(word) for word in words[1:4]])
-        elif words[0] == "f":
-            facets += [[numbers[0], a, b] for a, b in zip(numbers[1:], numbers[2:])]
-        elif words[0] == "l":
-            lines += list(zip(numbers, numbers[1:]))
-    points = np.array(points)
-    if np.ptp(points[:, 2]) > 0:
-        return points, np.array(facets)
-    edges = lines or [(t[k], t[(k + 1) % 3]) for t in facets for k in range(3)]
-    return points[:, :2], np.array(edges)
+CONTROL_POINTS = 100
+VERTICES = 4000
+QUICK_VERTICES = 1500
+QUICK_CASES = ("arm", "limb", "ring", "half_outside", "inconsistent_orientation")
+PICTURED = ("arm", "armadillo", "beast", "clothing", "horse", "shark")
 
 
-def in_blocks(function, rows, width):
-    """The function of blocks of rows, so that temporaries of so many numbers a row stay small."""
-    step = max(1, BLOCK // width)
-    return np.concatenate([function(rows[k:k + step]) for k in range(0, len(rows), step)])
-
-
-def winding_numbers(points, cage, facets):
-    """How often the cage goes round each point."""
-    def around(block):
-        corners = [cage[facets[:, k]][None] - block[:, None] for k in range(facets.shape[1])]
-        if len(corners) == 2:
-            a, b = corners
-            cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-            return np.arctan2(cross, (a * b).sum(-1)).sum(1) / (2 * np.pi)
-        a, b, c = corners
-        u, v, w = (np.linalg.norm(x, axis=-1) for x in corners)
-        determinant = (a * np.cross(b, c)).sum(-1)
-        cosine = u * v * w + (a * b).sum(-1) * w + (b * c).sum(-1) * u + (c * a).sum(-1) * v
-        return np.arctan2(determinant, cosine).sum(1) / (2 * np.pi)
-    return in_blocks(around, points, 12 * len(facets))
-
-
-def edges_of(facets):
-    if facets.shape[1] == 2:
-        return facets
-    pairs = np.concatenate([facets[:, [0, 1]], facets[:, [1, 2]], facets[:, [2, 0]]])
-    return np.unique(np.sort(pairs, 1), axis=0)
-
-
-def count_crossings(points, edges, others, facets):
-    """Edges of one shape that pass through facets of another."""
-    corners = [others[facets[:, k]][None] for k in range(facets.shape[1])]
-
-    def crossed(block):
-        p, q = points[block[:, 0]][:, None], points[block[:, 1]][:, None]
-        if len(corners) == 2:
-            def side(a, b, x):
-                return np.sign((b - a)[..., 0] * (x - a)[..., 1] - (b - a)[..., 1] * (x - a)[..., 0])
-            a, b = corners
-            meets = (side(a, b, p) * side(a, b, q) <= 0) & (side(p, q, a) * side(p, q, b) <= 0)
-            return meets.any(1)
-        a, b, c = corners
-
-        def volume(w, x, y, z):
-            return np.sign((np.cross(x - w, y - w) * (z - w)).sum(-1))
-        beside = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)]
-        same = ((beside[0] == beside[1]) & (beside[1] == beside[2]))
-        return (same & (volume(a, b, c, p) != volume(a, b, c, q))).any(1)
-    return int(in_blocks(crossed, edges, 40 * len(facets)).sum())
-
-
-def mean_distance(cage, cage_facets, model, model_facets):
-    """Of points spread evenly over the cage to the nearest of vertices and middles of the model."""
-    rng = np.random.default_rng(1)
-    corners = cage[cage_facets]
-    sides = corners[:, 1:] - corners[:, :1]
-    sizes = np.sqrt(np.maximum(np.linalg.det(sides @ sides.transpose(0, 2, 1)), 0))
-    chosen = rng.choice(len(sizes), SAMPLES, p=sizes / sizes.sum())
-    weights = rng.dirichlet(np.ones(corners.shape[1]), SAMPLES)
-    samples = (weights[:, :, None] * corners[chosen]).sum(1)
-    targets = np.concatenate([model, model[model_facets].mean(1)])
-    squares = (targets**2).sum(1)
-
-    def nearest(block):
-        distances = (block**2).sum(1)[:, None] - 2 * block @ targets.T + squares
-        return np.sqrt(np.maximum(distances.min(1), 0))
-    return in_blocks(nearest, samples, len(targets)).mean()
-
-
-def size_of(points):
-    return np.linalg.norm(np.ptp(points, axis=0))
-
-
-def run(words):
-    """Exit status, processor seconds and standard error."""
-    with tempfile.TemporaryFile("w+") as errors:
-        start = time.monotonic()
-        process = subprocess.Popen([str(word) for word in words], stderr=errors,
-                                   stdout=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
-        errors.seek(0)
-        return (os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime,
-                time.monotonic() - start, errors.read().strip())
-
-
-def solve(flbc, folder, words):
-    report = folder / "solve.json"
-    status, _, seconds, errors = run([flbc, "solve", *words, "-o", folder / "w.npy", "-q", "--report", report])
-    if status:
-        return f"exit {status}: {errors}"
+def solve(context, words, weights):
+    """Iterations and quality of the weights of a solve, or what it said."""
+    report = weights.with_suffix(".json")
+    vertices = QUICK_VERTICES if context.quick else VERTICES
+    done = context.run([context.flbc, "solve", *words, "--vertices", vertices, "-o", weights, "-q",
+                        "--report", report])
+    if done.status:
+        return {"solve": f"exit {done.status}: {done.errors}"}
     told = json.loads(report.read_text())
-    return (f"{told['iterations']} iterations, {seconds:.1f} s, smallest {told['min_weight']:.0e}, "
-            f"reproduction {told['max_reproduction_error']:.0e}")
+    return {"solve": "converged" if told["converged"] else "not converged",
+            "iterations": told["iterations"], "min_weight": told["min_weight"],
+            "reproduction_error": told["max_reproduction_error"]}
 
 
-def measure(flbc, model, folder, arguments):
+def measure_cage(context, model, folder):
+    import judge
+    import numpy as np
+    folder.mkdir(parents=True, exist_ok=True)
     cage = folder / "cage.obj"
-    status, processor, _, errors = run([flbc, "cage", model, "-o", cage,
-                                     "--control-points", arguments.control_points])
-    if status:
-        return [model.stem, f"exit {status}: {errors}"]
-    points, facets = read_obj(model)
-    corners, cage_facets = read_obj(cage)
-    inside = np.abs(winding_numbers(points, corners, cage_facets)) > 0.5
-    crossings = (count_crossings(points, edges_of(facets), corners, cage_facets) +
-                 count_crossings(corners, edges_of(cage_facets), points, facets))
-    distance = mean_distance(corners, cage_facets, points, facets) / size_of(corners)
-    checked, _, _, complaint = run([flbc, "check", cage, "--model", model])
-    symmetric = errors.split("symmetric across ")[-1][0] if "symmetric" in errors else ""
-    solved = solve(flbc, folder, [cage, "--model", model, "--vertices", arguments.vertices])
-    return [model.stem, len(points), len(corners), int((~inside).sum()), crossings,
-            f"{100 * distance:.1f} %", symmetric, f"{processor:.2f}",
-            "sound" if checked == 0 else complaint, solved]
+    made = context.run([context.flbc, "cage", model, "-o", cage,
+                        "--control-points", CONTROL_POINTS])
+    if made.status:
+        context.failed(f"{model.stem}: {made.errors}")
+        return None
+    points, facets = judge.read_obj(model)
+    corners, cage_facets = judge.read_obj(cage)
+    inside = np.abs(judge.winding_numbers(points, corners, cage_facets)) > 0.5
+    crossings = (judge.count_crossings(points, judge.edges_of(facets), corners, cage_facets) +
+                 judge.count_crossings(corners, judge.edges_of(cage_facets), points, facets))
+    distance = judge.mean_distance(corners, cage_facets, points, facets) / judge.size_of(corners)
+    checked = context.run([context.flbc, "check", cage, "--model", model])
+    symmetric = made.errors.split("symmetric across ")[-1][0] if "symmetric" in made.errors else ""
+    row = {"model": model.stem.removesuffix("_model"), "dim": points.shape[1],
+           "vertices": len(points), "control_points": len(corners),
+           "outside": int((~inside).sum()), "crossings": crossings,
+           "distance": float(distance), "symmetric_across": symmetric,
+           "processor_seconds": made.processor_seconds,
+           "check": "sound" if checked.status == 0 else checked.errors}
+    return {**row, **solve(context, [cage, "--model", model], folder / "weights.npy")}
 
 
-def repair(flbc, cage, folder, arguments):
+def models_of(context):
+    """The papers' models, then the samples, 3D before 2D."""
+    found = [path for path in sorted((context.models / "3d").glob("*.obj"))
+             if "cage" not in path.stem]
+    for folder, dim in ((context.meshes, "3d"), (context.models, "2d"), (context.meshes, "2d")):
+        found += sorted((folder / dim).glob("*_model.obj"))
+    for path in found:
+        name = path.stem.removesuffix("_model")
+        if context.wants(name) and (name in QUICK_CASES or not context.quick):
+            yield path
+
+
+def cages(context):
+    pictured = []
+    for model in models_of(context):
+        folder = context.out / "cages" / model.stem
+        row = measure_cage(context, model, folder)
+        if row is None:
+            continue
+        if model.stem in PICTURED and row["solve"] == "converged":
+            pictured.append((model, folder))
+        yield row
+    if pictured:
+        draw(context, pictured)
+
+
+def draw(context, pictured):
+    try:
+        import poses_picture
+        poses_picture.write(context, pictured, context.out / "cages.png")
+    except ImportError:
+        context.failed("cages: no picture without matplotlib")
+
+
+def repairs(context):
+    if context.only_models:
+        return
+    for cage in sorted((context.models / "defective").glob("*_cage.obj")):
+        if context.quick and cage.stem.removesuffix("_cage") not in QUICK_CASES:
+            continue
+        with tempfile.TemporaryDirectory() as name:
+            yield measure_repair(context, cage, pathlib.Path(name))
+
+
+def first_clause(message):
+    """Without reasons and places that follow."""
+    return re.split(r": |; |, because ", message)[0]
+
+
+def measure_repair(context, cage, folder):
     """Check, repair and solve of a defective cage."""
-    _, _, _, defect = run([flbc, "check", cage])
+    found = context.run([context.flbc, "check", cage])
+    defect = first_clause(found.errors.splitlines()[0].split(": ", 2)[-1]) if found.status else ""
+    row = {"cage": cage.stem.removesuffix("_cage"), "defect": defect}
     mended = folder / "mended.obj"
-    status, _, _, told = run([flbc, "cage", "--repair", cage, "-o", mended])
-    if status:
-        return [cage.stem, defect, f"refused: {told}", "", ""]
-    changes = told.splitlines()
-    count = changes.pop().split(": ", 1)[1].split(", ")[0]
-    changes = [line.split(": ", 1)[1] for line in changes]
-    summary = changes[0] + (f" (and {len(changes) - 1} more)" if len(changes) > 1 else "")
-    return [cage.stem, defect.split(": ", 2)[-1], summary, count,
-            solve(flbc, folder, [mended, "--vertices", arguments.vertices])]
+    done = context.run([context.flbc, "cage", "--repair", cage, "-o", mended])
+    if done.status:
+        return {**row, "repair": f"refused: {done.errors}"}
+    changes = [line.split(": ", 1)[1] for line in done.errors.splitlines()]
+    count = changes.pop().split(" ", 1)[0]
+    summary = first_clause(changes[0]) if changes else ""
+    if len(changes) > 1:
+        summary += f" (and {len(changes) - 1} more)"
+    return {**row, "repair": summary, "control_points": count,
+            **solve(context, [mended], folder / "weights.npy")}
 
 
-def print_row(cells):
-    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("flbc")
-    parser.add_argument("models", type=pathlib.Path)
-    parser.add_argument("meshes", type=pathlib.Path)
-    parser.add_argument("--control-points", type=int, default=100)
-    parser.add_argument("--vertices", type=int, default=4000)
-    arguments = parser.parse_args()
-    models = [path for path in sorted((arguments.models / "3d").glob("*.obj"))
-              if "cage" not in path.stem]
-    models += sorted((arguments.meshes / "3d").glob("*_model.obj"))
-    models += sorted((arguments.models / "2d").glob("*_model.obj"))
-    models += sorted((arguments.meshes / "2d").glob("*_model.obj"))
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        print_row(["model", "vertices", "control points", "outside", "crossings", "distance",
-                   "symmetric across", "processor s", "check", "solve"])
-        for model in models:
-            print_row(measure(arguments.flbc, model, folder, arguments))
-        print_row(["defective cage", "first defect", "repair", "result", "solve"])
-        for cage in sorted((arguments.models / "defective").glob("*_cage.obj")):
-            print_row(repair(arguments.flbc, cage, folder, arguments))
-
-
-if __name__ == "__main__":
-    main()
+CAGES = ("flbc cage MODEL --control-points 100, judged from the files alone, then flbc check and "
+         "flbc solve; distance: mean, of points of the cage from the model, relative to its size; "
+         "processor seconds of flbc cage", cages)
+REPAIRS = ("flbc check, flbc cage --repair and flbc solve of defective cages", repairs)

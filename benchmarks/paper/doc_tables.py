@@ -3,6 +3,8 @@
 
 import results
 import tables
+import use_tables
+from cells import brief, formatted
 
 SHORT = {"lbc2014": "lbc2014", "lbc2014-tuned": "tuned", "paper": "paper", "gradient": "gradient",
          "gradient-local": "gradient, no linear system", "value": "**value**"}
@@ -154,26 +156,14 @@ def many(rows):
     return header, body
 
 
-def formatted(row, columns):
-    """Cells of the given columns, each with its format."""
-    return [tables.text(results.value(row, column), form) for column, form in columns]
-
-
 def plain(rows):
     """Every column of the file, numbers in three digits."""
     columns = [c for c in rows[0] if any(r[c] for r in rows)]
     return [c.replace("_", " ") for c in columns], [[brief(r[c]) for c in columns] for r in rows]
 
 
-def brief(cell):
-    try:
-        number = float(cell)
-    except ValueError:
-        return cell
-    return f"{int(number):,}" if number == int(number) and abs(number) < 1e9 else f"{number:.3g}"
-
-
 TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows,
           "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
           "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014,
-          "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows}
+          "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows,
+          **use_tables.TABLES}

@@ -21,6 +21,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
 PAGE = ROOT / "docs" / "results.md"
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
+PICTURES = {"figure5": "error_against_time.png", "figure6": "error_against_time_large.png",
+            "cages": "automatic_cages.png"}  # in docs, of OUT/NAME.png
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
@@ -62,6 +64,8 @@ def take_over(out):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
+            if name in PICTURES and (out / f"{name}.png").exists():
+                shutil.copy(out / f"{name}.png", PAGE.parent / PICTURES[name])
     PAGE.write_text(with_tables(PAGE.read_text()))
     return check()
 

@@ -20,6 +20,7 @@ cmake --build --preset release --target flbc_bench_paper flbc_app
 status=0
 commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
 build/release/benchmarks/flbc_bench_paper "$models" "$out" --commit "$commit" "$@" || status=$?
+/usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --commit "$commit" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
 /usr/bin/python3 -B benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
 exit "$status"

@@ -1,182 +1,95 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solves real cages and prints, for each: iterations, time per iteration, time of the stages,
-// memory and the quality of the weights.
-//
-//   flbc_bench_models MODELS_FOLDER [--threads T] [--method value|gradient|paper|lbc2014|harmonic]
-//   [--tolerance T]
-//                     [--model NAME] [--reference K] [--linear-solver direct|multigrid]
-//                     [--vertices N]
-//
-// With --reference, the last column is the paper's error (5), the mean squared difference inside,
-// from K iterations of method value in double precision.
-//
-// Each case runs in a process of its own, so that its peak memory is its own.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+// From cage to coordinates by default: mesh, set-up, solve, memory, locality, beside harmonic
+// coordinates on the same mesh.
+#include <omp.h>
 
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <map>
-#include <stdexcept>
-#include <string>
+#include <variant>
 
-#include "flbc/flbc.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
-#include "speed/real_models.h"
+#include "flbc/solver.h"
+#include "paper/experiments.h"
+#include "paper/result_table.h"
+#include "paper/run_columns.h"
+#include "paper/stopwatch.h"
 
+namespace flbc::bench {
 namespace {
 
-using namespace flbc;
-using namespace flbc::bench;
-
-constexpr Case kCases[] = {
-    {"woody", "2d/woody-control-edgeset.obj", 10800},
-    {"cactus", "2d/cactus-control-edgeset.obj", 10800},
-    {"logo", "2d/LBClogo-control-edgeset.obj", 26800},
-    {"horse", "3d/horse_cage.obj", 5900},
-    {"armadillo", "3d/armadillo_cage.obj", 6600},
-    {"shark", "3d/shark_cage.obj", 6000},
-    {"beast", "3d/beast_cage.obj", 6000},
-    {"horse-40k", "3d/horse_cage.obj", 40000},
-};
-
-double peak_mebibytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-struct Arguments {
-  SolverOptions options;
-  std::string only_model;        // empty: all
-  int reference_iterations = 0;  // 0: no reference
-  Index vertices = 0;            // 0: by model
-};
-
-// The error (5) of the paper against a long run.
-template <int Dim>
-double error_to_reference(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
-                          int iterations) {
-  SolverOptions options;
-  options.method = Method::kValue;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-100;
-  options.max_iterations = iterations;
-  const auto reference = solve(problem, options).weights;
-  return squared_error(problem, weights, reference);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+std::vector<std::string> columns() {
+  return joined({mesh_columns(),
+                 {"coarse_levels", "converged", "iterations", "mesh_seconds", "setup_seconds",
+                  "solve_seconds", "recover_seconds", "total_seconds", "mebibytes",
+                  "scalars_per_cell", "min_weight", "partition_error", "reproduction_error",
+                  "mean_influences", "harmonic_seconds", "harmonic_influences"}});
 }
 
 template <int Dim>
-void run(const Case& test, const Cage<Dim>& cage, const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto mesh = mesh_of(cage, arguments.vertices > 0 ? arguments.vertices : test.vertices);
-  const double mesh_seconds = seconds_since(start);
-  const auto before_setup = std::chrono::steady_clock::now();
-  const auto problem = make_problem(cage, mesh, arguments.options.phi);
-  const double setup_seconds = seconds_since(before_setup);
-  const auto solution = solve(problem, arguments.options);
-  const auto& report = solution.report;
-  std::printf("%-10s %4d %7d %8d %6d %8.2f %6.2f %6.2f %7.2f %7.2f %8.1f %8.0f %10.2e %9.1e %6.2f",
-              test.name, report.control_points, report.vertices, report.cells, report.iterations,
-              1000 * report.seconds.solve / report.iterations, mesh_seconds, setup_seconds,
-              report.seconds.solve, report.seconds.recover, report.state_scalars_per_cell,
-              peak_mebibytes(), report.quality.min_weight, report.quality.max_reproduction_error,
-              report.quality.mean_influences);
-  if (arguments.reference_iterations > 0) {
-    std::printf(" %9.1e",
-                error_to_reference(problem, solution.weights, arguments.reference_iterations));
-  }
-  std::printf("%s\n", report.status == SolveStatus::kConverged ? "" : "  NOT CONVERGED");
-  std::fflush(stdout);
+void add_harmonic(Row& row, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                  SolverOptions options) {
+  options.method = Method::kHarmonic;
+  const auto report = solve(cage, mesh, options).report;
+  const auto& seconds = report.seconds;
+  row["harmonic_seconds"] = number(seconds.setup + seconds.solve + seconds.recover);
+  row["harmonic_influences"] = number(report.quality.mean_influences);
 }
 
-const std::map<std::string, Method> kMethods{{"value", Method::kValue},
-                                             {"gradient", Method::kGradient},
-                                             {"paper", Method::kPaper},
-                                             {"lbc2014", Method::kLbc2014},
-                                             {"harmonic", Method::kHarmonic}};
-
-const std::map<std::string, LinearSolver> kSolvers{{"auto", LinearSolver::kAuto},
-                                                   {"direct", LinearSolver::kDirect},
-                                                   {"multigrid", LinearSolver::kMultigrid}};
-
-Arguments parse(int argc, char** argv) {
-  Arguments arguments;
-  for (int k = 2; k < argc; k += 2) {
-    const std::string name = argv[k];
-    const std::string value = k + 1 < argc ? argv[k + 1] : "";
-    if (name == "--threads") {
-      arguments.options.threads = std::stoi(value);
-    } else if (name == "--tolerance") {
-      arguments.options.tolerance = std::stod(value);
-    } else if (name == "--method" && kMethods.count(value) > 0) {
-      arguments.options.method = kMethods.at(value);
-    } else if (name == "--model" && !value.empty()) {
-      arguments.only_model = value;
-    } else if (name == "--linear-solver" && kSolvers.count(value) > 0) {
-      arguments.options.linear_solver = kSolvers.at(value);
-    } else if (name == "--vertices") {
-      arguments.vertices = std::stoi(value);
-    } else if (name == "--reference") {
-      arguments.reference_iterations = std::stoi(value);
-    } else {
-      throw std::invalid_argument("unknown option " + name + " " + value);
-    }
-  }
-  return arguments;
+template <int Dim>
+Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, Index vertices) {
+  const Stopwatch watch;
+  const auto mesh = mesh_of(cage, vertices);
+  Row row{{"model", model.name},
+          {"control_points", std::to_string(cage.size())},
+          {"vertices", std::to_string(mesh.num_vertices())},
+          {"cells", std::to_string(mesh.num_cells())},
+          {"mesh_seconds", number(watch.seconds())}};
+  SolverOptions options;
+  options.threads = context.threads;
+  const auto report = solve(cage, mesh, options, coarse_mesher<Dim>()).report;
+  const auto& seconds = report.seconds;
+  row["coarse_levels"] = std::to_string(report.coarse_levels.size());
+  row["converged"] = report.status == SolveStatus::kConverged ? "1" : "0";
+  row["iterations"] = std::to_string(report.iterations);
+  row["setup_seconds"] = number(seconds.setup);
+  row["solve_seconds"] = number(seconds.solve);
+  row["recover_seconds"] = number(seconds.recover);
+  row["total_seconds"] = number(seconds.setup + seconds.solve + seconds.recover);
+  row["mebibytes"] = number(peak_mebibytes());
+  row["scalars_per_cell"] = number(report.state_scalars_per_cell);
+  row["min_weight"] = number(report.quality.min_weight);
+  row["partition_error"] = number(report.quality.max_partition_error);
+  row["reproduction_error"] = number(report.quality.max_reproduction_error);
+  row["mean_influences"] = number(report.quality.mean_influences);
+  add_harmonic(row, cage, mesh, options);
+  return row;
 }
 
-// \return true if the case ended well
-bool run_isolated(const Case& test, const std::string& path, const Arguments& arguments) {
-  const pid_t child = fork();
-  if (child == 0) {
-    try {
-      const auto cage = io::to_cage(io::read_polygons(path), path);
-      std::visit([&](const auto& any) { run(test, any, arguments); }, cage);
-      std::_Exit(EXIT_SUCCESS);
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s: %s\n", test.name, error.what());
-      std::_Exit(EXIT_FAILURE);
-    }
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+void add(const Context& context, ResultTable& table, const Model& model, Index full_size) {
+  if (!context.wants(model.name)) return;
+  const Index vertices = context.size(model.dim, full_size);
+  const auto what = std::string("models: ") + model.name + ", " + std::to_string(vertices);
+  std::printf("%s vertices\n", what.c_str());
+  table.add(in_child(what, [&] {
+    omp_set_num_threads(context.threads);
+    const auto file = cage_path(context, model);
+    const auto any = io::to_cage(io::read_polygons(file), file);
+    return table.line(
+        std::visit([&](const auto& cage) { return measure(context, model, cage, vertices); }, any));
+  }));
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(
-        stderr,
-        "usage: %s MODELS_FOLDER [--threads T] [--method M] [--tolerance T] [--model NAME] "
-        "[--reference K]\n",
-        argv[0]);
-    return 1;
-  }
-  try {
-    const auto arguments = parse(argc, argv);
-    std::printf("%-10s %4s %7s %8s %6s %8s %6s %6s %7s %7s %8s %8s %10s %9s %6s", "model", "n", "V",
-                "cells", "its", "ms/it", "mesh s", "setup", "solve s", "recover", "num/cell", "MiB",
-                "min w", "repro", "infl");
-    std::printf("%s\n", arguments.reference_iterations > 0 ? "     error" : "");
-    std::fflush(stdout);
-    bool ok = true;
-    for_each_case(argv[1], kCases, arguments.only_model, [&](const Case& test, const auto& path) {
-      ok = run_isolated(test, path, arguments) && ok;
-    });
-    return ok ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+bool run_models(const Context& context) {
+  ResultTable table(context, "models", columns());
+  for (const auto& model : models()) add(context, table, model, model.paper_size);
+  if (!context.quick) add(context, table, model("horse"), 40000);
+  return table.write(
+      "value by default, from cage to coordinates: seconds of the stages, coarser meshes and "
+      "making "
+      "them included in solve; MiB are the process's most; influences: weights above 1e-4, mean "
+      "per "
+      "vertex, beside those of harmonic coordinates on the same mesh");
 }
+
+}  // namespace flbc::bench

@@ -86,6 +86,32 @@ model,vertices,variant,iterations,error,error_100,error_300,error_1000
 woody,1000,plain,100,0.001,0.001,0.0003,2e-05
 horse,2000,plain,,,0.0003,0.0002,""")
     assert lbc2014 == ["plain | 100, 1.0e-03 | 1.0e-03 / 3.0e-04 / 2.0e-05 | not within 2,000 | 3.0e-04 / 2.0e-04 / -"]
+    models = table("models", """
+model,control_points,vertices,cells,coarse_levels,converged,iterations,mesh_seconds,setup_seconds,solve_seconds,harmonic_seconds,mebibytes,mean_influences,harmonic_influences,min_weight,reproduction_error
+woody,26,1000,1900,1,1,120,0.04,0.05,0.2,0.03,34.4,4.54,23.3,0,2e-16""")
+    assert models == ["woody | 26 | 1,000 | 1,900 | 120 + 1 level | 0.04 | 0.05 | 0.20 | 0.03 | 34 | 4.5 | 23.3 | 0 | 2.0e-16"]
+    tolerance = table("tolerance", """
+model,control_points,vertices,cells,tolerance,converged,iterations,error
+woody,26,1000,1900,1e-05,1,89,0.11
+woody,26,1000,1900,1e-07,0,6000,2.3
+horse,51,2000,7000,1e-05,1,65,0.31""")
+    assert tolerance == ["woody | 1,000 | 89 (0.11) | 6,000 (limit) (2.30)", "horse | 2,000 | 65 (0.31) | -",
+                         "worst |  | (0.31) | (2.30)"]
+    editing = table("editing", """
+model,control_points,vertices,cells,move,iterations,seconds,longest_seconds,error,cold_iterations,cold_seconds,cold_error
+woody,26,1000,1900,bend,28,0.02,,2e-08,177,0.3,5e-08
+woody,26,1000,1900,drag,12.5,0.01,0.04,1e-09,180,0.3,6e-08
+horse,51,2000,7000,bend,,,,,,,
+horse,51,2000,7000,drag,10,0.02,0.05,1e-08,169,0.4,7e-08""")
+    assert editing == ["bend | 28 / 177 | 0.020 / 0.300 | 2.0e-08 / 5.0e-08 | a cell would turn over |  | ",
+                       "drag | 12.5 / 180 | 0.010 (at most 0.040) / 0.300 | 1.0e-09 / 6.0e-08 | "
+                       "10 / 169 | 0.020 (at most 0.050) / 0.400 | 1.0e-08 / 7.0e-08"]
+    sparsify = table("sparsify", """
+weights,points,control_points,influences_before,k,method,seconds,edges_independent,edges_independent_max,edges_smooth,edges_smooth_max,edges_animation,positions_independent,positions_independent_max,positions_smooth,positions_smooth_max,positions_animation
+arm,2000,58,31.8,4,quadratic,0.05,1.5,137,0.05,1.4,0.19,0.02,0.08,0.0006,0.008,0.0024
+arm,2000,58,31.8,4,poisson,0.2,1.1,47,0.04,0.9,,0.021,0.08,0.0006,0.008,""")
+    assert sparsify[0].endswith("| 4 | quadratic | 150 (13,700) | 5 (140) | 2 (8) | 0.06 (0.8) | 19, 0.24 | 0.050")
+    assert sparsify[1].startswith(" | 4 | poisson | 110 (4,700) |")
 
 
 if __name__ == "__main__":

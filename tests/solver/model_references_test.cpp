@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Methods against the optima of models of real size that were found by other means
 // (tests/data/references/README.md, "Models").
-#include <fstream>
-#include <limits>
-#include <map>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,87 +10,14 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "support/model_cages.h"
+#include "support/model_optimum.h"
 
 namespace flbc::testing {
 namespace {
 
-// One of the two problems, without and with w >= 0.
-struct Optimum {
-  double objective = 0, gap = 0;
-  std::vector<Eigen::VectorXd> weights;  // n, per sample
-};
-
 template <int Dim>
-struct Reference {
-  Index control_points, vertices, cells;
-  std::vector<Index> samples;  // vertices
-  std::vector<Vector<Dim>> positions;
-  std::map<std::string, Optimum> optima;
-};
-
-double mean_squared_difference(const std::vector<Eigen::VectorXd>& a,
-                               const std::vector<Eigen::VectorXd>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]).squaredNorm();
-  return sum / static_cast<double>(a.size() * static_cast<std::size_t>(a[0].size()));
-}
-
-template <int Dim>
-Optimum read_optimum(std::ifstream& file, const Reference<Dim>& reference) {
-  Optimum optimum;
-  std::string key;
-  file >> optimum.objective >> key >> optimum.gap;
-  for (const Index sample : reference.samples) {
-    int entries = 0;
-    Index vertex = 0, control_point = 0;
-    file >> vertex >> entries;
-    if (vertex != sample) throw std::runtime_error("samples in another order");
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(reference.control_points);
-    for (int k = 0; k < entries; ++k) {
-      file >> control_point;
-      file >> weights[control_point];
-    }
-    optimum.weights.push_back(weights);
-  }
-  if (!file) throw std::runtime_error("an optimum breaks off");
-  return optimum;
-}
-
-template <int Dim>
-Reference<Dim> read_reference(const std::string& name) {
-  std::ifstream file(std::string(FLBC_TEST_DATA_DIR) + "/references/models/" + name + ".txt");
-  file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-  std::string key, model;
-  int dimension = 0, count = 0;
-  Reference<Dim> reference;
-  file >> key >> model >> key >> dimension >> key >> reference.control_points >> key >>
-      reference.vertices >> key >> reference.cells >> key >> count;
-  reference.samples.resize(count);
-  reference.positions.resize(count);
-  for (int k = 0; k < count; ++k) {
-    file >> reference.samples[k];
-    for (int axis = 0; axis < Dim; ++axis) file >> reference.positions[k][axis];
-  }
-  if (!file || dimension != Dim || model != name) throw std::runtime_error(name + " is damaged");
-  while (file >> key) {
-    const auto variant = key.substr(0, key.rfind('_'));  // key: VARIANT_objective
-    reference.optima[variant] = read_optimum(file, reference);
-  }
-  return reference;
-}
-
-// The phi of the references, of Euclidean distances.
-template <int Dim>
-Eigen::MatrixXd euclidean_phi(const PointList<Dim>& control_points, const DomainMesh<Dim>& mesh) {
-  Eigen::MatrixXd distances(control_points.cols(), mesh.num_vertices());
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    distances.col(v) = (control_points.colwise() - mesh.points.col(v)).colwise().norm();
-  }
-  Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(distances.rows(), mesh.num_cells());
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int k = 0; k <= Dim; ++k) phi.col(s) += distances.col(mesh.cells(k, s)) / (Dim + 1);
-  }
-  return (phi / distances.maxCoeff()).array().square();
+ModelReference<Dim> read_reference(const std::string& name) {
+  return read_model_reference<Dim>(FLBC_TEST_DATA_DIR, name);
 }
 
 DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
@@ -118,12 +43,10 @@ struct Expected {
 
 // Without the constraint weights are compared with the optimum without it, else with the other one.
 template <int Dim>
-void expect_optimum(const LbcProblem<Dim>& problem, const Reference<Dim>& reference,
+void expect_optimum(const LbcProblem<Dim>& problem, const ModelReference<Dim>& reference,
                     const Expected& expected) {
   const bool off = expected.non_negative == NonNegative::kOff;
-  const auto& without = reference.optima.at("unconstrained");
-  const auto with = reference.optima.find("non_negative");
-  const auto& optimum = off || with == reference.optima.end() ? without : with->second;
+  const auto& optimum = off ? reference.without() : reference.with();
   SCOPED_TRACE(std::string(expected.what) + (off ? ", without w >= 0" : ", with w >= 0"));
   SolverOptions options;
   options.method = expected.method;
@@ -138,11 +61,8 @@ void expect_optimum(const LbcProblem<Dim>& problem, const Reference<Dim>& refere
   EXPECT_LT(report.objective, optimum.objective * (1 + expected.objective));
   EXPECT_GT(report.objective, optimum.objective * (1 - optimum.gap));
   // The bound is one of non-negative weights.
-  const auto& bounded = with == reference.optima.end() ? without : with->second;
-  EXPECT_LT(report.certificate.lower_bound, bounded.objective);
-  std::vector<Eigen::VectorXd> samples;
-  for (const Index v : reference.samples) samples.emplace_back(weights.col(v));
-  EXPECT_LT(mean_squared_difference(samples, optimum.weights), expected.squared);
+  EXPECT_LT(report.certificate.lower_bound, reference.with().objective);
+  EXPECT_LT(mean_squared_difference(reference.sampled(weights), optimum.weights), expected.squared);
 }
 
 template <int Dim>
@@ -152,12 +72,7 @@ void expect_optima(const std::string& name, const std::string& file, Index verti
   const auto reference = read_reference<Dim>(name);
   const auto cage = load_cage<Dim>(file);
   const auto mesh = mesh_of(cage, vertices);
-  ASSERT_EQ(mesh.num_vertices(), reference.vertices) << "another mesh than the reference's";
-  ASSERT_EQ(mesh.num_cells(), reference.cells) << "another mesh than the reference's";
-  for (std::size_t k = 0; k < reference.samples.size(); ++k) {
-    ASSERT_LT((mesh.points.col(reference.samples[k]) - reference.positions[k]).norm(), 1e-6)
-        << "another mesh than the reference's";
-  }
+  ASSERT_TRUE(reference.belongs_to(mesh)) << "another mesh than the reference's";
   auto problem = make_problem(cage, mesh, DistanceScheme::kConstant);
   problem.phi = euclidean_phi(cage.points, mesh);
   for (const auto& expected : all) expect_optimum(problem, reference, expected);
@@ -198,8 +113,8 @@ TEST(ModelReferences, EveryMethodFindsTheOptimaOfClothing) {
 // The constraint is active, so that a method that forgets it misses the optimum by far.
 TEST(ModelReferences, TheOptimaOfClothingDiffer) {
   const auto reference = read_reference<3>("clothing");
-  const auto& without = reference.optima.at("unconstrained");
-  const auto& with = reference.optima.at("non_negative");
+  const auto& without = reference.without();
+  const auto& with = reference.with();
   EXPECT_GT(mean_squared_difference(without.weights, with.weights), 1e-7);
   double least = 0;
   for (const auto& row : without.weights) least = std::min(least, row.minCoeff());

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of docs/results.md on what a user gets, beyond the paper: header and body, as in doc_tables.py."""
+
+import results
+import tables
+from cells import brief, formatted
+
+
+def models(rows):
+    header = ["model", "n", "V", "cells", "iterations", "mesh, s", "set-up, s", "solve, s",
+              "harmonic, s", "MiB", "influences", "harmonic's", "smallest weight",
+              "error of reproduction"]
+    body = []
+    for row in rows:
+        body.append([row["model"], row["control_points"], results.thousands(row["vertices"]),
+                     results.thousands(row["cells"]), tables.iterations(row)] +
+                    formatted(row, [("mesh_seconds", ".2f"), ("setup_seconds", ".2f"),
+                                    ("solve_seconds", ".2f"), ("harmonic_seconds", ".2f"),
+                                    ("mebibytes", ",.0f"), ("mean_influences", ".1f"),
+                                    ("harmonic_influences", ".1f"), ("min_weight", ".1e"),
+                                    ("reproduction_error", ".1e")]))
+    return header, body
+
+
+def tolerance(rows):
+    """Iterations, in brackets the true error relative to the promise; a line per mesh."""
+    wanted = results.in_order(row["tolerance"] for row in rows)
+    header = ["model", "V"] + [f"{float(t):.0e}".replace("e-0", "e-") for t in wanted]
+    body = []
+    for model, vertices in results.in_order((r["model"], r["vertices"]) for r in rows):
+        runs = {r["tolerance"]: r for r in rows if (r["model"], r["vertices"]) == (model, vertices)}
+        cells = [f"{tables.iterations(runs[t])} ({results.value(runs[t], 'error'):.2f})"
+                 if t in runs else "-" for t in wanted]
+        body.append([model, results.thousands(vertices)] + cells)
+    worst = {t: max(results.value(r, "error") for r in rows if r["tolerance"] == t) for t in wanted}
+    return header, body + [["worst", ""] + [f"({worst[t]:.2f})" for t in wanted]]
+
+
+def editing(rows):
+    """A line per move, models side by side."""
+    models_shown = results.in_order((row["model"], row["vertices"]) for row in rows)
+    header = ["move"]
+    for model, vertices in models_shown:
+        header += [f"{model}, {results.thousands(vertices)} V: iterations", "s", "error"]
+    body = []
+    for move in results.in_order(row["move"] for row in rows):
+        line = [move]
+        for model, _ in models_shown:
+            row = next(r for r in rows if (r["model"], r["move"]) == (model, move))
+            if not row["iterations"]:
+                line += ["a cell would turn over", "", ""]
+                continue
+            seconds = formatted(row, [("seconds", ".3f"), ("cold_seconds", ".3f")])
+            if row["longest_seconds"]:
+                seconds[0] += f" (at most {results.value(row, 'longest_seconds'):.3f})"
+            line += [f"{brief(row['iterations'])} / {row['cold_iterations']}", " / ".join(seconds),
+                     " / ".join(formatted(row, [("error", ".1e"), ("cold_error", ".1e")]))]
+        body.append(line)
+    return header, body
+
+
+def cages(rows):
+    header = ["model", "vertices", "control points", "outside, crossing", "distance",
+              "symmetric across", "s", "`flbc check`", "iterations of the solve", "smallest weight",
+              "error of reproduction"]
+    body = []
+    for row in rows:
+        solved = (tables.iterations(row) if row["solve"] == "converged" else row["solve"])
+        body.append([row["model"] + (", 2D" if row["dim"] == "2" else ""),
+                     results.thousands(row["vertices"]), row["control_points"],
+                     f"{row['outside']}, {row['crossings']}"] +
+                    formatted(row, [("distance", ".1%")]) + [row["symmetric_across"]] +
+                    formatted(row, [("processor_seconds", ".2f")]) + [row["check"], solved] +
+                    formatted(row, [("min_weight", ".1e"), ("reproduction_error", ".1e")]))
+    return header, body
+
+
+def repairs(rows):
+    header = ["cage", "first defect", "repair", "control points after", "solve"]
+    body = []
+    for row in rows:
+        solve = row["solve"]
+        if row["iterations"]:
+            solve += f" after {tables.iterations(row)} iterations"
+        body.append([row["cage"], row["defect"] or "none", row["repair"] or "none",
+                     row["control_points"], solve])
+    return header, body
+
+
+def sparsify(rows):
+    """Errors in percent, rms (largest); a line per number of influences and method."""
+    header = ["weights", "K", "method", "edges, independent", "edges, smooth",
+              "positions, independent", "positions, smooth", "edges, positions, animation", "s"]
+    body = []
+    last = None
+    for row in rows:
+        title = (f"{row['weights']}, {results.thousands(row['points'])} points, "
+                 f"n = {row['control_points']}, {results.value(row, 'influences_before'):.0f} before")
+        cells = [percent(row, column) + f" ({percent(row, column + '_max')})" for column in
+                 ("edges_independent", "edges_smooth", "positions_independent", "positions_smooth")]
+        animated = ""
+        if row.get("edges_animation"):
+            animated = f"{percent(row, 'edges_animation')}, {percent(row, 'positions_animation')}"
+        body.append([title if title != last else "", row["k"], row["method"]] + cells + [animated] +
+                    formatted(row, [("seconds", ".3f")]))
+        last = title
+    return header, body
+
+
+def optima(rows):
+    header = ["model", "V", "method", "`w >= 0`", "iterations", "objective above",
+              "mean squared (largest) difference", "bound below"]
+    body = []
+    for row in rows:
+        squared, largest = formatted(row, [("squared_difference", ".1e"),
+                                           ("largest_difference", ".1e")])
+        above, below = formatted(row, [("objective_above", ".1e"), ("bound_below", ".1e")])
+        body.append([row["model"], results.thousands(row["vertices"]), row["method"],
+                     row["non_negative"], tables.iterations(row), above, f"{squared} ({largest})",
+                     below])
+    return header, body
+
+
+def percent(row, column):
+    number = 100 * results.value(row, column)
+    return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
+
+
+TABLES = {"models": models, "tolerance": tolerance, "editing": editing, "cages": cages,
+          "repairs": repairs, "sparsify": sparsify, "optima": optima}
