@@ -45,6 +45,7 @@ KeptRun<Dim> read_run(const std::string& path, const std::string& lines) {
   read(solved.domain.points, solved.domain.cells, solved.mesh_seconds, solved.mesher, run.history,
        run.iteration);
   run.state = read.rest();
+  normalize_and_validate(solved.domain);
   return run;
 }
 

@@ -98,6 +98,14 @@ void visit_solved(Archive& archive, Solved& solved) {
   visit_report(archive, solved.solution.report);
 }
 
+// The rest was true of the mesh when it was solved.
+template <int Dim>
+void require_in_range(const DomainMesh<Dim>& mesh) {
+  const bool holds = mesh.points.allFinite() && (mesh.cells.array() >= 0).all() &&
+                     (mesh.cells.array() < mesh.num_vertices()).all();
+  if (!holds) throw InputError("its mesh is damaged");
+}
+
 template <int Dim>
 SolvedDomain<Dim> read_entry(const std::string& path, const std::string& key) {
   const auto content = io::read_file(path);
@@ -111,6 +119,7 @@ SolvedDomain<Dim> read_entry(const std::string& path, const std::string& key) {
   if (!reader.is_at_end() || solved.solution.weights.num_points() != solved.domain.num_vertices()) {
     throw InputError("a size in it is impossible");
   }
+  require_in_range(solved.domain);
   return solved;
 }
 

@@ -11,12 +11,9 @@ namespace {
 
 template <int Dim>
 void require_mesh(const DomainMesh<Dim>& mesh) {
-  require(mesh.points.allFinite(), "points are finite");
+  require_indices_in_range(mesh);
   require(mesh.num_cells() > 0, "there are cells");
   for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (const Index vertex : mesh.cells.col(s)) {
-      require(vertex >= 0 && vertex < mesh.num_vertices(), "vertices are in range");
-    }
     require(signed_measure(mesh, s) > 0, "cells are positively oriented");
   }
 }

@@ -114,13 +114,7 @@ std::string with_hash(std::string content) {
 
 void read_tet_mesh(const std::string& path) {
   const auto mesh = openmesh::load_tet_mesh(path);
-  const auto domain = mesh.domain();
-  require(domain.points.allFinite(), "points are finite");
-  for (const auto& cell : domain.cells.colwise()) {
-    for (const Index vertex : cell) {
-      require(vertex >= 0 && vertex < domain.num_vertices(), "vertices are in range");
-    }
-  }
+  require_indices_in_range(mesh.domain());
 }
 
 template <class Handle>

@@ -65,6 +65,7 @@ void read_kept(const std::string& path) {
   if (!answer.solved) throw InputError(answer.complaint);
   require(answer.solved->solution.weights.num_points() == answer.solved->domain.num_vertices(),
           "weights are of the vertices");
+  require_indices_in_range(answer.solved->domain);
 }
 
 template <int Dim>

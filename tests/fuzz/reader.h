@@ -22,6 +22,17 @@ inline void require(bool holds, const char* promise) {
   if (!holds) throw BrokenPromise(promise);
 }
 
+//! \throws BrokenPromise if a point of a mesh is not finite, or a vertex of a cell is none of it
+template <class Mesh>
+void require_indices_in_range(const Mesh& mesh) {
+  require(mesh.points.allFinite(), "points are finite");
+  for (const auto& cell : mesh.cells.colwise()) {
+    for (const auto vertex : cell) {
+      require(vertex >= 0 && vertex < mesh.num_vertices(), "vertices are in range");
+    }
+  }
+}
+
 //! A reader of files.
 struct Reader {
   std::string name;  //!< for people
@@ -42,6 +53,7 @@ std::vector<Reader> model_readers();
 std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
 std::vector<Reader> program_readers();
+std::vector<Reader> checkpoint_readers();
 std::vector<Reader> openmesh_readers();
 
 //! All of them.
