@@ -109,6 +109,15 @@ TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
   EXPECT_EQ(outline.facets.cols(), 4);
 }
 
+// What is wrong with it is then said of surfaces, and not of edges that it does not have.
+TEST(CageIo, ClosedSurfaceThatLiesFlatIsASurface) {
+  auto flat = square();
+  flat.polygons = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+  const auto cage = std::get<Cage<3>>(to_cage(flat, "flat.obj"));
+  EXPECT_EQ(cage.facets.cols(), 4);
+  EXPECT_NE(find_defects(cage).front().message.find("in one plane"), std::string::npos);
+}
+
 TEST(CageIo, RefusesWhatIsNoCage) {
   const auto refused = [](const PolygonSoup& soup, const std::string& words) {
     try {

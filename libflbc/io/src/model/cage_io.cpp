@@ -88,7 +88,13 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
 
 AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
   if (soup.points.empty()) throw InputError(name + ": has no vertices");
-  const bool is_surface = !soup.polygons.empty() && !is_flat(soup);
+  // A closed surface that lies flat bounds nothing in its plane: it is a surface without volume.
+  FacetList<2> outline(2, 0);
+  if (is_flat(soup)) {
+    outline =
+        soup.polylines.empty() ? boundary_edges(soup.polygons) : edges_of_polylines(soup.polylines);
+  }
+  const bool is_surface = !soup.polygons.empty() && outline.cols() == 0;
   if (is_surface && !soup.polylines.empty()) {
     throw InputError(name +
                      ": has both polygons and polylines; a cage is either a surface (3D) or " +
@@ -97,12 +103,8 @@ AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
   if (is_surface) {
     return Cage<3>{to_points<3>(soup, name), triangles_of_polygons(soup)};
   }
-  Cage<2> cage{to_points<2>(soup, name), {}};
-  if (!soup.polylines.empty()) {
-    cage.facets = edges_of_polylines(soup.polylines);
-  } else if (!soup.polygons.empty()) {
-    cage.facets = boundary_edges(soup.polygons);
-  } else {
+  Cage<2> cage{to_points<2>(soup, name), outline};
+  if (soup.polylines.empty() && soup.polygons.empty()) {
     Polygon loop(soup.points.size());
     for (std::size_t v = 0; v < loop.size(); ++v) loop[v] = static_cast<Index>(v);
     cage.facets = closed_loop(loop);
