@@ -29,7 +29,7 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   PointList<Dim> embedded;
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
   const auto made = [&] {
-    const ProgressBar bar(arguments.quiet, meshing_stage(Dim, arguments.meshing.timeout));
+    const ProgressBar bar(arguments.quiet, meshing_stage(arguments.meshing.timeout));
     return make_domain<Dim>({cage, arguments.cage, arguments.vertices, arguments.meshing,
                              arguments.model, embedded});
   }();

@@ -44,7 +44,7 @@ class InterruptsNoticed {
 
 template <int Dim>
 DomainMesh<Dim> mesh_interior(const Cage<Dim>& cage, const ServeArguments& arguments) {
-  const ProgressBar bar(arguments.quiet, meshing_stage(Dim, MesherSettings().timeout));
+  const ProgressBar bar(arguments.quiet, meshing_stage(MesherSettings().timeout));
   constexpr Index kQuick = 2000;  // vertices that are solved again within a moment
   const Index vertices = arguments.vertices > 0 ? arguments.vertices : kQuick;
   return make_domain<Dim>({cage, arguments.cage, vertices}).mesh;

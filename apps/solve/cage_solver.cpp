@@ -174,7 +174,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   if (!is_cached_ && !find_checkpoint(quiet)) {
     std::string note;
     if (!has_domain) {
-      const ProgressBar bar(quiet, meshing_stage(Dim, settings_.meshing.timeout));
+      const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
       auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
                                          settings_.meshing, settings_.embed ? settings_.model : "",
                                          embedded_.points});

@@ -16,8 +16,7 @@ void write_to_terminal(const std::string& text) {
 
 }  // namespace
 
-std::string meshing_stage(int dim, double limit) {
-  if (dim == 2) return "meshing the cage";
+std::string meshing_stage(double limit) {
   std::ostringstream text;
   text << "meshing the cage (at most " << limit << " s a run)";
   return text.str();

@@ -16,8 +16,8 @@
 namespace flbc::app {
 
 //! The stage of meshing, which tells no more than how long it may take.
-//! \param limit  seconds of a run of TetGen, which meshes in 3D
-std::string meshing_stage(int dim, double limit);
+//! \param limit  seconds of a run of the mesher
+std::string meshing_stage(double limit);
 
 //! Draws only if standard error is a terminal and `quiet` is false, and only what takes longer than
 //! a second; removes its line when destroyed. A thread of its own keeps the line alive where

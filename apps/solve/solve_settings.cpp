@@ -45,7 +45,7 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings) {
       ->type_name("auto|cgal|tetgen|netgen");
   command
       .add_option("--mesh-timeout", settings.timeout,
-                  "seconds after which a run of the mesher in 3D is stopped (60)")
+                  "seconds after which a run of the mesher is stopped (60)")
       ->check(CLI::PositiveNumber);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -162,6 +163,18 @@ TEST(TriangulateTest, OptionsOutOfRange) {
   EXPECT_EQ(triangulate(cage, vertices(minimum)).num_vertices(), minimum);
   EXPECT_THROW(triangulate(cage, vertices(-1)), OptionError);
   EXPECT_THROW(triangulate(cage, vertices(2000000000)), OptionError);
+}
+
+// Walls of a square ring that only millions of triangles of good shape would fill.
+TEST(TriangulateTest, StopsAtTheTimeLimit) {
+  const Cage<2> ring = join(box_cage<2>(1), box_cage<2>(1 - 1e-7));
+  MeshingOptions<2> options;
+  options.time_limit = 0.2;
+  const auto start = std::chrono::steady_clock::now();
+  const auto text = message_of<InputError>([&] { triangulate(ring, options); });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_NE(text.find("time limit of 0.2 s (--mesh-timeout)"), std::string::npos) << text;
+  EXPECT_LT(seconds.count(), 5);
 }
 
 TEST(TriangulateTest, RunsAgreeBitByBit) {

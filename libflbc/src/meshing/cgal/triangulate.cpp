@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <string>
@@ -15,6 +16,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "base/messages.h"
 #include "flbc/errors.h"
 #include "flbc/self_intersections.h"
 #include "meshing/meshing_common.h"
@@ -122,18 +124,27 @@ DomainMesh<2> extract_mesh(Triangulation& triangulation, const PointList<2>& inp
                    " vertices: somewhere it is extremely thin, or points come extremely close");
 }
 
+[[noreturn]] void refuse_time(double limit) {
+  throw InputError(
+      "CGAL was stopped at the time limit of " + format_number(limit) +
+      " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage "
+      "for places that are extremely thin");
+}
+
 // \param longest_edge  bound of the edges' lengths; 0 = none
-// \param wanted  number of vertices wanted
 DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, double longest_edge,
-                            Index wanted) {
+                            const MeshingOptions<2>& options) {
+  const auto start = std::chrono::steady_clock::now();
   Triangulation triangulation = triangulate_input(cage, input);
   mark_domain(triangulation);
   Mesher mesher(triangulation, Criteria(kShapeBound, longest_edge));
   mesher.init(true);  // the domain is marked already
   // In steps, because the mesher knows no limit of its own.
-  const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(wanted));
+  const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(options.vertices));
   while (mesher.try_one_step_refine_mesh()) {
     if (triangulation.number_of_vertices() > limit) refuse_size(limit);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    if (seconds.count() > options.time_limit) refuse_time(options.time_limit);
   }
   return extract_mesh(triangulation, input);
 }
@@ -150,7 +161,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   refuse_self_intersections(cage);
   const PointList<2> input = collect_input_points(cage, options);
 
-  DomainMesh<2> mesh = mesh_interior(cage, input, 0, options.vertices);
+  DomainMesh<2> mesh = mesh_interior(cage, input, 0, options);
   if (!options.roughly) {
     check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
   }
@@ -161,7 +172,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
     goal.vertices = options.vertices;
     if (options.roughly) goal.max_runs = 1;
     mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, [&](double longest_edge) {
-      return mesh_interior(cage, input, longest_edge, options.vertices);
+      return mesh_interior(cage, input, longest_edge, options);
     });
   }
   finish_mesh(mesh, static_cast<Index>(input.cols()));
