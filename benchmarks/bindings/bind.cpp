@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost of binding and moving an OpenMesh model instead of plain arrays:
+// Cost of binding and moving an OpenMesh model instead of plain arrays, as comma-separated values:
 //
 //   flbc_bench_bind CAGE MODEL [PAIRS] [--frames]
 //
 // Alternates bind() with the steps that flbc run takes for the same (mesh, solve, evaluate,
-// reduce), and deform() by the property with deform() of SparseWeights on arrays, and prints the
-// ratio of each pair's seconds and their median; with --frames the latter only. Then as many threads
-// as there are cores spin while deform() is timed again. A 3D cage and model, as .obj.
-// flbc_bench_bind_debug is the same without optimisation, linked to the same library: what a user's
-// debug build sees.
+// reduce) or, with --frames, deform() by the property with deform() of SparseWeights on arrays, and
+// prints seconds or milliseconds of the last pair and the median of the pairs' ratios. With
+// --frames as many threads as there are cores spin at the end while deform() is timed again. A 3D
+// cage and model, as .obj. flbc_bench_bind_debug is the same without optimisation, linked to the
+// same library: what a user's debug build sees.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -85,8 +85,8 @@ void compare_binding(const Cage<3>& cage, Model& model, int pairs) {
   const auto points = openmesh::points_of<3>(model);
   const auto polygons = openmesh::polygons_of(model);
   std::vector<double> ratios;
+  double steps = 0, bound = 0;
   for (int pair = 0; pair < pairs; ++pair) {
-    double steps = 0, bound = 0;
     // Whichever comes second finds warmer caches and memory: take turns.
     for (int turn = 0; turn < 2; ++turn) {
       if ((pair + turn) % 2 == 0) {
@@ -97,23 +97,21 @@ void compare_binding(const Cage<3>& cage, Model& model, int pairs) {
       }
     }
     ratios.push_back(bound / steps);
-    std::printf("bind: steps %.3f s, bind %.3f s, ratio %.3f\n", steps, bound, ratios.back());
   }
-  std::printf("bind: median ratio %.3f\n", median(ratios));
+  std::printf("vertices,steps_seconds,bind_seconds,ratio\n%zu,%.4g,%.4g,%.4g\n", model.n_vertices(),
+              steps, bound, median(ratios));
 }
 
 // Milliseconds of a frame. The median is that of a frame which no other program interrupts.
 struct Frames {
-  double mean, median, longest;
+  double mean, median;
 };
 
 Frames time_frames(const std::function<void()>& frame) {
   constexpr int kFrames = 200;
   std::vector<double> times(kFrames);
   for (double& time : times) time = 1e3 * seconds_of(frame);
-  const double mean = std::accumulate(times.begin(), times.end(), 0.0) / kFrames;
-  const double longest = *std::max_element(times.begin(), times.end());
-  return {mean, median(times), longest};
+  return {std::accumulate(times.begin(), times.end(), 0.0) / kFrames, median(times)};
 }
 
 // Keeps cores busy while it lives.
@@ -139,8 +137,18 @@ class Spinners {
   std::vector<std::thread> threads_;
 };
 
+// The mean frame while as many threads as there are cores spin, relative to the quiet one.
 template <class AnyModel>
-void compare_frames(const char* kind, const SparseWeights& weights, AnyModel& model,
+double busy_over_quiet(AnyModel& model, const PointList<3>& pose) {
+  const auto measure = [&] { return time_frames([&] { openmesh::deform(model, pose); }).mean; };
+  const double quiet = measure();
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const Spinners spinners(cores);
+  return measure() / quiet;
+}
+
+template <class AnyModel>
+void compare_frames(const char* points_of, const SparseWeights& weights, AnyModel& model,
                     const PointList<3>& pose, int pairs) {
   std::vector<double> ratios;
   Frames arrays{}, property{};
@@ -155,25 +163,8 @@ void compare_frames(const char* kind, const SparseWeights& weights, AnyModel& mo
     }
     ratios.push_back(property.median / arrays.median);
   }
-  std::printf("deform, %s: %zu vertices, arrays %.4f ms, property %.4f ms, median ratio %.3f\n",
-              kind, model.n_vertices(), arrays.median, property.median, median(ratios));
-}
-
-template <class AnyModel>
-void compare_busy(const char* kind, AnyModel& model, const PointList<3>& pose) {
-  const auto measure = [&] { return time_frames([&] { openmesh::deform(model, pose); }); };
-  const Frames quiet = measure();
-  Frames busy{};
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  {
-    const Spinners spinners(cores);
-    busy = measure();
-  }
-  std::printf(
-      "deform, %s, %d threads spinning: mean %.4f ms instead of %.4f ms, ratio %.2f; median "
-      "%.4f ms, ratio %.2f; longest %.1f ms instead of %.1f ms\n",
-      kind, cores, busy.mean, quiet.mean, busy.mean / quiet.mean, busy.median,
-      busy.median / quiet.median, busy.longest, quiet.longest);
+  std::printf("%zu,%s,%.4g,%.4g,%.4g,%.4g\n", model.n_vertices(), points_of, arrays.median,
+              property.median, median(ratios), busy_over_quiet(model, pose));
 }
 
 // The same vertices with points of floats, without faces: moving needs none.
@@ -190,18 +181,17 @@ void measure_frames(const Cage<3>& cage, Model& model, int pairs) {
   const SparseWeights weights(openmesh::get_weights(model));
   const PointList<3> pose = 1.5 * cage.points;
   auto single = in_single_precision(model);
-  compare_frames("points of doubles", weights, model, pose, pairs);
-  compare_frames("points of floats", weights, single, pose, pairs);
-  compare_busy("points of doubles", model, pose);
-  compare_busy("points of floats", single, pose);
+  std::printf("vertices,points_of,arrays_ms,property_ms,ratio,busy_over_quiet\n");
+  compare_frames("doubles", weights, model, pose, pairs);
+  compare_frames("floats", weights, single, pose, pairs);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    const bool frames_only = argc > 1 && std::string(argv[argc - 1]) == "--frames";
-    if (frames_only) --argc;
+    const bool frames = argc > 1 && std::string(argv[argc - 1]) == "--frames";
+    if (frames) --argc;
     if (argc < 3) {
       std::fprintf(stderr, "usage: flbc_bench_bind CAGE.obj MODEL.obj [PAIRS] [--frames]\n");
       return 1;
@@ -210,10 +200,11 @@ int main(int argc, char** argv) {
     const auto cage = std::get<Cage<3>>(io::to_cage(io::read_polygons(argv[1]), argv[1]));
     auto model = load_model(argv[2]);
     openmesh::bind(model, cage);
-    measure_frames(cage, model, pairs);
-    if (frames_only) return 0;
-    openmesh::restore_rest(model);
-    compare_binding(cage, model, pairs);
+    if (frames) {
+      measure_frames(cage, model, pairs);
+    } else {
+      compare_binding(cage, model, pairs);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

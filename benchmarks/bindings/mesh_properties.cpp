@@ -4,8 +4,9 @@
 //   flbc_bench_properties [PAIRS]
 //
 // On a generated domain in 2D (a triangle mesh of OpenMesh's) and in 3D (a TetMesh), alternates
-// fixed numbers of iterations on both and prints the ratio of each pair's seconds in the iteration,
-// and their median. No files, no options that could differ.
+// fixed numbers of iterations on both and prints, as comma-separated values, the seconds in the
+// iteration of the last pair and the median of the pairs' ratios. No files, no options that could
+// differ.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -103,9 +104,8 @@ void compare(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Method method
   properties.restart = true;
   auto mesh = to_mesh(domain);
   std::vector<double> ratios;
+  double arrays = 0, on_mesh = 0;
   for (int pair = 0; pair < pairs; ++pair) {
-    double arrays = 0;
-    double on_mesh = 0;
     // Whichever comes second finds warmer caches and memory: take turns.
     for (int turn = 0; turn < 2; ++turn) {
       if ((pair + turn) % 2 == 0) {
@@ -115,19 +115,19 @@ void compare(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Method method
       }
     }
     ratios.push_back(on_mesh / arrays);
-    std::printf("%dD %-8s %d vertices: arrays %.4f s, properties %.4f s, ratio %.3f\n", Dim,
-                method == Method::kValue ? "value" : "gradient", domain.num_vertices(), arrays,
-                on_mesh, ratios.back());
   }
   std::sort(ratios.begin(), ratios.end());
-  std::printf("median ratio %.3f\n", ratios[ratios.size() / 2]);
+  std::printf("%s,%s,%d,%d,%.4g,%.4g,%.4g\n", Dim == 2 ? "TriMesh" : "TetMesh",
+              method == Method::kValue ? "value" : "gradient", domain.num_vertices(), iterations,
+              arrays, on_mesh, ratios[ratios.size() / 2]);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    const int pairs = argc > 1 ? std::atoi(argv[1]) : 9;
+    const int pairs = argc > 1 ? std::max(1, std::atoi(argv[1])) : 9;
+    std::printf("mesh,method,vertices,iterations,arrays_seconds,properties_seconds,ratio\n");
     const auto cage2 = make_cage_2d(13);
     const auto domain2 = triangulate(cage2, {10000});
     compare(cage2, domain2, Method::kValue, 200, pairs);

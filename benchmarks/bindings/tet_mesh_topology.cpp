@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times how long it takes to find the edges, faces and neighbours of a tetrahedral mesh: cubes of a
-// grid cut into six tetrahedra, about 0.1, 0.3 and 1 million. Best of the repetitions.
+// grid cut into six tetrahedra, about 0.1, 0.3 and 1 million. Prints the best of the repetitions as
+// comma-separated values.
 //
-//   flbc_bench_tet_mesh_topology [REPETITIONS]
+//   flbc_bench_tet_mesh [REPETITIONS]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -69,17 +70,15 @@ openmesh::TetMesh build(const DomainMesh<3>& mesh) {
 void run(Index side, int repetitions) {
   const auto mesh = cut_grid(side);
   const auto tets = build(mesh);
-  std::printf("%8d cells, %8zu faces, %8zu edges:", mesh.num_cells(), tets.n_faces(),
-              tets.n_edges());
-  std::printf(" TetMesh %.3f s,", best_seconds(repetitions, [&] { build(mesh); }));
-  std::printf(" with checks %.3f s,",
-              best_seconds(repetitions, [&] { openmesh::TetMesh::from(mesh); }));
-  std::printf(" build_topology %.3f s,", best_seconds(repetitions, [&] { build_topology(mesh); }));
-  std::printf(" make_domain %.3f s,",
-              best_seconds(repetitions, [&] { openmesh::make_domain(tets); }));
-  std::printf(" cells round all vertices %.3f s\n", best_seconds(repetitions, [&] {
-                if (count_neighbours(tets) != 4 * tets.n_cells()) std::abort();
-              }));
+  const double built = best_seconds(repetitions, [&] { build(mesh); });
+  const double checked = best_seconds(repetitions, [&] { openmesh::TetMesh::from(mesh); });
+  const double facets = best_seconds(repetitions, [&] { build_topology(mesh); });
+  const double domain = best_seconds(repetitions, [&] { openmesh::make_domain(tets); });
+  const double round = best_seconds(repetitions, [&] {
+    if (count_neighbours(tets) != 4 * tets.n_cells()) std::abort();
+  });
+  std::printf("%d,%zu,%zu,%.4g,%.4g,%.4g,%.4g,%.4g\n", mesh.num_cells(), tets.n_faces(),
+              tets.n_edges(), built, checked, facets, domain, round);
 }
 
 }  // namespace
@@ -87,9 +86,12 @@ void run(Index side, int repetitions) {
 int main(int count, char** words) {
   try {
     const int repetitions = count > 1 ? std::max(1, std::atoi(words[1])) : 5;
+    std::printf(
+        "cells,faces,edges,tet_mesh_seconds,checked_seconds,facets_seconds,domain_seconds,"
+        "neighbours_seconds\n");
     for (const Index side : {26, 37, 55}) run(side, repetitions);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "flbc_bench_tet_mesh_topology: %s\n", error.what());
+    std::fprintf(stderr, "flbc_bench_tet_mesh: %s\n", error.what());
     return 1;
   }
 }

@@ -148,6 +148,8 @@ def many(rows):
     body = []
     for row in rows:
         def run(prefix):
+            if not row[prefix + "iterations"]:
+                return "-"
             parts = formatted(row, [(prefix + "seconds", ".2f"), (prefix + "mebibytes", ",.0f")])
             return ", ".join([results.thousands(row[prefix + "iterations"])] + parts)
         body.append([row["cage"], row["control_points"], results.thousands(row["vertices"]),

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables in docs/results.md equal to stored results.
+"""Keeps the tables in docs/results.md, and numbers in README.md and docs (claims.py), equal to stored results.
 
     docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables
-    docs.py --check       fails if a table differs from the stored results it is made of
+    docs.py --check       fails if a table or a number differs from the stored results it is made of
 
 A table stands in docs/results.md between <!-- results: NAME --> and <!-- end of results -->, its results
 in docs/results/NAME.csv as flbc_bench_paper wrote them. Its last line names the commit that made it.
@@ -14,6 +14,7 @@ import re
 import shutil
 import sys
 
+import claims
 import doc_tables
 import results
 
@@ -51,6 +52,7 @@ def check():
             print(f"{match[2]}: nothing stored yet, so not checked")
         elif match[3] != written(match[2]):
             problems.append(f"the table {match[2]} differs from docs/results/{match[2]}.csv")
+    problems += claims.check(STORED)
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
@@ -67,6 +69,7 @@ def take_over(out):
             if name in PICTURES and (out / f"{name}.png").exists():
                 shutil.copy(out / f"{name}.png", PAGE.parent / PICTURES[name])
     PAGE.write_text(with_tables(PAGE.read_text()))
+    claims.rewrite(STORED)
     return check()
 
 

@@ -121,10 +121,44 @@ def optima(rows):
     return header, body
 
 
+def openmesh_iterations(rows):
+    header = ["mesh", "method", "vertices", "iterations", "arrays, s", "properties, s", "ratio"]
+    return header, [[row["mesh"], row["method"], results.thousands(row["vertices"]), row["iterations"]] +
+                    formatted(row, [("arrays_seconds", ".3f"), ("properties_seconds", ".3f"),
+                                    ("ratio", ".2f")]) for row in rows]
+
+
+def openmesh_frames(rows):
+    """Points of doubles and of floats side by side."""
+    header = ["model", "vertices", "user's side", "arrays, ms", "property, ms", "ratio",
+              "with points of floats", "cores spinning: mean frame, doubles / floats"]
+    body = []
+    for model, side in results.in_order((row["model"], row["users_side"]) for row in rows):
+        doubles, floats = (next(r for r in rows if (r["model"], r["users_side"], r["points_of"]) ==
+                                (model, side, kind)) for kind in ("doubles", "floats"))
+        busy = [formatted(row, [("busy_over_quiet", ".1f")])[0] for row in (doubles, floats)]
+        body.append([model, results.thousands(doubles["vertices"]), side] +
+                    formatted(doubles, [("arrays_ms", ".3f"), ("property_ms", ".3f"),
+                                        ("ratio", ".2f")]) +
+                    formatted(floats, [("ratio", ".2f")]) + [" / ".join(busy)])
+    return header, body
+
+
+def openmesh_topology(rows):
+    header = ["cells", "faces", "TetMesh (faces, edges, all incidences), s", "with validation",
+              "facets of the solver alone", "from the TetMesh"]
+    return header, [[results.thousands(row["cells"]), results.thousands(row["faces"])] +
+                    formatted(row, [("tet_mesh_seconds", ".3f"), ("checked_seconds", ".3f"),
+                                    ("facets_seconds", ".3f"), ("domain_seconds", ".3f")])
+                    for row in rows]
+
+
 def percent(row, column):
     number = 100 * results.value(row, column)
     return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
 
 
 TABLES = {"models": models, "tolerance": tolerance, "editing": editing, "cages": cages,
-          "repairs": repairs, "sparsify": sparsify, "optima": optima}
+          "repairs": repairs, "sparsify": sparsify, "optima": optima,
+          "openmesh_iterations": openmesh_iterations, "openmesh_frames": openmesh_frames,
+          "openmesh_topology": openmesh_topology}

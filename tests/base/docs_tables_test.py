@@ -10,6 +10,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper"))
+import claims  # noqa: E402
 import doc_tables  # noqa: E402
 import docs  # noqa: E402
 
@@ -32,6 +33,7 @@ def notices_changes():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         docs.STORED, docs.PAGE = folder / "stored", folder / "page.md"
+        docs.claims.CLAIMS = []
         docs.PAGE.write_text(PAGE)
         assert quietly(docs.check) == 0, "nothing is stored, so nothing can differ"
         (folder / "race.csv").write_text(CSV)
@@ -53,6 +55,24 @@ def notices_changes():
             except SystemExit:
                 continue
             raise AssertionError(f"taken over: {unfit}")
+
+
+def notices_numbers_in_sentences():
+    def make(rows):
+        return [claims.number(claims.find(rows, model="logo", method="paper"), "total_seconds", ".2f")]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        said = [("page.md", "it takes {} s on logo", "race", make)]
+        page = folder / "page.md"
+        page.write_text("On a mesh it\ntakes 1.2 s on logo, 2 s else.\n")
+        assert quietly(lambda: claims.check(folder, folder, said)) == [], "nothing is stored yet"
+        (folder / "race.csv").write_text(CSV)
+        assert len(claims.check(folder, folder, said)) == 1, "1.2 for 1.25 went unnoticed"
+        claims.rewrite(folder, folder, said)
+        assert page.read_text() == "On a mesh it\ntakes 1.25 s on logo, 2 s else.\n"
+        assert claims.check(folder, folder, said) == []
+        page.write_text("It takes long.\n")
+        assert len(claims.check(folder, folder, said)) == 1, "a sentence that is gone went unnoticed"
 
 
 def table(name, lines):
@@ -116,6 +136,7 @@ arm,2000,58,31.8,4,poisson,0.2,1.1,47,0.04,0.9,,0.021,0.08,0.0006,0.008,""")
 
 if __name__ == "__main__":
     result = docs.check()
+    notices_numbers_in_sentences()
     notices_changes()
     shows_the_numbers()
     sys.exit(result)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers in sentences of README.md and docs, each as the stored results give it.
+
+A claim is a file, a sentence in which {} stands for a number, the result it comes from, and a function
+that makes the numbers, as text, of the result's rows. Spaces of the sentence may be line ends.
+"""
+
+import pathlib
+import re
+
+import results
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NUMBER = r"([0-9][0-9.,e+-]*[0-9]|[0-9])"
+
+
+def find(rows, **cells):
+    """The first row with these cells. Raises LookupError if there is none."""
+    found = [row for row in rows if all(row[column] == cell for column, cell in cells.items())]
+    if not found:
+        raise LookupError(cells)
+    return found[0]
+
+
+def number(row, column, form):
+    return format(results.value(row, column), form)
+
+
+def horse_by_default(rows):
+    row = find(rows, model="horse")
+    return [row["control_points"], results.thousands(row["vertices"]), number(row, "total_seconds", ".1f")]
+
+
+def made_cages(rows):
+    small, large = (find(rows, control_points=n, tolerance=tolerance)
+                    for n, tolerance in (("250", "1e-07"), ("1000", "1e-05")))
+    return [results.thousands(small["vertices"]), number(small, "seconds", ".1f"),
+            results.thousands(large["vertices"]), number(large, "seconds", ".1f")]
+
+
+def powers_of_many(rows):
+    """From 110 to 1,000 control points at 20,000 vertices, by the two ends."""
+    curve = [find(rows, cage="made", tolerance="1e-06", control_points=n) for n in ("110", "1000")]
+    n = [results.value(row, "control_points") for row in curve]
+    return [f"{results.exponent(n, [results.value(row, column) for row in curve]):.2f}"
+            for column in ("seconds", "mebibytes")]
+
+
+def over_value(rows, method):
+    """The least and the largest time of a method relative to that of value."""
+    times = [results.value(row, "total_seconds") /
+             results.value(find(rows, model=row["model"], method="value"), "total_seconds")
+             for row in rows if row["method"] == method]
+    return [f"{time:.1f}" if time < 9.95 else f"{time:.0f}" for time in (min(times), max(times))]
+
+
+def powers_of_growth(rows):
+    powers = []
+    for column in ("total_seconds", "peak_mebibytes"):
+        both = []
+        for model in results.in_order(row["model"] for row in rows):
+            curve = [row for row in rows if row["model"] == model]
+            both.append(results.exponent([results.value(row, "vertices") for row in curve],
+                                         [results.value(row, column) for row in curve]))
+        powers += [f"{min(both):.2f}", f"{max(both):.2f}"]
+    return powers
+
+
+def million_cells(rows):
+    row = find(rows, model="horse", cells="1015389")
+    return [results.thousands(row["vertices"]), row["control_points"],
+            number(row, "peak_mebibytes", ",.0f")]
+
+
+def smallest_without(rows):
+    return [f"{-results.value(find(rows, model=model), 'min_weight_without'):.1e}"
+            for model in ("shark", "armadillo", "beast")]
+
+
+def over_published(rows):
+    """Errors of method paper relative to those published."""
+    found = [find(rows, model=model, method="paper")
+             for model in ("logo", "woody", "cactus", "horse", "armadillo")]
+    return [f"{results.value(row, 'error') / results.value(row, 'paper_flbc_error'):.2g}" for row in found]
+
+
+def worst_promise(rows):
+    return [f"{max(results.value(row, 'error') for row in rows):.2f}"]
+
+
+CLAIMS = [
+    ("README.md", "A cage of {} control points on a mesh of {} vertices takes {} s on two cores",
+     "models", horse_by_default),
+    ("README.md", "one of 250 on {} vertices {} s, and one of 1,000 on {} vertices, to 1e-5, {} s",
+     "many", made_cages),
+    ("docs/results.md", "From 110 to 1,000 control points time on supports grows as n^{} and memory as n^{}",
+     "many", powers_of_many),
+    ("docs/results.md", "the splitting of 2014 takes {} to {} times as long as `value`", "race",
+     lambda rows: over_value(rows, "lbc2014-tuned")),
+    ("docs/results.md", "`gradient` takes {} to {} times", "race",
+     lambda rows: over_value(rows, "gradient")),
+    ("docs/results.md", "`paper` {} to {} times as long as `value`", "race",
+     lambda rows: over_value(rows, "paper")),
+    ("docs/results.md", "Time grows as V^{} to V^{} and memory as V^{} to V^{}", "growth",
+     powers_of_growth),
+    ("docs/results.md", "a million tetrahedra ({} vertices) with {} control points take {} MiB", "growth",
+     million_cells),
+    ("docs/results.md", "shark's, armadillo's and beast's optima without it are negative by {}, {} and {}",
+     "table1", smallest_without),
+    ("docs/results.md", "on logo it stops with {} times the published error, on woody with {} times, on "
+     "cactus with {} times, on horse and armadillo with {} and {} of it", "table2", over_published),
+    ("docs/results.md", "so the worst, {}, is a fitted figure", "tolerance", worst_promise),
+]
+
+
+def pattern_of(sentence):
+    parts = [r"\s+".join(re.escape(word) for word in part.split(" ")) for part in sentence.split("{}")]
+    return re.compile(NUMBER.join(parts))
+
+
+def check(stored, root=None, claims=None):
+    """Sentences that are absent or whose numbers differ from the stored results, as messages."""
+    problems = []
+    for file, sentence, name, make in claims or CLAIMS:
+        rows, _ = results.read(stored, name)
+        found = pattern_of(sentence).search(((root or ROOT) / file).read_text())
+        if not found:
+            problems.append(f"{file} does not say: {sentence}")
+            continue
+        wanted = numbers_of(make, rows)
+        if wanted is None:
+            print(f"{file}, {name}: nothing stored yet, so not checked")
+        elif list(found.groups()) != wanted:
+            problems.append(f"{file} says {', '.join(found.groups())} in '{sentence}', "
+                            f"but docs/results/{name}.csv gives {', '.join(wanted)}")
+    return problems
+
+
+def rewrite(stored, root=None, claims=None):
+    """Puts the numbers of the stored results into the sentences."""
+    for file, sentence, name, make in claims or CLAIMS:
+        rows, _ = results.read(stored, name)
+        wanted = numbers_of(make, rows)
+        path = (root or ROOT) / file
+        text = path.read_text()
+        found = pattern_of(sentence).search(text)
+        if not found or wanted is None:
+            continue
+        for group in range(len(wanted), 0, -1):
+            begin, end = found.span(group)
+            text = text[:begin] + wanted[group - 1] + text[end:]
+        path.write_text(text)
+
+
+def numbers_of(make, rows):
+    """None where the result, or a row of it, is not stored yet."""
+    try:
+        return make(rows) if rows else None
+    except LookupError:
+        return None
