@@ -166,6 +166,6 @@ def plain(rows):
 
 TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows,
           "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
-          "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014,
+          "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014, "paper_details": lbc2014,
           "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows,
           **use_tables.TABLES}

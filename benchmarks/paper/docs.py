@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables in docs/results.md, and numbers in README.md and docs (claims.py), equal to stored results.
+"""Keeps the tables in docs/results.md and docs/method.md, and numbers in README.md and docs (claims.py), equal to stored results.
 
     docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables
     docs.py --check       fails if a table or a number differs from the stored results it is made of
 
-A table stands in docs/results.md between <!-- results: NAME --> and <!-- end of results -->, its results
+A table stands in one of them between <!-- results: NAME --> and <!-- end of results -->, its results
 in docs/results/NAME.csv as flbc_bench_paper wrote them. Its last line names the commit that made it.
 """
 
@@ -20,7 +20,7 @@ import results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
-PAGE = ROOT / "docs" / "results.md"
+PAGES = [ROOT / "docs" / "results.md", ROOT / "docs" / "method.md"]
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
 PICTURES = {"figure5": "error_against_time.png", "figure6": "error_against_time_large.png",
             "cages": "automatic_cages.png"}  # in docs, of OUT/NAME.png
@@ -43,11 +43,11 @@ def with_tables(page):
 
 
 def check():
-    page = PAGE.read_text()
-    marked = {m[2] for m in MARKED.finditer(page)}
+    found = [match for page in PAGES for match in MARKED.finditer(page.read_text())]
+    marked = {m[2] for m in found}
     stored = {path.stem for path in STORED.glob("*.csv")}
-    problems = [f"docs/results/{name}.csv has no table in docs/results.md" for name in stored - marked]
-    for match in MARKED.finditer(page):
+    problems = [f"docs/results/{name}.csv has no table in docs" for name in stored - marked]
+    for match in found:
         if match[2] not in stored:
             print(f"{match[2]}: nothing stored yet, so not checked")
         elif match[3] != written(match[2]):
@@ -60,15 +60,16 @@ def check():
 
 def take_over(out):
     STORED.mkdir(exist_ok=True)
-    for name in {m[2] for m in MARKED.finditer(PAGE.read_text())}:
+    for name in {m[2] for page in PAGES for m in MARKED.finditer(page.read_text())}:
         _, comments = results.read(out, name)
         if any(c.startswith(UNFIT) for c in comments):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
             if name in PICTURES and (out / f"{name}.png").exists():
-                shutil.copy(out / f"{name}.png", PAGE.parent / PICTURES[name])
-    PAGE.write_text(with_tables(PAGE.read_text()))
+                shutil.copy(out / f"{name}.png", PAGES[0].parent / PICTURES[name])
+    for page in PAGES:
+        page.write_text(with_tables(page.read_text()))
     claims.rewrite(STORED)
     return check()
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of docs/results.md equal their stored results, and docs.py would notice if one did not."""
+"""Tables and numbers of the docs equal their stored results, and docs.py would notice if one did not."""
 
 import contextlib
 import io
@@ -32,19 +32,20 @@ def quietly(action):
 def notices_changes():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        docs.STORED, docs.PAGE = folder / "stored", folder / "page.md"
+        docs.STORED, docs.PAGES = folder / "stored", [folder / "page.md"]
+        page_file = docs.PAGES[0]
         docs.claims.CLAIMS = []
-        docs.PAGE.write_text(PAGE)
+        page_file.write_text(PAGE)
         assert quietly(docs.check) == 0, "nothing is stored, so nothing can differ"
         (folder / "race.csv").write_text(CSV)
         assert quietly(lambda: docs.take_over(folder)) == 0
-        page = docs.PAGE.read_text()
+        page = page_file.read_text()
         for part in ("before", "after", "1.25 (not within 10,000)", "0.12 (20)", "commit 0123abc"):
             assert part in page, part
         for old, new in (("1.25", "1.24"), ("(20)", "(19)"), ("0123abc", "0123abd")):
-            docs.PAGE.write_text(page.replace(old, new))
+            page_file.write_text(page.replace(old, new))
             assert quietly(docs.check) == 1, f"{new} for {old} went unnoticed"
-        docs.PAGE.write_text(page)
+        page_file.write_text(page)
         assert quietly(docs.check) == 0
         (docs.STORED / "table9.csv").write_text(CSV)
         assert quietly(docs.check) == 1, "a result without a table went unnoticed"
