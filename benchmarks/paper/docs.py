@@ -22,8 +22,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
 PAGES = [ROOT / "docs" / "results.md", ROOT / "docs" / "method.md"]
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
-PICTURES = {"figure5": "error_against_time.png", "figure6": "error_against_time_large.png",
-            "cages": "automatic_cages.png"}  # in docs, of OUT/NAME.png
+# Pictures in docs, by their place in OUT.
+PICTURES = {"figure5.png": "error_against_time.png", "figure6.png": "error_against_time_large.png",
+            "cages.png": "automatic_cages.png", "samples/before_after.png": "before_after.png",
+            "samples/figure.png": "figure.png"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
@@ -66,8 +68,9 @@ def take_over(out):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
-            if name in PICTURES and (out / f"{name}.png").exists():
-                shutil.copy(out / f"{name}.png", PAGES[0].parent / PICTURES[name])
+    for made, picture in PICTURES.items():
+        if (out / made).exists():
+            shutil.copy(out / made, PAGES[0].parent / picture)
     for page in PAGES:
         page.write_text(with_tables(page.read_text()))
     claims.rewrite(STORED)
