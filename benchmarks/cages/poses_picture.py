@@ -4,6 +4,7 @@
 import numpy
 
 POSES = 3
+COLOURS = 128
 PART = 0.1  # of the size: how far linear and quadratic parts of a pose move
 
 
@@ -66,4 +67,8 @@ def write(context, cases, path):
             axis.set_axis_off()
         row[0].set_title(name, loc="left", fontsize=9)
     figure.tight_layout(pad=0.3)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=80)
+    from PIL import Image
+    with Image.open(path) as picture:  # a sixth of the bytes
+        few_colours = picture.convert("RGB").quantize(COLOURS)
+    few_colours.save(path, optimize=True)

@@ -16,6 +16,7 @@ struct Context {
   std::string out;     //!< folder of all results
   bool quick = false;  //!< small meshes and few iterations, to see that everything works
   int threads = 1;
+  bool busy = false;     //!< other programs run on the machine, which the results have to say
   std::string commit{};  //!< of the sources, for the results to name; may be empty
   std::vector<std::string> only_models{};  //!< names of those to measure; empty for all
 

@@ -88,6 +88,7 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember(model_names()));
   app.add_option("--threads", context.threads, "number of threads (all cores)")
       ->check(CLI::Range(1, 1024));
+  app.add_flag("--busy", context.busy, "say in the results that other programs ran as well");
   app.add_option("--commit", context.commit, "of the sources, to be named in the results");
   CLI11_PARSE(app, argc, argv);
   return run_all(context, only) ? 0 : 1;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Experiments that run flbc and other built programs, beside those of flbc_bench_paper.
 
-    programs.py MODELS_FOLDER OUT_FOLDER BUILD_FOLDER [--commit C] [--quick] [--only NAME,...]
+    programs.py MODELS_FOLDER OUT_FOLDER BUILD_FOLDER [--commit C] [--quick] [--busy] [--only NAME,...]
                 [--models A,B,...] [--threads T]
 
 Arguments are those of flbc_bench_paper; names that are not of experiments here are left alone. Each
@@ -42,6 +42,7 @@ class Context:
         self.quick = arguments.quick
         self.threads = arguments.threads
         self.commit = arguments.commit
+        self.busy = arguments.busy
         self.only_models = arguments.models
         self.complete = True
 
@@ -86,6 +87,8 @@ def comments(context, about):
     lines = [about, machine(context)]
     if context.commit:
         lines.append("commit " + context.commit)
+    if context.busy:
+        lines.append("busy machine: seconds are too long")
     if context.quick:
         lines.append("quick run: small meshes, few cases")
     if context.only_models:
@@ -123,6 +126,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--commit", default="")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--busy", action="store_true")
     parser.add_argument("--only", type=names, default=[])
     parser.add_argument("--models", type=names, default=[])
     parser.add_argument("--threads", type=int, default=os.cpu_count())

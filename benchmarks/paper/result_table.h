@@ -39,6 +39,7 @@ class ResultTable {
   bool write(const std::string& about) const {
     std::vector<std::string> comments{about, describe_machine(context_.threads) + "; single runs"};
     if (!context_.commit.empty()) comments.push_back("commit " + context_.commit);
+    if (context_.busy) comments.push_back("busy machine: seconds are too long");
     if (context_.quick) comments.push_back("quick run: small meshes, few iterations");
     if (!context_.only_models.empty()) comments.push_back("only models that were asked for");
     if (!complete_) comments.push_back("incomplete: some cases failed");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Regenerates the paper's tables and figures: numbers, then pictures. See README.md beside it.
 #
-#   benchmarks/paper/run.sh MODELS_FOLDER OUT_FOLDER [--quick] [--only NAME,...] [--models A,B,...] [--threads T]
+#   benchmarks/paper/run.sh MODELS_FOLDER OUT_FOLDER [--quick] [--busy] [--only NAME,...] [--models A,B,...] [--threads T]
 set -euo pipefail
 
 if [[ $# -lt 2 || $1 == -* || $2 == -* ]]; then

@@ -72,6 +72,9 @@ def notices_numbers_in_sentences():
         claims.rewrite(folder, folder, said)
         assert page.read_text() == "On a mesh it\ntakes 1.25 s on logo, 2 s else.\n"
         assert claims.check(folder, folder, said) == []
+        (folder / "race.csv").write_text("# busy machine: seconds are too long\n" + CSV)
+        page.write_text("it takes 9 s on logo.\n")
+        assert quietly(lambda: claims.check(folder, folder, said)) == [], "seconds of a busy machine are none"
         page.write_text("It takes long.\n")
         assert len(claims.check(folder, folder, said)) == 1, "a sentence that is gone went unnoticed"
 
