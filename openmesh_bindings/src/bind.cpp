@@ -32,7 +32,7 @@ DomainMesh<Dim> make_interior(const BindInput<Dim>& input, const BindOptions& op
 //! The points as their weights are to place them: those outside are on the cage.
 template <int Dim>
 struct Evaluation {
-  WeightMatrix weights;
+  SparseWeights weights;
   PointList<Dim> points;
   RowBlock<double> offsets;
   Index outside = 0;
@@ -40,7 +40,7 @@ struct Evaluation {
 
 template <int Dim>
 Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& domain,
-                         const WeightMatrix& weights, OutsidePoints outside) {
+                         const SparseWeights& weights, OutsidePoints outside) {
   auto placement = place_points(input.cage, domain, input.points, outside);
   Evaluation<Dim> evaluation{weights_at(input.cage, domain, weights, placement),
                              std::move(placement.points),
@@ -81,7 +81,7 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   const auto domain = make_interior(input, options);
   report.mesh_seconds = watch.lap();
   const auto solution =
-      flbc::solve(input.cage, domain, options.solver, coarse_mesher(input.mesher));
+      flbc::solve_sparse(input.cage, domain, options.solver, coarse_mesher(input.mesher));
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
   auto evaluation = evaluate(input, domain, solution.weights, options.outside);

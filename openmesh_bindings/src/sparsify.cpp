@@ -4,9 +4,9 @@
 namespace flbc::openmesh::internal {
 
 template <int Dim>
-WeightMatrix reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                    const EdgeList& edges, const WeightMatrix& weights, Index most,
-                    Reduction reduction, double threshold) {
+SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                     const EdgeList& edges, const SparseWeights& weights, Index most,
+                     Reduction reduction, double threshold) {
   SparsifyOptions options;
   options.max_influences = most;
   options.threshold = threshold;
@@ -14,7 +14,8 @@ WeightMatrix reduce(const PointList<Dim>& control_points, const PointList<Dim>& 
   if (reduction == Reduction::kQuadratic || edges.ends.empty()) {
     return flbc::sparsify<Dim>(control_points, points, weights, options);
   }
-  return reduce_by_poisson<Dim>(control_points, points, edges, weights, {}, options);
+  return SparseWeights(
+      reduce_by_poisson<Dim>(control_points, points, edges, weights.dense(), {}, options));
 }
 
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) {
@@ -23,9 +24,9 @@ void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) 
                    "'; give it: sparsify(mesh, cage, k), or set_rest_cage() before");
 }
 
-template WeightMatrix reduce(const PointList<2>&, const PointList<2>&, const EdgeList&,
-                             const WeightMatrix&, Index, Reduction, double);
-template WeightMatrix reduce(const PointList<3>&, const PointList<3>&, const EdgeList&,
-                             const WeightMatrix&, Index, Reduction, double);
+template SparseWeights reduce(const PointList<2>&, const PointList<2>&, const EdgeList&,
+                              const SparseWeights&, Index, Reduction, double);
+template SparseWeights reduce(const PointList<3>&, const PointList<3>&, const EdgeList&,
+                              const SparseWeights&, Index, Reduction, double);
 
 }  // namespace flbc::openmesh::internal

@@ -33,12 +33,12 @@ struct BindOptions {
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< that of the program, too
 
-  SolverOptions solver{};                          //!< method, tolerance, threads, progress
-  Index max_influences = 8;                        //!< per vertex; 0 = all weights are kept
-  Reduction reduction = Reduction::kPoisson;       //!< how the others are left out
-  OutsidePoints outside = OutsidePoints::kFail;    //!< vertices outside the cage
-  std::string weights = kWeights;                  //!< name of the property
-  bool persistent = false;                         //!< whether .om files keep what is left
+  SolverOptions solver{};                        //!< method, tolerance, threads, progress
+  Index max_influences = 8;                      //!< per vertex; 0 = all weights are kept
+  Reduction reduction = Reduction::kPoisson;     //!< how the others are left out
+  OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage
+  std::string weights = kWeights;                //!< name of the property
+  bool persistent = false;                       //!< whether .om files keep what is left
 };
 
 //! Report of bind().
@@ -51,8 +51,8 @@ struct BindReport {
 
 namespace internal {
 
-//! The cage, domain and mesher to bind with. The mesher, which may be empty if there is a domain, makes the domain and
-//! coarser meshes.
+//! The cage, domain and mesher to bind with. The mesher, which may be empty if there is a domain,
+//! makes the domain and coarser meshes.
 template <int Dim>
 struct BindInput {
   const Cage<Dim>& cage;
@@ -65,7 +65,7 @@ struct BindInput {
 //! The weights of points.
 template <int Dim>
 struct Binding {
-  WeightMatrix weights;      //!< n x P
+  SparseWeights weights;
   RowBlock<double> offsets;  //!< of width 0 if no point lies outside
   BindReport report;
 };
@@ -115,11 +115,11 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   const auto edges = edge_list_at<Dim>(model, points);
   auto binding = bind_points<Dim>({cage, points, edges, domain, mesher}, options);
   if (options.max_influences > 0) {
-    set_influences(model, SparseWeights(binding.weights),
+    set_influences(model, binding.weights,
                    static_cast<std::size_t>(std::min(options.max_influences, cage.size())),
                    options.weights, options.persistent);
   } else {
-    set_weights(model, binding.weights, options.weights, options.persistent);
+    set_weights(model, binding.weights.dense(), options.weights, options.persistent);
   }
   set_offsets(model, binding.offsets, options.weights, options.persistent);
   set_rest_cage(model, cage.points, options.weights, options.persistent);

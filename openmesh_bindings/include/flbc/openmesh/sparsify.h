@@ -33,11 +33,11 @@ struct ReductionOptions {
 
 namespace internal {
 
-//! \param most  influences per point \return n x P
+//! \param most  influences per point
 template <int Dim>
-WeightMatrix reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                    const EdgeList& edges, const WeightMatrix& weights, Index most,
-                    Reduction reduction, double threshold);
+SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                     const EdgeList& edges, const SparseWeights& weights, Index most,
+                     Reduction reduction, double threshold);
 
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
 
@@ -56,13 +56,12 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
   const PointList<Dim> rest = cage * weights;
   // Their lengths are those at rest, wherever the mesh is now.
   const auto edges = internal::edge_list_at<Dim>(mesh, rest);
-  const auto reduced =
-      internal::reduce(cage, rest, edges, weights, most, options.reduction, options.threshold);
+  const auto reduced = internal::reduce(cage, rest, edges, SparseWeights(weights), most,
+                                        options.reduction, options.threshold);
   const std::string& into = options.into.empty() ? options.weights : options.into;
   const auto offset = internal::offsets_of(mesh, options.weights);
-  set_influences(mesh, SparseWeights(reduced),
-                 static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())), into,
-                 options.persistent);
+  set_influences(mesh, reduced, static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())),
+                 into, options.persistent);
   internal::set_offsets(mesh, offset, into, options.persistent);
   set_rest_cage(mesh, cage, into, options.persistent);
   return measure_quality<Dim>(cage, rest, reduced);
