@@ -90,7 +90,7 @@ void TextbookLbc2014<Dim>::iterate() {
   const Eigen::MatrixXd right =
       G_.transpose() * z_metric_.asDiagonal() * (relaxed_z + dual_z_ - G_ * H_ - E_) +
       w_metric_.asDiagonal() * (relaxed_w + dual_w_ - H_);
-  Y_ = system_.solve(right * M_.transpose());
+  if (M_.rows() > 0) Y_ = system_.solve(right * M_.transpose());  // a simplex leaves no choice
   // 3. Duals.
   const Eigen::MatrixXd w_new = Y_ * M_ + H_;
   const Eigen::MatrixXd grad_new = gradients(w_new);
