@@ -75,7 +75,8 @@ TYPED_TEST(BoundedDistancesTest, AreExactWhereTheyAreNeededAndNeverTooLong) {
 TYPED_TEST(BoundedDistancesTest, HaveNearlyTheLargestDistance) {
   const auto bounded = this->bounded(this->within(0.1));
   EXPECT_GE(bounded.distances.maxCoeff(), 0.98f * this->exact_.maxCoeff());
-  EXPECT_EQ((bounded.reach.array() == INFINITY).count(), std::min<Index>(4, this->exact_.rows()));
+  EXPECT_EQ((bounded.reach.array() == INFINITY).count(),
+            std::min<Index>(4, static_cast<Index>(this->exact_.rows())));
 }
 
 TYPED_TEST(BoundedDistancesTest, AreAllThereIfAllAreNeeded) {

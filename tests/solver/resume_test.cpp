@@ -133,7 +133,7 @@ TYPED_TEST(ResumeTest, HalfPrecisionGoesOn) {
     options.tolerance = tolerance;
     options.gap = 0;
     options.check_interval = 5;
-    options.max_iterations = 120;
+    options.max_iterations = 200;
     numbers[tolerance < 1e-6] = expect_resumable(sample, options).state_scalars_per_cell;
   }
   EXPECT_LT(numbers[0], numbers[1]);  // the second run has left half precision

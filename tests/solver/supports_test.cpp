@@ -187,7 +187,8 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance) {
   options.tolerance = tolerance;
   options = resolve(options);
   const auto metric = splitting::measure_metric(problem, true);
-  ValueRun<Scalar, Dim> run(problem, metric.cell.sum(), options, false, false, report);
+  ValueRun<Scalar, Dim> run(problem, metric.cell.sum(), options, false, splitting::Start::kCold,
+                            report);
   const WeightMatrix weights = harmonic_coordinates(problem);
   DualStart<Dim> start;
   start.penalty = 50;

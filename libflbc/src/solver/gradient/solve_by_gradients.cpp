@@ -76,7 +76,8 @@ class RunToError {
         residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
                         (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
                          problem.mesh.num_cells())),
-        estimate_(warm, options.tolerance, interval_) {}
+        estimate_(warm ? splitting::Start::kNearby : splitting::Start::kCold, Dim,
+                  options.tolerance, interval_) {}
 
   //! \param options  of the run, with who is told of it
   void iterate(gradient::GradientAdmm<Scalar, Dim>& admm, const SolverOptions& options,

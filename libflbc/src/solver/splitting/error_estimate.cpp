@@ -13,6 +13,19 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// As measured, in 2D and in 3D.
+struct Constants {
+  int early;      // iterations in which early() is more to be trusted than rates
+  double cold;    // of k^2 changes; in 2D rates have been right by themselves on every model
+  double safety;  // of what rates tell
+};
+constexpr Constants constants_of(int dim) {
+  return dim == 2 ? Constants{64, 0, 1.25} : Constants{104, 0.4, 1.5};
+}
+
+// The least error relative to a single change.
+constexpr double kOfChange = 400;
+
 double square(double x) {
   return x * x;
 }
@@ -92,7 +105,6 @@ double ErrorEstimate::rate(double first, double last) const {
 double ErrorEstimate::rest() const {
   constexpr double kLeast = 0.5;
   constexpr double kMost = 30;
-  constexpr double kSafety = 1.25;
   constexpr double kPowerSafety = 0.4;  // the promise allows an error of 3 tolerances
   constexpr double kFarthest = 1.5;     // looked ahead, relative to the iterations so far
   constexpr double kPart = 0.2;         // of the iterations so far
@@ -107,9 +119,10 @@ double ErrorEstimate::rest() const {
   if (present > 0 && present < before && before < kInfinity) {
     rate_to_come *= std::sqrt(std::max(present / before, kFall));
   }
-  const double by_rate =
-      std::clamp(kSafety * square(spans_left(rate_to_come)), kLeast, std::max(kMost, farthest));
-  if (warm_) return by_rate;  // iterations since the start do not say how far a run is
+  const double by_rate = std::clamp(constants_of(dim_).safety * square(spans_left(rate_to_come)),
+                                    kLeast, std::max(kMost, farthest));
+  // Elsewhere iterations since the start do not say how far a run is.
+  if (start_ != Start::kCold) return by_rate;
   // Differences that shrink as k^-p have the rate p / k, here in the middle of the window, and
   // leave as much as if it were (p - 1) / k from now on.
   const double power_rate = present - 1 / (now - window / 2);
@@ -126,7 +139,8 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   constexpr int kFirstMeasured = 48;  // differences still see the start, and are large, until then
   constexpr int kInterval = 32;       // relative to the iterations so far
   if (residual >= 0) {
-    hidden_ = (warm_ ? kPoincare : std::max(kPoincare, kPerIteration * iteration)) * residual;
+    const double fading = start_ == Start::kCold ? kPerIteration * iteration : 0;
+    hidden_ = std::max(kPoincare, fading) * residual;
     next_measured_ = iteration + iteration / kInterval;
   }
   const bool ends = shown_ <= tolerance_ && iteration >= kFirstMeasured;
@@ -136,18 +150,39 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   return std::max(shown_, hidden_ < 0 ? kUnknown * tolerance_ : hidden_);
 }
 
+// The error as a power of the iterations tells it from a change.
+double ErrorEstimate::early(int iteration, double change) const {
+  constexpr double kWarm = 0.55;
+  const double part = start_ == Start::kCold ? constants_of(dim_).cold : kWarm;
+  return part * square(iteration) * change;
+}
+
+// \param difference  the one that was entered last
+double ErrorEstimate::by_difference(int iteration, double change, double difference) const {
+  const double extrapolated = rest() * difference;
+  if (start_ == Start::kCoarserMesh) {
+    // The one is too large in the end, the other one too small now and then.
+    constexpr double kPart = 0.2;
+    if (iteration < constants_of(dim_).early) return early(iteration, change);
+    return std::pow(early(iteration, change), kPart) * std::pow(extrapolated, 1 - kPart);
+  }
+  // Changes catch runs that speed up again.
+  const double least = std::max(extrapolated, kOfChange * change);
+  const bool counts = start_ == Start::kCold && iteration <= constants_of(dim_).early;
+  return counts ? std::max(least, early(iteration, change)) : least;
+}
+
 double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {
-  // A lower bound from single changes. Alone it serves until there are differences to compare;
-  // later it catches runs that speed up again.
-  constexpr double kChanges = 400;
   constexpr double kTiny = 1e-300;
   if (!std::isfinite(change)) return change;
   if (!std::isfinite(residual)) return residual;
   if (difference >= 0) {
     entries_.push_back({iteration, std::log(std::max(difference, kTiny))});
-    shown_ = std::max(rest() * difference, kChanges * change);
+    shown_ = by_difference(iteration, change, difference);
+  } else if (start_ == Start::kCoarserMesh && iteration < constants_of(dim_).early) {
+    shown_ = early(iteration, change);
   } else if (entries_.empty()) {
-    shown_ = (warm_ ? 2 : 1) * kChanges * change;
+    shown_ = (start_ == Start::kNearby ? 2 : 1) * kOfChange * change;
   }
   return confirmed(iteration, residual);
 }

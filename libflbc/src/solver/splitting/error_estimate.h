@@ -45,26 +45,36 @@ class WeightHistory {
   std::array<AlignedArray<Scalar>, kSpan / kStep> kept_;  // the rows of the sample, in turn
 };
 
+//! Where an iteration started from, by which it shows how far it has to go.
+enum class Start {
+  kCold,         //!< weights without duals
+  kCoarserMesh,  //!< weights and duals of a coarser mesh, off by a little of everything
+  kNearby        //!< those of a problem like it; what is wrong with them first shows after a while
+};
+
 //! Estimates the mean squared error of weights, by two looks at it.
 //!
+//! At first the error shrinks as a power of the number k of iterations, and is some tenths of k^2
+//! times the squared change of an iteration: never more than 0.9 of it on any test model, cold or
+//! from a coarser mesh. Where differences tell little yet, that is what counts.
+//!
 //! Geometric extrapolation over spans of kSpan iterations: if differences shrink by rho (a length)
-//! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a regression's over the last iterations,
-//! because differences oscillate; where it falls, as the slow parts of the error remain, it is
-//! taken to fall further. Where it is low for the number of iterations, shrinking as a power of
-//! that number is assumed as well.
+//! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a
+//! regression's over the last iterations, because differences oscillate; where it falls, as the
+//! slow parts of the error remain, it is taken to fall further. Where it is low for the number of
+//! iterations, shrinking as a power of that number is assumed as well.
 //!
 //! Weights do not show duals that still grow while they stand still, as on round cages whose
 //! weights are nearly undetermined. It is in the residual of the splitting, which costs more than
 //! an iteration to measure. So it is asked for only where the run would end without it.
 //!
-//! Constants as measured on all test models, round cages and warm starts, see docs/results.md.
+//! Constants as measured on all test models, round cages and warm starts (docs/results.md).
 class ErrorEstimate {
  public:
-  //! \param warm  started from duals: what is wrong with these first shows after a while
-  //! \param tolerance  mean squared error that the run is to end at
+  //! \param dim  of the domain \param tolerance  mean squared error that the run is to end at
   //! \param span  iterations that differences are taken over
-  ErrorEstimate(bool warm, double tolerance, int span = WeightHistory<float>::kSpan)
-      : warm_(warm), tolerance_(tolerance), span_(span) {}
+  ErrorEstimate(Start start, int dim, double tolerance, int span = WeightHistory<float>::kSpan)
+      : start_(start), dim_(dim), tolerance_(tolerance), span_(span) {}
 
   //! Whether the next iteration should measure its residual.
   bool wants_residual() const { return wants_residual_; }
@@ -82,7 +92,7 @@ class ErrorEstimate {
   //! Writes or reads what it has been told.
   template <class Archive>
   void visit(Archive& archive) {
-    archive(warm_, shown_, hidden_, next_measured_, wants_residual_, entries_);
+    archive(start_, shown_, hidden_, next_measured_, wants_residual_, entries_);
   }
 
  private:
@@ -93,9 +103,12 @@ class ErrorEstimate {
   double rate(double first, double last) const;
   double spans_left(double rate) const;
   double rest() const;
+  double early(int iteration, double change) const;
+  double by_difference(int iteration, double change, double difference) const;
   double confirmed(int iteration, double residual);
 
-  bool warm_;
+  Start start_;
+  int dim_;
   double tolerance_;
   int span_;
   double shown_ = 0;    // by the weights

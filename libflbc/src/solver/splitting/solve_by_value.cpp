@@ -35,14 +35,14 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
 struct StateFront {
   bool is_half = false;
   double penalty = 0;
-  bool warm = false;
+  splitting::Start start = splitting::Start::kCold;
 };
 
 // Takes it off. \return none where there is no state to go on from
 std::optional<StateFront> take_front(ByteReader& read) {
   if (read.is_at_end()) return std::nullopt;
   StateFront front;
-  read(front.is_half, front.penalty, front.warm);
+  read(front.is_half, front.penalty, front.start);
   return front;
 }
 
@@ -62,7 +62,7 @@ class ValueSolve {
         front_(take_front(read_)),
         metric_(
             splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint)),
-        run_(problem, metric_.cell.sum(), options, is_adaptive(), is_warm(), report) {
+        run_(problem, metric_.cell.sum(), options, is_adaptive(), origin(), report) {
     report.iterations = 0;
     if (warm_start.from) start_ = start_of(*warm_start.from);
   }
@@ -79,8 +79,15 @@ class ValueSolve {
   template <class Stored>
   using Splitting = compact::CompactSplitting<Scalar, Stored, Dim>;
 
-  bool is_warm() const { return front_ ? front_->warm : warm_start_.from != nullptr; }
-  bool is_adaptive() const { return options_.penalty == 0 && !resumes(storage_) && !is_warm(); }
+  splitting::Start origin() const {
+    if (front_) return front_->start;
+    if (warm_start_.from == nullptr) return splitting::Start::kCold;
+    return warm_start_.from->is_between_shapes() ? splitting::Start::kNearby
+                                                 : splitting::Start::kCoarserMesh;
+  }
+  bool is_adaptive() const {
+    return options_.penalty == 0 && !resumes(storage_) && origin() == splitting::Start::kCold;
+  }
 
   // A fortieth of the cage's size suits everywhere, roughly; adapt_penalty() does the rest.
   double choose_penalty() const {

@@ -46,18 +46,18 @@ class ValueRun {
  public:
   //! \param measure  of the domain \param adaptive  whether the penalty is to be balanced
   ValueRun(const LbcProblem<Dim>& problem, double measure, const SolverOptions& options,
-           bool adaptive, bool warm, SolveReport& report)
+           bool adaptive, splitting::Start start, SolveReport& report)
       : problem_(problem),
         options_(options),
         adaptive_(adaptive),
-        warm_(warm),
+        start_(start),
         report_(report),
         num_weights_(
             std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
             problem.num_control_points()),
         residual_scale_(square(bounding_box_diagonal(problem.cage.points)) /
                         (problem.num_control_points() * measure)),
-        estimate_(warm, options.tolerance),
+        estimate_(start, Dim, options.tolerance),
         gap_(*options.gap, [this] { return certificate_(); }) {}
 
   //! Goes on from the part of a state that is the run's, the last one.
@@ -115,7 +115,7 @@ class ValueRun {
     if constexpr (Splitting::kAdapts) {
       if (offers_state_) {
         return offering(std::move(options), [&](ByteWriter& write) {
-          write(Splitting::kStoresHalf, splitting.penalty(), warm_);
+          write(Splitting::kStoresHalf, splitting.penalty(), start_);
           splitting.visit(write);
           visit(write);
         });
@@ -157,7 +157,7 @@ class ValueRun {
   const LbcProblem<Dim>& problem_;
   const SolverOptions& options_;
   const bool adaptive_;
-  const bool warm_;
+  const splitting::Start start_;
   bool offers_state_ = true;
   SolveReport& report_;
   const double num_weights_;

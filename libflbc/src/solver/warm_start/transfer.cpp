@@ -59,6 +59,7 @@ Transfer<Dim> Transfer<Dim>::between_shapes(const LbcProblem<Dim>& before,
                                             const LbcProblem<Dim>& after) {
   using Coordinates = Eigen::Matrix<double, Dim + 1, 1>;
   Transfer transfer(Unlocated{}, before, state, after);
+  transfer.between_shapes_ = true;
   const auto& mesh = before.mesh;
   const auto& topology = before.topology;
   transfer.vertices_.resize(mesh.num_vertices());

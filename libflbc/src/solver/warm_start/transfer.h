@@ -44,6 +44,9 @@ class Transfer {
   static Transfer between_shapes(const LbcProblem<Dim>& before, const MeshState<Dim>& state,
                                  const LbcProblem<Dim>& after);
 
+  //! Whether it was made by between_shapes().
+  bool is_between_shapes() const { return between_shapes_; }
+
   //! The penalty that acts on the fine mesh as the coarse one's did there.
   double penalty() const { return enlargement_ * state_.penalty; }
 
@@ -86,6 +89,7 @@ class Transfer {
   const MeshState<Dim>& state_;
   const LbcProblem<Dim>& fine_;
   double enlargement_;
+  bool between_shapes_ = false;
   std::vector<Location<Dim>> vertices_;
   std::vector<Index> cells_;           // the coarse ones that contain the middles of the fine ones
   std::vector<Location<Dim>> facets_;  // empty without potential
