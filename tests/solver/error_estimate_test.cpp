@@ -147,7 +147,7 @@ TEST(ErrorEstimate, OfEarlyChangesIsTheErrorWhereItShrinksAsAPower) {
       const bool look = k >= 32 && k % 8 == 0;
       const double now =
           estimate(k, run.difference(k, k - 1), look ? run.difference(k, k - 32) : -1);
-      if (k < 10) continue;
+      if (k < 16) continue;
       EXPECT_GT(now / run.error(k), 0.8 * 0.55 * power * power) << power << " at " << k;
       EXPECT_LT(now / run.error(k), 1.3 * 0.55 * power * power) << power << " at " << k;
     }

@@ -154,7 +154,9 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
 double ErrorEstimate::early(int iteration, double change) const {
   constexpr double kWarm = 0.55;
   const double part = start_ == Start::kCold ? constants_of(dim_).cold : kWarm;
-  return part * square(iteration) * change;
+  // What is wrong with a start from elsewhere shows after some iterations only.
+  const int least = start_ == Start::kCold ? 0 : 16;
+  return part * square(std::max(iteration, least)) * change;
 }
 
 // \param difference  the one that was entered last
