@@ -15,12 +15,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // As measured, in 2D and in 3D.
 struct Constants {
-  int early;      // iterations in which early() is more to be trusted than rates
-  double cold;    // of k^2 changes; in 2D rates have been right by themselves on every model
+  int early;      // iterations in which rates alone are not trusted
+  double part;    // of k^2 changes, up to then; in 2D rates were right on every model
   double safety;  // of what rates tell
 };
 constexpr Constants constants_of(int dim) {
-  return dim == 2 ? Constants{64, 0, 1.25} : Constants{104, 0.4, 1.5};
+  return dim == 2 ? Constants{0, 0, 1.25} : Constants{104, 0.4, 1.5};
 }
 
 // The least error relative to a single change.
@@ -150,28 +150,12 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   return std::max(shown_, hidden_ < 0 ? kUnknown * tolerance_ : hidden_);
 }
 
-// The error as a power of the iterations tells it from a change.
-double ErrorEstimate::early(int iteration, double change) const {
-  constexpr double kWarm = 0.55;
-  const double part = start_ == Start::kCold ? constants_of(dim_).cold : kWarm;
-  // What is wrong with a start from elsewhere shows after some iterations only.
-  const int least = start_ == Start::kCold ? 0 : 16;
-  return part * square(std::max(iteration, least)) * change;
-}
-
-// \param difference  the one that was entered last
-double ErrorEstimate::by_difference(int iteration, double change, double difference) const {
-  const double extrapolated = rest() * difference;
-  if (start_ == Start::kCoarserMesh) {
-    // The one is too large in the end, the other one too small now and then.
-    constexpr double kPart = 0.2;
-    if (iteration < constants_of(dim_).early) return early(iteration, change);
-    return std::pow(early(iteration, change), kPart) * std::pow(extrapolated, 1 - kPart);
-  }
-  // Changes catch runs that speed up again.
-  const double least = std::max(extrapolated, kOfChange * change);
-  const bool counts = start_ == Start::kCold && iteration <= constants_of(dim_).early;
-  return counts ? std::max(least, early(iteration, change)) : least;
+// A lower bound by the power of the iterations that the error shrinks as at first, which rates do
+// not see; and by changes alone, for runs that speed up again.
+double ErrorEstimate::least(int iteration, double change) const {
+  const auto [early, part, safety] = constants_of(dim_);
+  const bool counts = start_ != Start::kNearby && iteration <= early;
+  return std::max(kOfChange, counts ? part * square(iteration) : 0) * change;
 }
 
 double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {
@@ -180,11 +164,9 @@ double ErrorEstimate::operator()(int iteration, double change, double difference
   if (!std::isfinite(residual)) return residual;
   if (difference >= 0) {
     entries_.push_back({iteration, std::log(std::max(difference, kTiny))});
-    shown_ = by_difference(iteration, change, difference);
-  } else if (start_ == Start::kCoarserMesh && iteration < constants_of(dim_).early) {
-    shown_ = early(iteration, change);
+    shown_ = std::max(rest() * difference, least(iteration, change));
   } else if (entries_.empty()) {
-    shown_ = (start_ == Start::kNearby ? 2 : 1) * kOfChange * change;
+    shown_ = (start_ == Start::kCold ? 1 : 2) * kOfChange * change;
   }
   return confirmed(iteration, residual);
 }

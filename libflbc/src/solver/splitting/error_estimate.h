@@ -54,9 +54,9 @@ enum class Start {
 
 //! Estimates the mean squared error of weights, by two looks at it.
 //!
-//! At first the error shrinks as a power of the number k of iterations, and is some tenths of k^2
-//! times the squared change of an iteration: never more than 0.9 of it on any test model, cold or
-//! from a coarser mesh. Where differences tell little yet, that is what counts.
+//! At first the error shrinks as a power of the number k of iterations, and is 0.1 to 0.9 times k^2
+//! times the squared change of an iteration on the test models. In 3D differences tell less than
+//! that then, so it is a lower bound.
 //!
 //! Geometric extrapolation over spans of kSpan iterations: if differences shrink by rho (a length)
 //! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a
@@ -103,8 +103,7 @@ class ErrorEstimate {
   double rate(double first, double last) const;
   double spans_left(double rate) const;
   double rest() const;
-  double early(int iteration, double change) const;
-  double by_difference(int iteration, double change, double difference) const;
+  double least(int iteration, double change) const;
   double confirmed(int iteration, double residual);
 
   Start start_;
