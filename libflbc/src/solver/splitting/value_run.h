@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
+#include "flbc/errors.h"
 #include "flbc/padded_rows.h"
 #include "solver/iterative_method.h"
 #include "solver/run_state.h"
@@ -65,6 +67,10 @@ class ValueRun {
     start_history();
     visit(read);
     refuse_rest(read);
+    if (report_.iterations < 0 || report_.iterations > options_.max_iterations) {
+      throw InputError("the state to go on from is damaged: it has " +
+                       std::to_string(report_.iterations) + " iterations");
+    }
   }
 
   //! From now on the state is one that cannot be gone on from.
