@@ -2,8 +2,6 @@
 // The influence of the 2014 solver's open details: `lbc2014` with its published penalty, and with
 // one detail at a time otherwise. The iterations are those that weight_splitting_test holds against
 // a literal implementation of problem (2).
-#include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
@@ -11,9 +9,7 @@
 #include "flbc/non_negative.h"
 #include "flbc/solver.h"
 #include "paper/experiments.h"
-#include "paper/references.h"
-#include "paper/result_table.h"
-#include "paper/run_columns.h"
+#include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/splitting/weight_splitting.h"
 
@@ -21,8 +17,6 @@ namespace flbc::bench {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr std::array<int, 3> kMarks = {100, 300, 1000};  // iterations whose error is told
-constexpr int kLast = 2000;
 
 enum class Start { kHarmonic, kHarmonicWithoutDuals, kLeastNorm };
 
@@ -101,9 +95,8 @@ void start(splitting::WeightSplitting<Scalar, Dim>& iteration, const LbcProblem<
 }
 
 template <class Scalar, int Dim>
-Row measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
-               int last) {
-  constexpr double kThreshold = 1e-7;  // of the primal residual, a tenth of that of the dual one
+void measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
+                int last, Row& row) {
   const auto& problem = setting.problem;
   splitting::WeightSplitting<Scalar, Dim> iteration(problem, metric_of(problem, variant),
                                                     variant.penalty, variant.relaxation);
@@ -114,50 +107,22 @@ Row measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const V
       project_non_negative(problem.cage.points, problem.mesh.points, weights,
                            problem.boundary.interior_vertices());
     }
-    return number(squared_error(problem, weights, optimum));
+    return squared_error(problem, weights, optimum);
   };
-  const double threshold = kThreshold * iteration.num_residual_components();
-  auto row = mesh_row(setting);
-  row["variant"] = variant.name;
-  bool stopped = false;
-  for (int k = 1; k <= last && !(stopped && k > kMarks.back()); ++k) {
-    const auto residuals = iteration.iterate_with_residuals();
-    const bool within = residuals.primal <= threshold && residuals.dual <= 10 * threshold;
-    if (!stopped && k >= 10 && k % variant.check_interval == 0 && within) {
-      stopped = true;
-      row["iterations"] = std::to_string(k);
-      row["error"] = error();
-    }
-    const auto mark = std::find(kMarks.begin(), kMarks.end(), k);
-    if (mark != kMarks.end()) row["error_" + std::to_string(k)] = error();
-  }
-  return row;
+  run_to_thresholds(
+      row, iteration.num_residual_components(), variant.check_interval, last,
+      [&] { return iteration.iterate_with_residuals(); }, error);
 }
 
 }  // namespace
 
 bool run_lbc2014(const Context& context) {
-  std::vector<std::string> columns = {"variant", "iterations", "error"};
-  for (const int mark : kMarks) columns.push_back("error_" + std::to_string(mark));
-  ResultTable table(context, "lbc2014", joined({mesh_columns(), columns}));
-  for (const char* name : {"woody", "horse"}) {
-    const auto& chosen = model(name);
-    const Index vertices = context.size(chosen.dim, chosen.paper_size);
-    for (const auto& variant : variants()) {
-      const auto what = std::string("lbc2014, ") + variant.name;
-      table.add(in_setting(context, what, chosen, vertices, [&](const auto& setting) {
-        const auto optimum = reference(context, setting).weights;
-        const int last = context.quick ? kMarks.front() : kLast;
-        return table.line(variant.in_double ? measure_in<double>(setting, optimum, variant, last)
-                                            : measure_in<float>(setting, optimum, variant, last));
-      }));
-    }
-  }
-  return table.write(
-      "the 2014 solver with its published penalty, and one detail at a time otherwise: iterations "
-      "after which it stops by the thresholds of section 5, mean squared error then and after so "
-      "many iterations; no iterations: not within " +
-      std::to_string(kLast));
+  return run_open_details(
+      context, "lbc2014", {"woody", "horse"}, variants(),
+      "the 2014 solver with its published penalty, and one detail at a time otherwise",
+      [](auto scalar, const auto& setting, auto&... rest) {
+        measure_in<decltype(scalar)>(setting, rest...);
+      });
 }
 
 }  // namespace flbc::bench

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The influence of what the paper leaves open: its iteration with one detail at a time otherwise.
-#include <algorithm>
-#include <array>
-#include <string>
-#include <vector>
-
 #include "flbc/harmonic.h"
 #include "flbc/recovery.h"
 #include "paper/experiments.h"
-#include "paper/references.h"
-#include "paper/result_table.h"
-#include "paper/run_columns.h"
+#include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "problem/domain_scale.h"
 #include "solver/gradient/gradient_admm.h"
 
 namespace flbc::bench {
 namespace {
-
-constexpr std::array<int, 3> kMarks = {100, 300, 1000};  // iterations whose error is told
-constexpr int kLast = 2000;
 
 enum class Start { kLeastNorm, kZero, kHarmonic };
 
@@ -65,9 +55,8 @@ void start(gradient::GradientAdmm<Scalar, Dim>& admm, const LbcProblem<Dim>& pro
 }
 
 template <class Scalar, int Dim>
-Row measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
-               int last) {
-  constexpr double kThreshold = 1e-7;  // of the primal residual, a tenth of that of the dual one
+void measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
+                int last, Row& row) {
   constexpr double kPenalty = Dim == 2 ? 100 : 10000;
   const auto problem = scaled(setting.problem, variant.radius);
   gradient::GradientAdmm<Scalar, Dim> admm(problem, kPenalty, 1, {});
@@ -78,50 +67,21 @@ Row measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const V
     for (const Index v : problem.boundary.interior_vertices()) {
       constraints.project_weights(problem.mesh.points.col(v), weights.col(v));
     }
-    return number(squared_error(problem, weights, optimum));
+    return squared_error(problem, weights, optimum);
   };
-  const double threshold = kThreshold * admm.num_residual_components();
-  auto row = mesh_row(setting);
-  row["variant"] = variant.name;
-  bool stopped = false;
-  for (int k = 1; k <= last && !(stopped && k > kMarks.back()); ++k) {
-    const auto residuals = admm.residuals(admm.iterate());
-    const bool within = residuals.primal <= threshold && residuals.dual <= 10 * threshold;
-    if (!stopped && k >= 10 && k % variant.check_interval == 0 && within) {
-      stopped = true;
-      row["iterations"] = std::to_string(k);
-      row["error"] = error();
-    }
-    const auto mark = std::find(kMarks.begin(), kMarks.end(), k);
-    if (mark != kMarks.end()) row["error_" + std::to_string(k)] = error();
-  }
-  return row;
+  run_to_thresholds(
+      row, admm.num_residual_components(), variant.check_interval, last,
+      [&] { return admm.residuals(admm.iterate()); }, error);
 }
 
 }  // namespace
 
 bool run_paper_details(const Context& context) {
-  std::vector<std::string> columns = {"variant", "iterations", "error"};
-  for (const int mark : kMarks) columns.push_back("error_" + std::to_string(mark));
-  ResultTable table(context, "paper_details", joined({mesh_columns(), columns}));
-  for (const char* name : {"woody", "cactus", "logo", "horse"}) {
-    const auto& chosen = model(name);
-    const Index vertices = context.size(chosen.dim, chosen.paper_size);
-    for (const auto& variant : kVariants) {
-      const auto what = std::string("paper_details, ") + variant.name;
-      table.add(in_setting(context, what, chosen, vertices, [&](const auto& setting) {
-        const auto optimum = reference(context, setting).weights;
-        const int last = context.quick ? kMarks.front() : kLast;
-        return table.line(variant.in_double ? measure_in<double>(setting, optimum, variant, last)
-                                            : measure_in<float>(setting, optimum, variant, last));
-      }));
-    }
-  }
-  return table.write(
-      "the paper's iteration with one open detail at a time otherwise: iterations after which it "
-      "stops by the thresholds of section 4.2.1, mean squared error then and after so many "
-      "iterations; no iterations: not within " +
-      std::to_string(kLast) + "; nothing of this depends on the machine");
+  return run_open_details(context, "paper_details", {"woody", "cactus", "logo", "horse"}, kVariants,
+                          "the paper's iteration with one open detail at a time otherwise",
+                          [](auto scalar, const auto& setting, auto&... rest) {
+                            measure_in<decltype(scalar)>(setting, rest...);
+                          });
 }
 
 }  // namespace flbc::bench

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of an interrupted solve: read as `flbc solve --checkpoint` does, and gone on from.
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <string>
 
-#include "flbc/byte_archive.h"
 #include "flbc/cage.h"
 #include "flbc/solver.h"
 #include "fuzz/reader.h"
@@ -86,22 +83,10 @@ std::string checkpoint() {
   });
 }
 
-std::string with_hash(std::string content) {
-  const auto hash = hash_of(content);
-  char bytes[sizeof hash];
-  std::memcpy(bytes, &hash, sizeof hash);
-  return content.append(bytes, sizeof bytes);
-}
-
 template <int Dim>
 Reader checkpoint_reader(const std::string& name) {
-  const auto whole = checkpoint<Dim>();
-  return {name,
-          "input.state",
-          read_checkpoint<Dim>,
-          {whole.substr(0, whole.size() - sizeof(std::uint64_t))},
-          {},
-          with_hash};
+  return {name, "input.state", read_checkpoint<Dim>, {without_hash(checkpoint<Dim>())},
+          {},   with_hash};
 }
 
 }  // namespace

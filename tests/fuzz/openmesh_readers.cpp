@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Readers of the bindings to OpenMesh.
-#include <cstring>
 #include <sstream>
 #include <string>
 
-#include "flbc/content_hash.h"
 #include "flbc/errors.h"
 #include "flbc/io/model_file.h"
 #include "flbc/openmesh/influences.h"
@@ -101,16 +99,6 @@ std::string record() {
 }
 
 // ---- tetrahedral meshes with properties
-// -----------------------------------------------------------
-
-std::string with_hash(std::string content) {
-  ContentHash hash;
-  hash.add(content.data(), content.size());
-  const auto value = hash.value();
-  char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  return content.append(bytes, sizeof bytes);
-}
 
 void read_tet_mesh(const std::string& path) {
   const auto mesh = openmesh::load_tet_mesh(path);
@@ -137,9 +125,8 @@ std::string tet_mesh(bool has_properties) {
     add_property<OpenMesh::FPropHandleT<std::vector<double>>>(mesh, "list")[0] = {1, 2, 3};
     add_property<openmesh::CPropHandleT<int>>(mesh, "number")[0] = 7;
   }
-  const auto content =
-      written("a.tet", [&](const std::string& path) { openmesh::save_tet_mesh(path, mesh); });
-  return content.substr(0, content.size() - sizeof(std::uint64_t));
+  return without_hash(
+      written("a.tet", [&](const std::string& path) { openmesh::save_tet_mesh(path, mesh); }));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Readers of the program alone: silhouettes, reports, weights that it kept.
 #include <png.h>
 
-#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -10,7 +9,6 @@
 #include "flbc/errors.h"
 #include "fuzz/reader.h"
 #include "report/history.h"
-#include "flbc/byte_archive.h"
 #include "solve/weights_cache.h"
 
 namespace flbc::fuzz {
@@ -78,15 +76,7 @@ std::string kept_weights() {
   solved.solution.weights = SparseWeights(WeightMatrix::Identity(Dim + 1, Dim + 1));
   solved.solution.report.coarse_levels.resize(1);
   cache.store(kKey, solved);
-  const auto content = get_file(cache.path_of(kKey));
-  return content.substr(0, content.size() - sizeof(std::uint64_t));
-}
-
-std::string with_hash(std::string content) {
-  const auto hash = hash_of(content);
-  char bytes[sizeof hash];
-  std::memcpy(bytes, &hash, sizeof hash);
-  return content.append(bytes, sizeof bytes);
+  return without_hash(get_file(cache.path_of(kKey)));
 }
 
 template <int Dim>

@@ -4,11 +4,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "flbc/byte_archive.h"
 #include "flbc/errors.h"
 
 namespace flbc::fuzz {
@@ -49,6 +52,17 @@ void put_file(const std::string& path, const char* bytes, std::size_t size) {
 std::string get_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string with_hash(std::string content) {
+  const auto hash = hash_of(content);
+  char bytes[sizeof hash];
+  std::memcpy(bytes, &hash, sizeof hash);
+  return content.append(bytes, sizeof bytes);
+}
+
+std::string without_hash(const std::string& content) {
+  return content.substr(0, content.size() - sizeof(std::uint64_t));
 }
 
 std::vector<Reader> all_readers() {

@@ -87,6 +87,12 @@ std::string written(const std::string& name, const Write& write) {
   return get_file(folder.path(name));
 }
 
+//! Content followed by its checksum, as states and kept weights are.
+std::string with_hash(std::string content);
+
+//! Content without the checksum that it ends with.
+std::string without_hash(const std::string& content);
+
 //! Hands contents to one reader.
 class Reading {
  public:

@@ -109,7 +109,7 @@ TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
   EXPECT_EQ(outline.facets.cols(), 4);
 }
 
-// What is wrong with it is then said of surfaces, and not of edges that it does not have.
+// Its defects are then those of a surface, and not of edges that it does not have.
 TEST(CageIo, ClosedSurfaceThatLiesFlatIsASurface) {
   auto flat = square();
   flat.polygons = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};

@@ -228,6 +228,35 @@ TYPED_TEST(ResumeTest, StateThatEndsEarlyIsRefused) {
   EXPECT_THROW(solve(sample.cage, sample.mesh, options), InputError);
 }
 
+// Wherever the state has the number of iterations. No other number of it is -5 then.
+TYPED_TEST(ResumeTest, StateWithANegativeNumberOfIterationsIsRefused) {
+  const auto sample = make_sample<TypeParam::value>(Shape::kCorner, 4, 0.2);
+  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    std::vector<State> states;
+    SolverOptions options;
+    options.method = method;
+    options.max_iterations = 700;
+    solve_and_keep(sample, options, {}, states);
+    const auto& [iteration, whole] = states[states.size() / 2];
+    const std::string number(reinterpret_cast<const char*>(&iteration), sizeof iteration);
+    const int negative = -5;
+    int refused = 0;
+    for (auto at = whole.find(number); at != whole.npos; at = whole.find(number, at + 1)) {
+      auto damaged = whole;
+      damaged.replace(at, sizeof negative, reinterpret_cast<const char*>(&negative),
+                      sizeof negative);
+      options.resume_from = damaged;
+      try {
+        solve(sample.cage, sample.mesh, options);
+      } catch (const InputError& error) {
+        refused += std::string(error.what()).find("-5 iterations") != std::string::npos;
+      }
+    }
+    EXPECT_EQ(refused, 1);
+  }
+}
+
 TYPED_TEST(ResumeTest, WhoeverElseSolvesRefusesAndOffersNothing) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);

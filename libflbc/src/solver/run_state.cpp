@@ -99,15 +99,21 @@ RunRecord take_record(SolverOptions& options, const Cage<Dim>& cage, const Domai
   RunRecord record;
   read(record.distances, record.source.source, record.source.vertices, record.source.phi_error,
        record.setup_seconds, record.solve_seconds, record.levels);
-  const bool fits = record.distances.size() == 0 || (record.distances.rows() == cage.size() &&
-                                                     record.distances.cols() == mesh.num_vertices());
+  const bool fits =
+      record.distances.size() == 0 ||
+      (record.distances.rows() == cage.size() && record.distances.cols() == mesh.num_vertices());
   if (!fits) throw InputError("the state to go on from is damaged");
   options.resume_from = read.rest();
   return record;
 }
 
-void refuse_rest(const ByteReader& read) {
+void require_whole_state(const ByteReader& read, const SolveReport& report,
+                         const SolverOptions& options) {
   if (!read.is_at_end()) throw InputError("the state to go on from is longer than it should be");
+  if (report.iterations < 0 || report.iterations > options.max_iterations) {
+    throw InputError("the state to go on from is damaged: it has " +
+                     std::to_string(report.iterations) + " iterations");
+  }
 }
 
 void refuse_state(const SolverOptions& options) {
@@ -115,10 +121,10 @@ void refuse_state(const SolverOptions& options) {
   throw OptionError("resume_from is read by solve() of a cage and a mesh alone");
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                    \
-  template SolverOptions offering_record(SolverOptions, const Cage<Dim>&,                        \
-                                         const DomainMesh<Dim>&, const DistanceMatrix&,         \
-                                         const DistanceReport&, double, double);                 \
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template SolverOptions offering_record(SolverOptions, const Cage<Dim>&, const DomainMesh<Dim>&, \
+                                         const DistanceMatrix&, const DistanceReport&, double,    \
+                                         double);                                                 \
   template RunRecord take_record(SolverOptions&, const Cage<Dim>&, const DomainMesh<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The state of a whole run as bytes (Progress::write_state), put together by those who have a part of
-//! it: solve() itself, the coarser meshes, the method.
+//! The state of a whole run as bytes (Progress::write_state), put together by those who have a part
+//! of it: solve() itself, the coarser meshes, the method.
 #pragma once
 
 #include <functional>
@@ -47,8 +47,10 @@ SolverOptions offering_record(SolverOptions options, const Cage<Dim>& cage,
 template <int Dim>
 RunRecord take_record(SolverOptions& options, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh);
 
-//! Refuses what is left when all has been read. \throws InputError
-void refuse_rest(const ByteReader& read);
+//! To be called when a method has read its part. \param report  as the state has it
+//! \throws InputError if something is left, or if the number of iterations is none of such a run
+void require_whole_state(const ByteReader& read, const SolveReport& report,
+                         const SolverOptions& options);
 
 //! \throws OptionError if options.resume_from is not empty
 void refuse_state(const SolverOptions& options);

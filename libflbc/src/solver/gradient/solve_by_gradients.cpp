@@ -215,7 +215,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   };
   if (goes_on) {
     visit(read);
-    refuse_rest(read);
+    require_whole_state(read, report, options);
   }
   const auto told = offering(options, visit);
   if (options.method == Method::kPaper) {

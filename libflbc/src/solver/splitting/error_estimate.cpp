@@ -153,9 +153,9 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
 // A lower bound by the power of the iterations that the error shrinks as at first, which rates do
 // not see; and by changes alone, for runs that speed up again.
 double ErrorEstimate::least(int iteration, double change) const {
-  const auto [early, part, safety] = constants_of(dim_);
-  const bool counts = start_ != Start::kNearby && iteration <= early;
-  return std::max(kOfChange, counts ? part * square(iteration) : 0) * change;
+  const auto constants = constants_of(dim_);
+  const bool counts = start_ != Start::kNearby && iteration <= constants.early;
+  return std::max(kOfChange, counts ? constants.part * square(iteration) : 0) * change;
 }
 
 double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {

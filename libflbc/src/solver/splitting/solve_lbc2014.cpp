@@ -139,7 +139,7 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
   };
   if (goes_on) {
     visit(read);
-    refuse_rest(read);
+    require_whole_state(read, report, options);
   }
   const auto told =
       offering(with_objective(problem, options, [&] { return splitting->weights(); }),

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
-#include "flbc/errors.h"
 #include "flbc/padded_rows.h"
 #include "solver/iterative_method.h"
 #include "solver/run_state.h"
@@ -47,6 +45,7 @@ template <class Scalar, int Dim>
 class ValueRun {
  public:
   //! \param measure  of the domain \param adaptive  whether the penalty is to be balanced
+  //! \param start  of the first iteration, also of a run that goes on from a state
   ValueRun(const LbcProblem<Dim>& problem, double measure, const SolverOptions& options,
            bool adaptive, splitting::Start start, SolveReport& report)
       : problem_(problem),
@@ -66,11 +65,7 @@ class ValueRun {
   void resume(ByteReader& read) {
     start_history();
     visit(read);
-    refuse_rest(read);
-    if (report_.iterations < 0 || report_.iterations > options_.max_iterations) {
-      throw InputError("the state to go on from is damaged: it has " +
-                       std::to_string(report_.iterations) + " iterations");
-    }
+    require_whole_state(read, report_, options_);
   }
 
   //! From now on the state is one that cannot be gone on from.
