@@ -9,6 +9,7 @@
 #include "flbc/non_negative.h"
 #include "flbc/solver.h"
 #include "paper/experiments.h"
+#include "mesh/cell_geometry.h"
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/splitting/weight_splitting.h"
@@ -61,7 +62,7 @@ std::vector<Variant> variants() {
 template <int Dim>
 splitting::Metric metric_of(const LbcProblem<Dim>& problem, const Variant& variant) {
   splitting::Metric metric;
-  metric.cell = splitting::cell_measures(problem.mesh).array().pow(variant.cell_power);
+  metric.cell = cell_measures(problem.mesh).array().pow(variant.cell_power);
   if (variant.vertex_weight > 0) {
     metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), variant.vertex_weight);
   }

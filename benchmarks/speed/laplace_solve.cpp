@@ -17,6 +17,7 @@
 
 #include "flbc/io/mesh_io.h"
 #include "linear/panel_cholesky.h"
+#include "mesh/cell_geometry.h"
 #include "problem/laplacian.h"
 
 namespace {
@@ -59,23 +60,11 @@ template <int Dim>
 Eigen::SparseMatrix<double> mesh_laplacian(const std::string& path) {
   const auto mesh = io::read_domain<Dim>(path);
   const auto on_boundary = boundary_vertices(build_topology(mesh), mesh.num_vertices());
-  std::vector<Index> place(mesh.num_vertices(), -1);
-  Index size = 0;
+  std::vector<Index> interior;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (!on_boundary[v]) place[v] = size++;
+    if (!on_boundary[v]) interior.push_back(v);
   }
-  const auto stiffness = stiffness_matrix(mesh);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
-      if (place[v] >= 0 && place[it.row()] >= 0) {
-        entries.emplace_back(place[it.row()], place[v], it.value());
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return stiffness_matrix(mesh, cell_measures(mesh), interior);
 }
 
 Eigen::SparseMatrix<double> make_matrix(const Arguments& arguments) {

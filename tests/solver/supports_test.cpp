@@ -100,8 +100,7 @@ struct LinearStep {
 
   LinearStep(const LbcProblem<Dim>& problem, const SupportLists& supports) {
     const auto metric = splitting::measure_metric(problem, true);
-    matrix = RowMatrix(
-        splitting::system_matrix(problem, metric).template selfadjointView<Eigen::Lower>());
+    matrix = splitting::system_matrix(problem, metric);
     order = supports::sweep_order(matrix);
     vertices.resize(matrix.rows());
     Index unknown = 0;

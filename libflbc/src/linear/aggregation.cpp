@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace flbc {
 namespace {
@@ -14,21 +13,21 @@ constexpr double kStrong = 0.02;
 class StrongCouplings {
  public:
   explicit StrongCouplings(const RowMatrix& matrix)
-      : matrix_(matrix), diagonal_(matrix.diagonal()) {}
+      : matrix_(matrix), diagonal_(kStrong * matrix.diagonal()) {}
 
   template <class Action>
   void for_each(Index row, const Action& action) const {
     for (RowMatrix::InnerIterator it(matrix_, row); it; ++it) {
       const auto column = static_cast<Index>(it.col());
       if (column == row) continue;
-      if (std::abs(it.value()) <= kStrong * std::sqrt(diagonal_[row] * diagonal_[column])) continue;
+      if (it.value() * it.value() <= diagonal_[row] * diagonal_[column]) continue;
       action(column, std::abs(it.value()));
     }
   }
 
  private:
   const RowMatrix& matrix_;
-  Eigen::VectorXd diagonal_;
+  Eigen::VectorXd diagonal_;  // times kStrong
 };
 
 constexpr Index kNone = -1;
@@ -89,24 +88,26 @@ RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
   const Eigen::VectorXd diagonal = matrix.diagonal();
   // Gershgorin's bound of the largest eigenvalue of D^-1 A.
   double largest = 0;
-  for (Index row = 0; row < matrix.rows(); ++row) {
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (Index row = 0; row < static_cast<Index>(matrix.rows()); ++row) {
     double sum = 0;
     for (RowMatrix::InnerIterator it(matrix, row); it; ++it) sum += std::abs(it.value());
     largest = std::max(largest, sum / diagonal[row]);
   }
   const double omega = 4 / (3 * std::min(largest, 2.0));
 
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(matrix.nonZeros() + matrix.rows());
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    entries.emplace_back(row, group[row], 1.0);
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      entries.emplace_back(row, group[it.col()], -omega * it.value() / diagonal[row]);
-    }
-  }
-  RowMatrix prolongation(matrix.rows(), num_groups);
-  prolongation.setFromTriplets(entries.begin(), entries.end());
-  return prolongation;
+  return assemble_rows(static_cast<Index>(matrix.rows()), num_groups,
+                       [&](Index row, const auto& add) {
+                         add(group[row], 1.0);
+                         for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
+                           add(group[it.col()], -omega * it.value() / diagonal[row]);
+                         }
+                       });
+}
+
+RowMatrix coarse_matrix(const RowMatrix& matrix, const RowMatrix& prolongation) {
+  const RowMatrix restriction = prolongation.transpose();
+  return product(restriction, product(matrix, prolongation));
 }
 
 }  // namespace flbc

@@ -4,45 +4,47 @@
 namespace flbc {
 
 template <class Scalar>
-MatrixArrays<Scalar>::MatrixArrays(const RowMatrix& matrix) {
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      columns.push_back(static_cast<Index>(it.col()));
-      values.push_back(static_cast<Scalar>(it.value()));
-    }
-    starts.push_back(static_cast<Index>(columns.size()));
-  }
+MatrixArrays<Scalar>::MatrixArrays(const RowMatrix& matrix)
+    : starts(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.rows() + 1),
+      columns(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()),
+      values(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros()) {
 }
 
 template <class Scalar>
-SweepArrays<Scalar>::SweepArrays(const RowMatrix& matrix) {
-  for (Index row = 0; row < matrix.rows(); ++row) {
+SweepArrays<Scalar>::SweepArrays(const RowMatrix& matrix)
+    : upper(matrix.rows()), inverse_diagonal(matrix.rows()) {
+  const auto num_rows = static_cast<Index>(matrix.rows());
+  off_diagonal.starts.resize(num_rows + 1);
+  off_diagonal.columns.resize(matrix.nonZeros() - num_rows);
+  off_diagonal.values.resize(matrix.nonZeros() - num_rows);
+#pragma omp parallel for schedule(static)
+  for (Index row = 0; row < num_rows; ++row) {
+    Index place = matrix.outerIndexPtr()[row] - row;  // every row before has a diagonal
     for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
       const auto column = static_cast<Index>(it.col());
       if (column == row) {
-        inverse_diagonal.push_back(static_cast<Scalar>(1 / it.value()));
-        upper.push_back(static_cast<Index>(off_diagonal.columns.size()));
+        inverse_diagonal[row] = static_cast<Scalar>(1 / it.value());
+        upper[row] = place;
         continue;
       }
-      off_diagonal.columns.push_back(column);
-      off_diagonal.values.push_back(static_cast<Scalar>(it.value()));
+      off_diagonal.columns[place] = column;
+      off_diagonal.values[place++] = static_cast<Scalar>(it.value());
     }
-    off_diagonal.starts.push_back(static_cast<Index>(off_diagonal.columns.size()));
+    off_diagonal.starts[row + 1] = place;
   }
 }
 
 RowMatrix reordered(const RowMatrix& matrix, const std::vector<Index>& rows,
                     const std::vector<Index>& columns) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(matrix.nonZeros());
-  for (Index row = 0; row < matrix.rows(); ++row) {
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
-      entries.emplace_back(rows[row], columns[it.col()], it.value());
-    }
-  }
-  RowMatrix moved(matrix.rows(), matrix.cols());
-  moved.setFromTriplets(entries.begin(), entries.end());
-  return moved;
+  const auto num_rows = static_cast<Index>(matrix.rows());
+  std::vector<Index> row_at(num_rows);
+  for (Index row = 0; row < num_rows; ++row) row_at[rows[row]] = row;
+  return assemble_rows(num_rows, static_cast<Index>(matrix.cols()),
+                       [&](Index row, const auto& add) {
+                         for (RowMatrix::InnerIterator it(matrix, row_at[row]); it; ++it) {
+                           add(columns[it.col()], it.value());
+                         }
+                       });
 }
 
 template struct MatrixArrays<float>;

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "linear/aggregation.h"
+#include "linear/row_matrix.h"
 
 namespace flbc {
 
@@ -28,6 +28,7 @@ struct SweepArrays {
   std::vector<Scalar> inverse_diagonal;
 
   SweepArrays() = default;
+  //! \param matrix  with a diagonal without gaps
   explicit SweepArrays(const RowMatrix& matrix);
 };
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "linear/aggregation.h"
+
 namespace flbc {
 namespace {
 
@@ -46,7 +48,7 @@ Multigrid<Scalar>::Multigrid(RowMatrix matrix, std::size_t stride)
   complexity_ = 1;
   while (!coarsest_) {
     RowMatrix prolongation = smoothed_prolongation(matrix);
-    RowMatrix coarse = prolongation.transpose() * RowMatrix(matrix * prolongation);
+    RowMatrix coarse = coarse_matrix(matrix, prolongation);
     complexity_ += static_cast<double>(coarse.nonZeros()) / entries;
     // Unknowns without couplings cannot be grouped.
     const bool stalls = 5 * coarse.rows() > 4 * matrix.rows();

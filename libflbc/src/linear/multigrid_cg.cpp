@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace flbc {
@@ -13,13 +14,13 @@ namespace {
 constexpr double kReduction = 1e-14;  // of the squared error, estimated as r . B^-1 r
 constexpr int kMostSteps = 200;
 
-// A thread's columns on their way. Every column has scalars of its own, and they are zero once it has
-// arrived: it stays as it is, whatever the others in its slice do.
+// A thread's columns on their way. Every column has scalars of its own, and they are zero once it
+// has arrived: it stays as it is, whatever the others in its slice do.
 class ColumnSlice {
  public:
   //! \param arrays  solution, residual, direction and its product, size() rows each
-  ColumnSlice(const RowMatrix& matrix, Multigrid<double>& multigrid, std::size_t stride, Slice slice,
-              const std::vector<double*>& arrays)
+  ColumnSlice(const RowMatrix& matrix, Multigrid<double>& multigrid, std::size_t stride,
+              Slice slice, const std::vector<double*>& arrays)
       : matrix_(matrix),
         multigrid_(multigrid),
         stride_(stride),
@@ -110,8 +111,7 @@ class ColumnSlice {
 
 }  // namespace
 
-MultigridCg::MultigridCg(const Eigen::SparseMatrix<double>& matrix)
-    : matrix_(matrix.selfadjointView<Eigen::Lower>()), position_(matrix.rows()) {
+MultigridCg::MultigridCg(RowMatrix matrix) : matrix_(std::move(matrix)), position_(matrix_.rows()) {
   std::iota(position_.begin(), position_.end(), 0);
 }
 

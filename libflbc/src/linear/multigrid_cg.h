@@ -14,8 +14,8 @@ namespace flbc {
 
 class MultigridCg {
  public:
-  //! \param matrix  symmetric positive definite; only the lower triangle is read
-  explicit MultigridCg(const Eigen::SparseMatrix<double>& matrix);
+  //! \param matrix  symmetric positive definite, both triangles
+  explicit MultigridCg(RowMatrix matrix);
 
   //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }
@@ -32,7 +32,7 @@ class MultigridCg {
   void solve(double* rows, std::size_t stride) const;
 
  private:
-  RowMatrix matrix_;  // both triangles
+  RowMatrix matrix_;
   std::vector<Index> position_;
   mutable std::optional<Multigrid<double>> multigrid_;  // of the stride that was solved for last
   mutable std::size_t stride_ = 0;

@@ -16,9 +16,9 @@ namespace flbc {
 template <class Scalar>
 class SpdSolver {
  public:
-  //! \param matrix  symmetric positive definite, lower triangle \param stride  of the rows to solve
+  //! \param matrix  symmetric positive definite, both triangles \param stride  of the rows to solve
   //! for \param kind  kDirect or kMultigrid
-  SpdSolver(const Eigen::SparseMatrix<double>& matrix, std::size_t stride, LinearSolver kind)
+  SpdSolver(const RowMatrix& matrix, std::size_t stride, LinearSolver kind)
       : solver_(make(matrix, stride, kind)) {
     if (const auto* cholesky = std::get_if<PanelCholesky<Scalar>>(&solver_)) {
       position_ = cholesky->position();
@@ -46,10 +46,9 @@ class SpdSolver {
 
  private:
   using Solver = std::variant<PanelCholesky<Scalar>, Multigrid<Scalar>>;
-  static Solver make(const Eigen::SparseMatrix<double>& matrix, std::size_t stride,
-                     LinearSolver kind) {
+  static Solver make(const RowMatrix& matrix, std::size_t stride, LinearSolver kind) {
     if (kind == LinearSolver::kDirect) return PanelCholesky<Scalar>(matrix);
-    return Multigrid<Scalar>(RowMatrix(matrix.template selfadjointView<Eigen::Lower>()), stride);
+    return Multigrid<Scalar>(matrix, stride);
   }
 
   Solver solver_;

@@ -31,6 +31,15 @@ CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
   return geometry;
 }
 
+//! Measures of all cells.
+template <int Dim>
+Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
+  Eigen::VectorXd measures(mesh.num_cells());
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = cell_geometry(mesh, s).measure;
+  return measures;
+}
+
 //! The centroid of a simplex, be it a cell or a facet.
 //! \param points  Dim x V
 //! \param simplices  the corners of each, a column per simplex

@@ -1,35 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/laplacian.h"
 
+#include <numeric>
+
 #include "mesh/cell_geometry.h"
+#include "mesh/vertex_cells.h"
 
 namespace flbc {
 
 template <int Dim>
-Eigen::SparseMatrix<double> stiffness_matrix(const DomainMesh<Dim>& mesh) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve((Dim + 1) * (Dim + 1) * static_cast<std::size_t>(mesh.num_cells()));
+RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh, const Eigen::VectorXd& cell_factors,
+                           const std::vector<Index>& vertices) {
+  using Local = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+  std::vector<Local> locals(mesh.num_cells());
+#pragma omp parallel for schedule(static)
   for (Index s = 0; s < mesh.num_cells(); ++s) {
-    const auto geometry = cell_geometry(mesh, s);
-    const Eigen::Matrix<double, Dim + 1, Dim + 1> local =
-        geometry.measure * geometry.hat_gradients.transpose() * geometry.hat_gradients;
-    for (int a = 0; a <= Dim; ++a) {
-      for (int b = 0; b <= Dim; ++b) {
-        entries.emplace_back(mesh.cells(a, s), mesh.cells(b, s), local(a, b));
+    const auto hat = cell_geometry(mesh, s).hat_gradients;
+    locals[s] = cell_factors[s] * (hat.transpose() * hat);
+  }
+  constexpr Index kNone = -1;
+  std::vector<Index> place(mesh.num_vertices(), kNone);
+  for (std::size_t row = 0; row < vertices.size(); ++row) {
+    place[vertices[row]] = static_cast<Index>(row);
+  }
+  const VertexCells around(mesh);
+  const auto size = static_cast<Index>(vertices.size());
+  return assemble_rows(size, size, [&](Index row, const auto& add) {
+    const Index vertex = vertices[row];
+    for (const Index s : around.cells_of(vertex)) {
+      int own = 0;
+      while (mesh.cells(own, s) != vertex) ++own;
+      for (int k = 0; k <= Dim; ++k) {
+        const Index column = place[mesh.cells(k, s)];
+        if (column != kNone) add(column, locals[s](own, k));
       }
     }
-  }
-  Eigen::SparseMatrix<double> stiffness(mesh.num_vertices(), mesh.num_vertices());
-  stiffness.setFromTriplets(entries.begin(), entries.end());
-  return stiffness;
+  });
+}
+
+template <int Dim>
+RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh) {
+  std::vector<Index> all(mesh.num_vertices());
+  std::iota(all.begin(), all.end(), 0);
+  return stiffness_matrix(mesh, cell_measures(mesh), all);
 }
 
 template <int Dim>
 Eigen::VectorXd lumped_mass(const DomainMesh<Dim>& mesh) {
+  const Eigen::VectorXd shares = cell_measures(mesh) / (Dim + 1);
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(mesh.num_vertices());
   for (Index s = 0; s < mesh.num_cells(); ++s) {
-    const double share = cell_geometry(mesh, s).measure / (Dim + 1);
-    for (int k = 0; k <= Dim; ++k) mass[mesh.cells(k, s)] += share;
+    for (int k = 0; k <= Dim; ++k) mass[mesh.cells(k, s)] += shares[s];
   }
   return mass;
 }
@@ -45,30 +66,23 @@ Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n) {
 
 template <int Dim>
 DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
-                                        const BoundaryValues<Dim>& boundary,
-                                        LinearSolver solver)
+                                        const BoundaryValues<Dim>& boundary, LinearSolver solver)
     : interior_(boundary.interior_vertices()), boundary_(boundary.vertices) {
   std::vector<Index> place = boundary.boundary_index;  // among the interior or boundary vertices
   for (std::size_t i = 0; i < interior_.size(); ++i) place[interior_[i]] = static_cast<Index>(i);
 
-  using Triplet = Eigen::Triplet<double, Index>;
-  std::vector<Triplet> inner;  // lower triangle
-  std::vector<Triplet> outer;
   const auto stiffness = stiffness_matrix(mesh);
-  for (const Index v : interior_) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness, v); it; ++it) {
-      const auto w = static_cast<Index>(it.row());
-      if (!boundary.is_interior(w)) {
-        outer.emplace_back(place[v], place[w], it.value());
-      } else if (w >= v) {
-        inner.emplace_back(place[w], place[v], it.value());
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(interior_.size(), interior_.size());
-  matrix.setFromTriplets(inner.begin(), inner.end());
-  coupling_.resize(interior_.size(), boundary_.size());
-  coupling_.setFromTriplets(outer.begin(), outer.end());
+  const auto part = [&](const std::vector<Index>& columns, bool inside) {
+    return assemble_rows(static_cast<Index>(interior_.size()), static_cast<Index>(columns.size()),
+                         [&](Index row, const auto& add) {
+                           for (RowMatrix::InnerIterator it(stiffness, interior_[row]); it; ++it) {
+                             const auto w = static_cast<Index>(it.col());
+                             if (boundary.is_interior(w) == inside) add(place[w], it.value());
+                           }
+                         });
+  };
+  const RowMatrix matrix = part(interior_, true);
+  coupling_ = part(boundary_, false);
   if (solver == LinearSolver::kDirect) {
     interior_solver_.emplace(PanelCholesky<double>(matrix));
   } else {
@@ -82,8 +96,8 @@ WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values
   const Eigen::Index k = boundary_values.rows();
   const std::size_t stride = padded(k);
   AlignedArray<double> rows(interior_.size() * stride);
-  const auto& position =
-      std::visit([](const auto& solver) -> auto& { return solver.position(); }, *interior_solver_);
+  const auto& position = std::visit(
+      [](const auto& solver) -> auto& { return solver.position(); }, *interior_solver_);
   const auto row_of = [&](std::size_t i) {
     return Eigen::Map<Eigen::VectorXd>(rows.data() + position[i] * stride, k);
   };
@@ -106,10 +120,12 @@ WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values
   return weights;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                    \
-  template Eigen::SparseMatrix<double> stiffness_matrix(const DomainMesh<Dim>&); \
-  template Eigen::VectorXd lumped_mass(const DomainMesh<Dim>&);                  \
-  template Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>&, Index);   \
+#define FLBC_INSTANTIATE(Dim)                                                         \
+  template RowMatrix stiffness_matrix(const DomainMesh<Dim>&, const Eigen::VectorXd&, \
+                                      const std::vector<Index>&);                     \
+  template RowMatrix stiffness_matrix(const DomainMesh<Dim>&);                        \
+  template Eigen::VectorXd lumped_mass(const DomainMesh<Dim>&);                       \
+  template Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>&, Index);        \
   template class DirichletProblem<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

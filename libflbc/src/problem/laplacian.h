@@ -11,16 +11,23 @@
 
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/types.h"
 #include "flbc/linear_solver.h"
+#include "flbc/types.h"
 #include "linear/multigrid_cg.h"
 #include "linear/panel_cholesky.h"
 
 namespace flbc {
 
-//! Stiffness matrix, V x V: K(v, w) = sum over cells of A grad(lambda_v) . grad(lambda_w).
+//! Sum over cells of m_s grad(lambda_v) . grad(lambda_w), symmetric.
+//! \param cell_factors  m, one per cell
+//! \param vertices  v and w, ascending: the vertices that have a row and a column
 template <int Dim>
-Eigen::SparseMatrix<double> stiffness_matrix(const DomainMesh<Dim>& mesh);
+RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh, const Eigen::VectorXd& cell_factors,
+                           const std::vector<Index>& vertices);
+
+//! The same with each cell's measure for all vertices: the stiffness matrix, V x V.
+template <int Dim>
+RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh);
 
 //! Lumped mass per vertex: its share of the measure of the cells around it.
 template <int Dim>
@@ -48,9 +55,9 @@ class DirichletProblem {
                      const Eigen::MatrixXd& divergence = {}) const;
 
  private:
-  std::vector<Index> interior_;                            // interior vertices, ascending
-  std::vector<Index> boundary_;                            // boundary vertices, ascending
-  Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_;  // interior x boundary part of K
+  std::vector<Index> interior_;  // interior vertices, ascending
+  std::vector<Index> boundary_;  // boundary vertices, ascending
+  RowMatrix coupling_;           // interior x boundary part of K
   using InteriorSolver = std::variant<PanelCholesky<double>, MultigridCg>;
   std::optional<InteriorSolver> interior_solver_;  // interior x interior part
 };

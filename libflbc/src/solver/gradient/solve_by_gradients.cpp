@@ -37,7 +37,7 @@ LinearSolver linear_solver_for(const LbcProblem<Dim>& problem, const SolverOptio
 template <int Dim>
 double penalty_for(const LbcProblem<Dim>& problem) {
   constexpr double kFactor = Dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
-  const Eigen::VectorXd measures = splitting::cell_measures(problem.mesh);
+  const Eigen::VectorXd measures = cell_measures(problem.mesh);
   const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
   const double size = bounding_box_diagonal(problem.cage.points);
   return kFactor * size * size * std::pow(length, Dim - 1);

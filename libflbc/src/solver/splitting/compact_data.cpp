@@ -39,32 +39,46 @@ double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
   return measure * measure * boundary_flux_density(problem, s).squaredNorm();
 }
 
+// What is inside in front, in its order; std::stable_partition asks for memory.
+template <std::size_t N, class Predicate>
+void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
+  auto end = corners.begin();
+  for (auto corner = corners.begin(); corner != corners.end(); ++corner) {
+    if (is_inside(*corner)) std::rotate(end++, corner, corner + 1);
+  }
+}
+
 // Cells all of whose corners lie on the boundary have nothing to say about the weights.
 template <class Scalar, class Stored, int Dim>
 void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
                   CompactData<Scalar, Stored, Dim>& data) {
   const auto num_interior = static_cast<Index>(data.vertices.size());
+  const auto row_of = [&](int k, Index s) { return data.row_of[problem.mesh.cells(k, s)]; };
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    bool is_inside = false;
+    for (int k = 0; k <= Dim; ++k) is_inside = is_inside || row_of(k, s) < num_interior;
+    if (is_inside) {
+      data.cell_index.push_back(s);
+    } else {
+      data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
+    }
+  }
+  data.cells.resize(data.cell_index.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t place = 0; place < data.cells.size(); ++place) {
+    const Index s = data.cell_index[place];
     std::array<int, Dim + 1> corners;
     std::iota(corners.begin(), corners.end(), 0);
-    const auto row = [&](int k) { return data.row_of[problem.mesh.cells(k, s)]; };
-    std::stable_partition(corners.begin(), corners.end(),
-                          [&](int k) { return row(k) < num_interior; });
-    if (row(corners[0]) >= num_interior) {
-      data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
-      continue;
-    }
+    inner_first(corners, [&](int k) { return row_of(k, s) < num_interior; });
     const auto hats = cell_geometry(problem.mesh, s).hat_gradients;
     const double root = std::sqrt(metric.cell[s]);
-    Cell<Scalar, Dim> cell;
+    auto& cell = data.cells[place];
     for (int k = 0; k <= Dim; ++k) {
-      cell.rows[k] = row(corners[k]);
+      cell.rows[k] = row_of(corners[k], s);
       for (int d = 0; d < Dim; ++d) {
         cell.hats[k][d] = static_cast<Scalar>(root * hats(d, corners[k]));
       }
     }
-    data.cells.push_back(cell);
-    data.cell_index.push_back(s);
   }
 }
 
@@ -96,16 +110,8 @@ template <int Dim>
 double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
   constexpr double kTypical = 8;
   constexpr double kLargest = 1000;
-  double sum = 0;
-  double largest = 0;
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    const double measure = cell_geometry(problem.mesh, s).measure;
-    const double radius2 = measure * measure / metric.cell[s];
-    sum += radius2;
-    largest = std::max(largest, radius2);
-  }
-  return std::min(kTypical / std::sqrt(sum / problem.mesh.num_cells()),
-                  kLargest / std::sqrt(largest));
+  const Eigen::ArrayXd radii2 = cell_measures(problem.mesh).array().square() / metric.cell.array();
+  return std::min(kTypical / std::sqrt(radii2.mean()), kLargest / std::sqrt(radii2.maxCoeff()));
 }
 
 template <class Scalar, class Stored, int Dim>

@@ -11,13 +11,6 @@
 namespace flbc::splitting {
 
 template <int Dim>
-Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
-  Eigen::VectorXd measures(mesh.num_cells());
-  for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = cell_geometry(mesh, s).measure;
-  return measures;
-}
-
-template <int Dim>
 Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative) {
   // How firmly non-negativity is tied to the gradients: flat between 10 and 300.
   constexpr double kVertexWeight = 100;
@@ -29,28 +22,13 @@ Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative) {
 }
 
 template <int Dim>
-Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
-  std::vector<Index> unknown(problem.mesh.num_vertices(), -1);
-  Index count = 0;
-  for (const Index v : problem.boundary.interior_vertices()) unknown[v] = count++;
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(problem.mesh.num_cells()) * (Dim + 1) * (Dim + 2) / 2);
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    const auto hat = cell_geometry(problem.mesh, s).hat_gradients;
-    for (int a = 0; a <= Dim; ++a) {
-      for (int b = 0; b <= Dim; ++b) {
-        const Index row = unknown[problem.mesh.cells(a, s)];
-        const Index column = unknown[problem.mesh.cells(b, s)];
-        if (column < 0 || row < column) continue;
-        entries.emplace_back(row, column, metric.cell[s] * hat.col(a).dot(hat.col(b)));
-      }
-    }
+RowMatrix system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
+  const auto interior = problem.boundary.interior_vertices();
+  auto matrix = stiffness_matrix(problem.mesh, metric.cell, interior);
+  if (metric.vertex.size() == 0) return matrix;
+  for (std::size_t row = 0; row < interior.size(); ++row) {
+    matrix.coeffRef(row, row) += metric.vertex[interior[row]];
   }
-  for (Index v = 0; v < problem.mesh.num_vertices() && metric.vertex.size() > 0; ++v) {
-    if (unknown[v] >= 0) entries.emplace_back(unknown[v], unknown[v], metric.vertex[v]);
-  }
-  Eigen::SparseMatrix<double> matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
@@ -154,11 +132,9 @@ FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)
 FLBC_INSTANTIATE(double, 3)
 #undef FLBC_INSTANTIATE
-template Eigen::VectorXd cell_measures(const DomainMesh<2>&);
-template Eigen::VectorXd cell_measures(const DomainMesh<3>&);
 template Metric measure_metric(const LbcProblem<2>&, bool);
 template Metric measure_metric(const LbcProblem<3>&, bool);
-template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<2>&, const Metric&);
-template Eigen::SparseMatrix<double> system_matrix(const LbcProblem<3>&, const Metric&);
+template RowMatrix system_matrix(const LbcProblem<2>&, const Metric&);
+template RowMatrix system_matrix(const LbcProblem<3>&, const Metric&);
 
 }  // namespace flbc::splitting

@@ -6,10 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
+#include "linear/row_matrix.h"
 
 namespace flbc::splitting {
 
@@ -22,18 +21,14 @@ struct Metric {
   double largest_weight = std::numeric_limits<double>::infinity();
 };
 
-//! A_s of every cell, F.
-template <int Dim>
-Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh);
-
 //! The metric of the continuous problem, so that the number of iterations depends on the mesh
 //! little: cells weigh what they measure.
 template <int Dim>
 Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative);
 
-//! sum m grad^T grad + k over the interior vertices, ascending; the lower triangle.
+//! sum m grad^T grad + k over the interior vertices, ascending.
 template <int Dim>
-Eigen::SparseMatrix<double> system_matrix(const LbcProblem<Dim>& problem, const Metric& metric);
+RowMatrix system_matrix(const LbcProblem<Dim>& problem, const Metric& metric);
 
 //! The constraints { sum w = 1, sum w c = x } of every row.
 template <class Scalar, int Dim>

@@ -56,7 +56,7 @@ typename SupportMultigrid<Scalar, Dim>::LevelData SupportMultigrid<Scalar, Dim>:
   LevelData next;
   if (matrix.rows() <= kCoarsest) return next;
   const RowMatrix prolongation = smoothed_prolongation(matrix);
-  RowMatrix coarse = prolongation.transpose() * RowMatrix(matrix * prolongation);
+  RowMatrix coarse = coarse_matrix(matrix, prolongation);
   // Unknowns without couplings cannot be grouped.
   if (5 * coarse.rows() > 4 * matrix.rows()) return next;
   next.order = sweep_order(coarse);

@@ -12,12 +12,6 @@
 namespace flbc::supports {
 namespace {
 
-template <int Dim>
-RowMatrix both_triangles(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
-  return RowMatrix(
-      splitting::system_matrix(problem, metric).template selfadjointView<Eigen::Lower>());
-}
-
 // One thread's dense rows of a patch.
 template <class Scalar>
 struct PatchRows {
@@ -51,7 +45,7 @@ SupportSplitting<Scalar, Stored, Dim>::SupportSplitting(const LbcProblem<Dim>& p
                                                         splitting::Metric metric, double penalty,
                                                         double relaxation, SupportLists supports)
     : SupportSplitting(problem, metric, penalty, relaxation, std::move(supports),
-                       both_triangles(problem, metric)) {
+                       splitting::system_matrix(problem, metric)) {
 }
 
 template <class Scalar, class Stored, int Dim>
