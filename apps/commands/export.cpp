@@ -65,7 +65,7 @@ void check_arguments(ExportArguments& arguments) {
 // Vertex groups of Blender, as a program.
 template <int Dim>
 void write_vertex_groups(const PointList<Dim>& rest, const PointList<Dim>& points,
-                         const WeightMatrix& weights, const ExportArguments& arguments) {
+                         const SparseWeights& weights, const ExportArguments& arguments) {
   const auto few = naming(arguments.model, [&] {
     return sparsify<Dim>(rest, points, weights, {arguments.options.max_influences});
   });
@@ -137,10 +137,10 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const MovableModel<Dim> model(same);
   const auto& points = model.points();
   const auto surface = model.surface();
-  const auto weights = io::read_weights(arguments.weights);
+  const auto weights = io::read_sparse_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(weights, rest.cols(), points.cols(), files);
-  check_reproduction(SparseWeights(weights), rest, points, files);
+  check_reproduction(weights, rest, points, files);
   if (io::extension_of(arguments.output) == "py") {
     return write_vertex_groups<Dim>(rest, points, weights, arguments);
   }
@@ -202,7 +202,10 @@ void add_export_command(CLI::App& app, int& exit_status) {
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "most influences per vertex, 8 or 4 (8)");
   command->add_option("--quantize", a.bits, "store weights with 16 or 8 bits (as float)");
-  command->add_option("-o,--output", a.output, "the skin: .glb, .usda, or .py for vertex groups in Blender")->required();
+  command
+      ->add_option("-o,--output", a.output,
+                   "the skin: .glb, .usda, or .py for vertex groups in Blender")
+      ->required();
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);

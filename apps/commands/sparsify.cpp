@@ -78,13 +78,14 @@ ConnectedPoints<Dim> load_points(const std::string& path) {
 }
 
 template <int Dim>
-WeightMatrix load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
-                          const PointList<Dim>& points) {
+SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
+                           const PointList<Dim>& points) {
   if (io::holds(arguments.weights, {io::Content::kTriplets})) {
-    return io::read_weight_triplets(arguments.weights, static_cast<Index>(control_points.cols()),
-                                    static_cast<Index>(points.cols()));
+    return SparseWeights(io::read_weight_triplets(arguments.weights,
+                                                  static_cast<Index>(control_points.cols()),
+                                                  static_cast<Index>(points.cols())));
   }
-  auto weights = io::read_weights(arguments.weights);
+  auto weights = io::read_sparse_weights(arguments.weights);
   check_sizes(weights, control_points.cols(), points.cols(),
               {arguments.weights, arguments.cage, arguments.points});
   return weights;
@@ -109,16 +110,16 @@ std::uintmax_t size_of_file(const std::string& path) {
 }
 
 template <int Dim>
-WeightMatrix make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
-                         const WeightMatrix& weights, const std::vector<PointList<Dim>>& poses,
-                         const SparsifyArguments& arguments) {
+SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
+                          const SparseWeights& weights, const std::vector<PointList<Dim>>& poses,
+                          const SparsifyArguments& arguments) {
   const std::string stage = "reducing influences";
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
   options.progress = [&](double done) { bar.show(stage, done); };
   if (arguments.method == kPoisson) {
-    return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
-                                  options);
+    return SparseWeights(reduce_by_poisson<Dim>(control_points, model.points, model.edges,
+                                                weights.dense(), poses, options));
   }
   return sparsify<Dim>(control_points, model.points, weights, options);
 }

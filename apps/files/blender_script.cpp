@@ -2,13 +2,15 @@
 #include "files/blender_script.h"
 
 #include <sstream>
+#include <vector>
 
 #include "flbc/bounding_box.h"
 
 namespace flbc::app {
 namespace {
 
-constexpr const char* kHead = R"(# Written by flbc export. In Blender: import the model, select it, and run this as a script.
+constexpr const char* kHead =
+    R"(# Written by flbc export. In Blender: import the model, select it, and run this as a script.
 # The model gets a vertex group and a bone for every control point of its cage.
 import bpy
 from mathutils import Vector
@@ -38,32 +40,47 @@ bpy.ops.object.mode_set(mode='OBJECT')
 model.modifiers.new('cage', 'ARMATURE').object = armature
 )";
 
+struct Member {
+  Index vertex;
+  double weight;
+};
+
+// By control point: the vertices on which it has an influence.
+std::vector<std::vector<Member>> groups_of(const SparseWeights& weights) {
+  std::vector<std::vector<Member>> groups(weights.num_control_points());
+  for (Index v = 0; v < weights.num_points(); ++v) {
+    weights.visit(v, [&](Index i, double weight) {
+      if (weight > 0) groups[i].push_back({v, weight});
+    });
+  }
+  return groups;
+}
+
 }  // namespace
 
 template <int Dim>
-std::string blender_script(const PointList<Dim>& control_points, const WeightMatrix& weights) {
+std::string blender_script(const PointList<Dim>& control_points, const SparseWeights& weights) {
   constexpr double kBoneLength = 0.02;  // of the cage's size
   std::ostringstream text;
   text.precision(9);
-  text << kHead << "NUM_VERTICES = " << weights.cols() << "\nBONE_LENGTH = "
-       << kBoneLength * bounding_box_diagonal<Dim>(control_points) << "\nCONTROL_POINTS = [\n";
+  text << kHead << "NUM_VERTICES = " << weights.num_points()
+       << "\nBONE_LENGTH = " << kBoneLength * bounding_box_diagonal<Dim>(control_points)
+       << "\nCONTROL_POINTS = [\n";
   for (Eigen::Index i = 0; i < control_points.cols(); ++i) {
     text << "    (" << control_points(0, i) << ", " << control_points(1, i) << ", "
          << (Dim == 3 ? control_points(Dim - 1, i) : 0) << "),\n";
   }
   text << "]\nINFLUENCES = [  # per control point: vertex, weight\n";
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+  for (const auto& group : groups_of(weights)) {
     text << "    [";
-    for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-      if (weights(i, v) > 0) text << '(' << v << ", " << weights(i, v) << "), ";
-    }
+    for (const auto& [vertex, weight] : group) text << '(' << vertex << ", " << weight << "), ";
     text << "],\n";
   }
   text << "]\n" << kTail;
   return text.str();
 }
 
-template std::string blender_script(const PointList<2>&, const WeightMatrix&);
-template std::string blender_script(const PointList<3>&, const WeightMatrix&);
+template std::string blender_script(const PointList<2>&, const SparseWeights&);
+template std::string blender_script(const PointList<3>&, const SparseWeights&);
 
 }  // namespace flbc::app

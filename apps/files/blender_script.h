@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -15,6 +16,6 @@ namespace flbc::app {
 //! \param control_points  Dim x n, in the model's coordinates
 //! \param weights  n x P
 template <int Dim>
-std::string blender_script(const PointList<Dim>& control_points, const WeightMatrix& weights);
+std::string blender_script(const PointList<Dim>& control_points, const SparseWeights& weights);
 
 }  // namespace flbc::app

@@ -57,7 +57,7 @@ std::string percents(const Json& errors) {
 }  // namespace
 
 template <int Dim>
-Json weights_json(const std::string& file, std::uintmax_t bytes, const WeightMatrix& weights,
+Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWeights& weights,
                   const PointList<Dim>& control_points, const PointList<Dim>& points) {
   const auto influences = count_influences(weights);
   const auto quality = measure_quality(control_points, points, weights);
@@ -102,9 +102,9 @@ std::string summary_of(const Json& report) {
   return text.str();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                         \
-  template Json weights_json(const std::string&, std::uintmax_t, const WeightMatrix&, \
-                             const PointList<Dim>&, const PointList<Dim>&);           \
+#define FLBC_INSTANTIATE(Dim)                                                          \
+  template Json weights_json(const std::string&, std::uintmax_t, const SparseWeights&, \
+                             const PointList<Dim>&, const PointList<Dim>&);            \
   template Json errors_json(const SparsifiedWeights<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

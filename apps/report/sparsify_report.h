@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flbc/edge_list.h"
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -19,8 +20,8 @@ struct SparsifiedWeights {
   const PointList<Dim>& control_points;
   const PointList<Dim>& points;
   const EdgeList& edges;  //!< may be empty
-  const WeightMatrix& before;
-  const WeightMatrix& after;
+  const SparseWeights& before;
+  const SparseWeights& after;
   const std::vector<PointList<Dim>>& poses;
   const std::vector<std::string>& pose_files;
 };
@@ -28,7 +29,7 @@ struct SparsifiedWeights {
 //! \param bytes  size of the file
 template <int Dim>
 nlohmann::ordered_json weights_json(const std::string& file, std::uintmax_t bytes,
-                                    const WeightMatrix& weights,
+                                    const SparseWeights& weights,
                                     const PointList<Dim>& control_points,
                                     const PointList<Dim>& points);
 

@@ -67,8 +67,8 @@ ErrorNorms deformation_error_in(const Json& errors) {
   return all;
 }
 
-std::string facts_of(const WeightMatrix& before, const WeightMatrix& after, const ErrorNorms& error,
-                     std::size_t num_poses) {
+std::string facts_of(const SparseWeights& before, const SparseWeights& after,
+                     const ErrorNorms& error, std::size_t num_poses) {
   const auto influences = count_influences(after);
   const char* const poses = num_poses == 0   ? "smooth random poses"
                             : num_poses == 1 ? "the pose"
@@ -129,27 +129,27 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   gltf::SkinOptions options;
   options.max_influences = max_influences;
   options.name = shape.name;
-  options.cage_edges = run.cage_file != nullptr
-                           ? edges_of_cage<Dim>(run.cage_file->model().soup)
-                           : edges_of_cage<Dim>(soup_of(run.cage));
-  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.sparse, shape.surface,
-                                      options, animation);
+  options.cage_edges = run.cage_file != nullptr ? edges_of_cage<Dim>(run.cage_file->model().soup)
+                                                : edges_of_cage<Dim>(soup_of(run.cage));
+  const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
+                                      shape.surface, options, animation);
   run.folder.add(name, facts_of(skin, run) + left_out_of(skin), [&](const std::string& path) {
     io::write_file(path, [&](std::ostream& file) { file << skin.content; });
   });
   const double size = bounding_box_diagonal<Dim>(shape.points);
-  return {{"file", name},
-          {"bytes", skin.content.size()},
-          {"vertices", skin.vertices},
-          {"triangles", skin.triangles},
-          {"joints", skin.joints},
-          {"moving_joints", skin.moving_joints},
-          {"max_influences", skin.influences},
-          {"left_out", skin.left_out},
-          {"times", animation.times},
-          {"position_change", skin.position_change / size},
-          {"deformation_error",
-           {{"rms", skin.deformation_error.rms / size}, {"max", skin.deformation_error.max / size}}}};
+  return {
+      {"file", name},
+      {"bytes", skin.content.size()},
+      {"vertices", skin.vertices},
+      {"triangles", skin.triangles},
+      {"joints", skin.joints},
+      {"moving_joints", skin.moving_joints},
+      {"max_influences", skin.influences},
+      {"left_out", skin.left_out},
+      {"times", animation.times},
+      {"position_change", skin.position_change / size},
+      {"deformation_error",
+       {{"rms", skin.deformation_error.rms / size}, {"max", skin.deformation_error.max / size}}}};
 }
 
 }  // namespace
@@ -165,11 +165,13 @@ void reduce_influences(Run<Dim>& run) {
   std::vector<std::string> pose_files;
   for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
 
+  const SparseWeights before(run.dense);
+  const SparseWeights after(run.sparse);
   const auto errors = errors_json<Dim>(
-      {run.cage.points, shape.points, shape.edges, run.dense, run.sparse, poses, pose_files});
+      {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
   const auto error = deformation_error_in(errors);
-  run.folder.add(kSparseWeights, facts_of(run.dense, run.sparse, error, poses.size()),
-                 [&](const std::string& path) { io::write_weights(path, run.sparse); });
+  run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
+                 [&](const std::string& path) { io::write_weights(path, after); });
 
   const auto size_of_file = [&](const std::string& name) {
     std::error_code ignored;
@@ -178,10 +180,10 @@ void reduce_influences(Run<Dim>& run) {
   run.report["sparsify"] = {{"method", uses_poisson(run) ? kPoisson : kQuadratic},
                             {"max_influences", run.arguments.max_influences},
                             {"deformation_error", {{"rms", error.rms}, {"max", error.max}}},
-                            {"before", weights_json(kWeights, size_of_file(kWeights), run.dense,
+                            {"before", weights_json(kWeights, size_of_file(kWeights), before,
                                                     run.cage.points, shape.points)},
                             {"after", weights_json(kSparseWeights, size_of_file(kSparseWeights),
-                                                   run.sparse, run.cage.points, shape.points)},
+                                                   after, run.cage.points, shape.points)},
                             {"error", errors}};
 }
 

@@ -47,8 +47,8 @@ void write_skin_file(const std::string& path, SkinInput<Dim> input,
     input.model.soup.points.push_back(place);
   }
   const auto surface = gltf::surface_of_model<Dim>(input.model);
-  const auto made =
-      gltf::export_skin<Dim>(input.cage, rest, input.weights, surface, skin, animation);
+  const auto made = gltf::export_skin<Dim>(input.cage, rest, SparseWeights(input.weights), surface,
+                                           skin, animation);
   io::write_file(path, [&](std::ostream& file) { file << made.content; });
 }
 

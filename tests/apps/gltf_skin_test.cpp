@@ -43,8 +43,8 @@ struct Example {
   }
   gltf::ExportedSkin skin(const gltf::SkinOptions& options = {},
                           const gltf::Animation<Dim>& animation = {}) const {
-    return gltf::export_skin<Dim>(sample.cage.points, sample.mesh.points, weights, surface, options,
-                                  animation);
+    return gltf::export_skin<Dim>(sample.cage.points, sample.mesh.points, SparseWeights(weights),
+                                  surface, options, animation);
   }
   WeightMatrix few(Index count) const {
     return sparsify<Dim>(sample.cage.points, sample.mesh.points, weights, {count});
@@ -204,9 +204,10 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
   }
   // Bones are short: none is nearer to the root than the joint that moves nothing.
   const auto& helper = nodes[skin["joints"][n + 1].template get<std::size_t>()]["translation"];
-  const double length = Eigen::Vector3d(helper[0].template get<double>(), helper[1].template get<double>(),
-                                       helper[2].template get<double>())
-                            .norm();
+  const double length =
+      Eigen::Vector3d(helper[0].template get<double>(), helper[1].template get<double>(),
+                      helper[2].template get<double>())
+          .norm();
   EXPECT_NEAR(length, 0.02 * bounding_box_diagonal<Dim>(example.sample.cage.points), 1e-6);
   EXPECT_TRUE(file.json["accessors"][file.number_of("POSITION")].contains("min"));
 
@@ -328,7 +329,8 @@ struct Segments {
     surface.normals = Vector<3>::UnitZ().replicate(1, 3);
   }
   GlbFile skin() const {
-    return GlbFile(gltf::export_skin<Dim>(control_points, points, weights, surface).content);
+    const SparseWeights few(weights);
+    return GlbFile(gltf::export_skin<Dim>(control_points, points, few, surface).content);
   }
 
   PointList<Dim> control_points;
@@ -371,7 +373,8 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
     DomainMesh<2> strip{points, CellList<2>(3, 2 * columns - 3)};
     for (Index t = 0; t < 2 * columns - 3; ++t) strip.cells.col(t) << t, t + 1, t + 2;
     const auto surface = gltf::surface_of_model<2>({io::to_polygons(strip)});
-    const GlbFile file(gltf::export_skin<2>(control_points, points, weights, surface).content);
+    const SparseWeights few(weights);
+    const GlbFile file(gltf::export_skin<2>(control_points, points, few, surface).content);
     EXPECT_EQ(
         file.json["accessors"][file.primitive()["indices"].get<std::size_t>()]["componentType"],
         component_type);

@@ -26,4 +26,10 @@ ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
                       const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
                       const WeightMatrix& after);
 
+//! The same for weights without their zeros.
+template <int Dim>
+ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
+                      const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                      const SparseWeights& after);
+
 }  // namespace flbc

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -19,6 +20,9 @@ struct Influences {
 //! \param weights  n x P
 Influences count_influences(const WeightMatrix& weights);
 
+//! The same for weights without their zeros.
+Influences count_influences(const SparseWeights& weights);
+
 //! Root of the mean square, and largest.
 struct ErrorNorms {
   double rms = 0;
@@ -31,6 +35,9 @@ struct ErrorNorms {
 //! \throws InputError if sizes differ
 ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
 
+//! The same for weights without their zeros.
+ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after);
+
 //! The norms of the distances between points deformed with either weights, over all points and
 //! poses.
 //! \param poses  Dim x n each, the displaced control points
@@ -41,5 +48,10 @@ ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
 template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
                              const WeightMatrix& after);
+
+//! The same for weights without their zeros.
+template <int Dim>
+ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                             const SparseWeights& after);
 
 }  // namespace flbc

@@ -29,7 +29,7 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
   const Eigen::Index count = weights.cols();
 #pragma omp parallel for schedule(static) if (count >= kParallelPoints)
   for (Eigen::Index p = 0; p < count; ++p) {
-    starts_[p + 1] = (weights.col(p).array().abs() > threshold).count();
+    starts_[p + 1] = weights.rows() - (weights.col(p).array().abs() <= threshold).count();
   }
   for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
   control_points_.resize(starts_.back());
@@ -38,7 +38,7 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
   for (Eigen::Index p = 0; p < count; ++p) {
     std::int64_t entry = starts_[p];
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      if (!(std::abs(weights(i, p)) > threshold)) continue;
+      if (std::abs(weights(i, p)) <= threshold) continue;  // what is no number stays
       control_points_[entry] = static_cast<std::uint32_t>(i);
       values_[entry++] = weights(i, p);
     }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/edge_error.h"
-#include "flbc/sparsify_error.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/shape_checks.h"
+#include "evaluation/weight_difference.h"
+#include "flbc/deform.h"
 
 namespace flbc {
 
@@ -14,14 +15,20 @@ ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
                       const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
                       const WeightMatrix& after) {
   check_size(before, before.rows(), points.cols());
-  check_size(after, before.rows(), points.cols());
-  check_poses<Dim>(poses, before.rows());
+  return edge_error(points, edges, poses, SparseWeights(before), SparseWeights(after));
+}
+
+template <int Dim>
+ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
+                      const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                      const SparseWeights& after) {
+  check_poses<Dim>(poses, before.num_control_points());
   validate(edges, points.cols());
-  const WeightMatrix difference = after - before;
+  const auto difference = difference_of(before, after);
   double sum = 0, rest = 0;
   ErrorNorms norms;
   for (const auto& pose : poses) {
-    const PointList<Dim> errors = pose * difference;
+    const auto errors = deform<Dim>(difference, pose);
     for (std::size_t e = 0; e < edges.ends.size(); ++e) {
       const auto [a, b] = edges.ends[e];
       const double weight = edges.weights.empty() ? 1 : edges.weights[e];
@@ -36,10 +43,13 @@ ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
   return norms;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                             \
-  template ErrorNorms edge_error(const PointList<Dim>&, const EdgeList&,                  \
-                                 const std::vector<PointList<Dim>>&, const WeightMatrix&, \
-                                 const WeightMatrix&);
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template ErrorNorms edge_error(const PointList<Dim>&, const EdgeList&,                   \
+                                 const std::vector<PointList<Dim>>&, const WeightMatrix&,  \
+                                 const WeightMatrix&);                                     \
+  template ErrorNorms edge_error(const PointList<Dim>&, const EdgeList&,                   \
+                                 const std::vector<PointList<Dim>>&, const SparseWeights&, \
+                                 const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -12,16 +12,20 @@ namespace {
 // glTF has slots in sets of four.
 constexpr Index kSlotsPerSet = 4;
 
-// The joints with an influence, the largest first: readers that know one set of four only then
-// have those that matter most.
-std::vector<Index> joints_by_weight(const WeightMatrix& weights, Eigen::Index point) {
-  std::vector<Index> joints;
-  for (Index i = 0; i < static_cast<Index>(weights.rows()); ++i) {
-    if (weights(i, point) > 0) joints.push_back(i);
-  }
-  std::stable_sort(joints.begin(), joints.end(),
-                   [&](Index a, Index b) { return weights(a, point) > weights(b, point); });
-  return joints;
+struct Influence {
+  Index joint;
+  double weight;
+};
+
+// The largest first: readers that know one set of four only then have those that matter most.
+std::vector<Influence> influences_by_weight(const SparseWeights& weights, Index point) {
+  std::vector<Influence> influences;
+  weights.visit(point, [&](Index joint, double weight) {
+    if (weight > 0) influences.push_back({joint, weight});
+  });
+  std::stable_sort(influences.begin(), influences.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  return influences;
 }
 
 // The largest one takes what rounding leaves to 1.
@@ -50,6 +54,14 @@ std::vector<double> round_to_integers(const std::vector<double>& weights, double
   return numbers;
 }
 
+std::vector<double> numbers_of(const std::vector<Influence>& influences, WeightFormat format) {
+  std::vector<double> exact(influences.size());
+  std::transform(influences.begin(), influences.end(), exact.begin(),
+                 [](const Influence& influence) { return influence.weight; });
+  return format == WeightFormat::kFloat ? round_to_floats(exact)
+                                        : round_to_integers(exact, unit_of(format));
+}
+
 }  // namespace
 
 double unit_of(WeightFormat format) {
@@ -63,39 +75,41 @@ double unit_of(WeightFormat format) {
   }
 }
 
-JointWeights to_joint_weights(const WeightMatrix& weights, WeightFormat format) {
-  const double unit = unit_of(format);
-  const auto most = (weights.array() > 0).colwise().count().maxCoeff();
-  const auto slots = (most + kSlotsPerSet - 1) / kSlotsPerSet * kSlotsPerSet;
+JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format) {
+  std::vector<std::vector<Influence>> points(weights.num_points());
+  std::size_t most = 0;
+  for (Index v = 0; v < weights.num_points(); ++v) {
+    points[v] = influences_by_weight(weights, v);
+    most = std::max(most, points[v].size());
+  }
+  const auto slots = (static_cast<Index>(most) + kSlotsPerSet - 1) / kSlotsPerSet * kSlotsPerSet;
   JointWeights result;
   result.format = format;
-  result.joints.setZero(slots, weights.cols());
-  result.numbers.setZero(slots, weights.cols());
-  for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-    const auto joints = joints_by_weight(weights, v);
-    const Eigen::VectorXd column = weights(joints, v);
-    const std::vector<double> exact(column.begin(), column.end());
-    const auto numbers =
-        format == WeightFormat::kFloat ? round_to_floats(exact) : round_to_integers(exact, unit);
+  result.joints.setZero(slots, weights.num_points());
+  result.numbers.setZero(slots, weights.num_points());
+  for (Index v = 0; v < weights.num_points(); ++v) {
+    const auto& influences = points[v];
+    const auto numbers = numbers_of(influences, format);
     Index slot = 0;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
+    for (std::size_t k = 0; k < influences.size(); ++k) {
       // One that rounds to nothing is none.
       if (numbers[k] == 0) continue;
-      result.joints(slot, v) = static_cast<std::uint16_t>(joints[k]);
+      result.joints(slot, v) = static_cast<std::uint16_t>(influences[k].joint);
       result.numbers(slot++, v) = numbers[k];
     }
   }
   return result;
 }
 
-WeightMatrix to_weights(const JointWeights& stored, Eigen::Index num_joints) {
-  WeightMatrix weights = WeightMatrix::Zero(num_joints, stored.joints.cols());
-  for (Eigen::Index v = 0; v < weights.cols(); ++v) {
+SparseWeights to_weights(const JointWeights& stored, Eigen::Index num_joints) {
+  const auto num_points = static_cast<Index>(stored.joints.cols());
+  return SparseWeights::of(static_cast<Index>(num_joints), num_points, [&](Index v) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_joints);
     for (Eigen::Index slot = 0; slot < stored.joints.rows(); ++slot) {
-      weights(stored.joints(slot, v), v) += stored.numbers(slot, v) / unit_of(stored.format);
+      weights[stored.joints(slot, v)] += stored.numbers(slot, v) / unit_of(stored.format);
     }
-  }
-  return weights;
+    return weights;
+  });
 }
 
 }  // namespace flbc::gltf

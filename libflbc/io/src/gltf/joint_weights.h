@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc::gltf {
 
@@ -29,10 +29,10 @@ struct JointWeights {
 
 //! Rounds so that the numbers of a point still add up to the unit: whole ones exactly, by the
 //! largest remainders; floats as exactly as floats can.
-//! \param weights  n x P, none below 0, at most 8 above 0 per column, with sum 1; n <= 65535
-JointWeights to_joint_weights(const WeightMatrix& weights, WeightFormat format);
+//! \param weights  none below 0, at most 8 above 0 per point, with sum 1; n <= 65535
+JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format);
 
-//! The weights that a reader finds. \return n x P
-WeightMatrix to_weights(const JointWeights& stored, Eigen::Index num_joints);
+//! The weights that a reader finds, of P points.
+SparseWeights to_weights(const JointWeights& stored, Eigen::Index num_joints);
 
 }  // namespace flbc::gltf

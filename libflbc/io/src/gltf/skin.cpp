@@ -29,7 +29,7 @@ void require_equal(Eigen::Index found, Eigen::Index expected, const char* what) 
 
 template <int Dim>
 void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
-           const WeightMatrix& weights, const Surface& surface, const SkinOptions& options) {
+           const SparseWeights& weights, const Surface& surface, const SkinOptions& options) {
   if (options.max_influences != 4 && options.max_influences != 8) {
     throw OptionError("a skin has at most 4 or 8 influences per vertex, not " +
                       std::to_string(options.max_influences));
@@ -39,8 +39,8 @@ void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
                      " control points, but a skin can have " + std::to_string(kMaxJoints) +
                      " joints at most");
   }
-  require_equal(weights.rows(), control_points.cols(), "weights of control points");
-  require_equal(weights.cols(), points.cols(), "weights of points");
+  require_equal(weights.num_control_points(), control_points.cols(), "weights of control points");
+  require_equal(weights.num_points(), points.cols(), "weights of points");
   const auto num_vertices = static_cast<Eigen::Index>(surface.sources.size());
   require_equal(surface.normals.cols(), num_vertices, "normals of vertices");
   const auto is_of = [](const auto& indices, Eigen::Index size) {
@@ -75,7 +75,8 @@ std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::M
                                  const Vector<Dim>& origin) {
   std::vector<Eigen::Matrix3Xf> poses;
   for (const auto& pose : animation.poses) {
-    poses.push_back(to_floats<Dim>(pose.colwise() - origin, "the cage in pose " + std::to_string(poses.size())));
+    poses.push_back(to_floats<Dim>(pose.colwise() - origin,
+                                   "the cage in pose " + std::to_string(poses.size())));
   }
   std::vector<Channel> channels;
   for (Index i = 0; i < static_cast<Index>(rest.cols()); ++i) {
@@ -94,8 +95,8 @@ bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
   return static_cast<Eigen::Index>(sources.size()) == num_points;
 }
 
-// The middle of a cage that is so far from the origin that floats there are coarser than a millionth
-// of its size; else zero.
+// The middle of a cage that is so far from the origin that floats there are coarser than a
+// millionth of its size; else zero.
 template <int Dim>
 Vector<Dim> origin_of(const PointList<Dim>& control_points, SkinFormat format) {
   const Vector<Dim> low = control_points.rowwise().minCoeff();
@@ -133,7 +134,7 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
 // The errors of the stored skin at the points that are vertices.
 template <int Dim>
 void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
-             const WeightMatrix& weights, const JointWeights& stored,
+             const SparseWeights& weights, const JointWeights& stored,
              const std::vector<Index>& sources, const Animation<Dim>& animation,
              const Vector<Dim>& origin, ExportedSkin& result) {
   auto used = sources;
@@ -142,8 +143,12 @@ void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
   const PointList<Dim> rounded = exact.template cast<float>().template cast<double>();
   result.position_change = (rounded - exact).colwise().norm().maxCoeff();
 
-  const WeightMatrix before = weights(Eigen::all, used);
-  const WeightMatrix after = to_weights(stored, control_points.cols())(Eigen::all, used);
+  const auto of_used = [&](const SparseWeights& all) {
+    return SparseWeights::of(all.num_control_points(), static_cast<Index>(used.size()),
+                             [&](Index v) { return all.at(used[v]); });
+  };
+  const auto before = of_used(weights);
+  const auto after = of_used(to_weights(stored, control_points.cols()));
   result.given_influences = count_influences(before).max;
   result.influences = count_influences(after).max;
   constexpr int kRandomPoses = 20;
@@ -174,7 +179,7 @@ void validate(const Animation<Dim>& animation, Eigen::Index num_control_points) 
 
 template <int Dim>
 ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                         const WeightMatrix& weights, const Surface& surface,
+                         const SparseWeights& weights, const Surface& surface,
                          const SkinOptions& options, const Animation<Dim>& animation) {
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
@@ -186,8 +191,7 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   scene.wire = options.cage_edges;
 
   ExportedSkin result;
-  result.content =
-      options.format == SkinFormat::kUsda ? encode_usda(scene) : encode_glb(scene);
+  result.content = options.format == SkinFormat::kUsda ? encode_usda(scene) : encode_glb(scene);
   result.vertices = static_cast<Index>(surface.sources.size());
   result.triangles = static_cast<Index>(surface.triangles.cols());
   result.joints = static_cast<Index>(control_points.cols());
@@ -197,10 +201,10 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                \
-  template void validate(const Animation<Dim>&, Eigen::Index);                               \
-  template ExportedSkin export_skin(const PointList<Dim>&, const PointList<Dim>&,            \
-                                    const WeightMatrix&, const Surface&, const SkinOptions&, \
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template void validate(const Animation<Dim>&, Eigen::Index);                                \
+  template ExportedSkin export_skin(const PointList<Dim>&, const PointList<Dim>&,             \
+                                    const SparseWeights&, const Surface&, const SkinOptions&, \
                                     const Animation<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -23,7 +23,7 @@ enum class SkinFormat { kGlb, kUsda };
 struct SkinOptions {
   Index max_influences = 8;  //!< per point, 4 or 8
   WeightFormat weight_format = WeightFormat::kFloat;
-  std::string name = "model";             //!< of the mesh, in .glb
+  std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
@@ -49,7 +49,8 @@ struct ExportedSkin {
   Index moving_joints = 0;     //!< those with a channel of the animation
   Index influences = 0;        //!< most per vertex
   Index given_influences = 0;  //!< most per vertex of the weights given
-  std::vector<std::string> left_out{};  //!< materials and pictures that could not be had, a phrase each
+  std::vector<std::string>
+      left_out{};              //!< materials and pictures that could not be had, a phrase each
   double position_change = 0;  //!< largest distance by which rounding moves a vertex
   //! Distances between vertices moved by the weights given and by those in the file, over the poses
   //! of the animation or, without one, over random smooth ones (smooth_poses()).
@@ -58,14 +59,14 @@ struct ExportedSkin {
 
 //! Weights of more than `max_influences` control points, and such with numbers below 0, are reduced
 //! by sparsify(); others stay.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P, reproducing
+//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, reproducing
 //! \param surface  of these points; in 2D it lies in the plane z = 0
 //! \throws OptionError for another number of influences; InputError if sizes do not fit, for more
 //! than 65535 control points, if a coordinate is too large for single precision, and as validate()
 //! and sparsify()
 template <int Dim>
 ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                         const WeightMatrix& weights, const Surface& surface,
+                         const SparseWeights& weights, const Surface& surface,
                          const SkinOptions& options = {}, const Animation<Dim>& animation = {});
 
 }  // namespace flbc::gltf

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What weights differ by.
+#pragma once
+
+#include "flbc/sparse_weights.h"
+
+namespace flbc {
+
+//! \return after - before, of P points \throws InputError if sizes differ
+SparseWeights difference_of(const SparseWeights& before, const SparseWeights& after);
+
+}  // namespace flbc
