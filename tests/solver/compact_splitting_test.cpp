@@ -14,6 +14,7 @@
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "solver/state_storage.h"
+#include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
@@ -37,13 +38,25 @@ struct Case {
   double penalty;
 };
 
+// Control points for several of the blocks in which duals of cells are stored.
 template <int Dim>
-Case<Dim> make_case(Shape shape, bool non_negative = true) {
-  const auto sample = make_sample<Dim>(shape, 4, 0.2);
+Sample<Dim> with_many_control_points(Index cage_subdivisions, Index subdivisions) {
+  auto sample = with_fine_cage<Dim>(Shape::kCorner, cage_subdivisions, subdivisions);
+  sample.name = "fine cage";
+  return sample;
+}
+
+template <int Dim>
+Case<Dim> make_case(const Sample<Dim>& sample, bool non_negative = true) {
   auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   auto metric = make_metric(problem, 1, non_negative);
   const double penalty = make_penalty(problem, metric);
   return {std::move(problem), std::move(metric), penalty};
+}
+
+template <int Dim>
+Case<Dim> make_case(Shape shape, bool non_negative = true) {
+  return make_case(make_sample<Dim>(shape, 4, 0.2), non_negative);
 }
 
 template <class Splitting>
@@ -53,7 +66,10 @@ void iterate(Splitting& splitting, int count) {
 
 TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
   constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+  auto all = samples<kDim>();
+  all.push_back(kDim == 2 ? with_many_control_points<kDim>(7, 14)
+                          : with_many_control_points<kDim>(2, 4));
+  for (const auto& sample : all) {
     for (const bool non_negative : {false, true}) {
       const double power = non_negative ? 1 : 2;
       SCOPED_TRACE(sample.name + ", metric A^" + std::to_string(power));
@@ -127,6 +143,45 @@ TYPED_TEST(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
   for (const int count : {2, 4, 7}) {
     EXPECT_EQ((weights_with_threads<float, float>(c, count) - single).cwiseAbs().maxCoeff(), 0);
     EXPECT_EQ((weights_with_threads<float, Half>(c, count) - half).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
+// The rows of a storage are whole, other arrays of cells come in blocks of control points.
+template <class Scalar, class Stored, int Dim>
+void expect_rows_and_blocks_alike(const Case<Dim>& c) {
+  const auto run = [&](StateStorage* storage, int threads, WeightMatrix& flux) {
+    const ThreadScope scope(threads);
+    CompactSplitting<Scalar, Stored, Dim> splitting(c.problem, c.metric, c.penalty, 1.9,
+                                                    LinearSolver::kDirect, storage);
+    splitting.start_from_harmonic(8);
+    iterate(splitting, 5);
+    splitting.iterate_and_adapt(0.3);
+    splitting.iterate_measured();
+    iterate(splitting, 6);
+    flux = splitting.flux_density(0);
+    for (Index s = 1; s < c.problem.mesh.num_cells(); ++s) flux += splitting.flux_density(s);
+    return splitting.weights();
+  };
+  KeptState rows;
+  WeightMatrix flux, flux_of_blocks;
+  const auto expected = run(&rows, 1, flux);
+  EXPECT_GT(flux.norm(), 0);
+  for (const int threads : {1, 2, 3, 5}) {
+    EXPECT_EQ((run(nullptr, threads, flux_of_blocks) - expected).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((flux_of_blocks - flux).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
+TYPED_TEST(CompactSplittingTest, BlocksOfControlPointsChangeNoBit) {
+  constexpr int kDim = TypeParam::value;
+  // From two blocks to more than are gone through at a time.
+  for (const Index cage_subdivisions : {kDim == 2 ? 7 : 2, kDim == 2 ? 25 : 5}) {
+    const auto c = make_case(with_many_control_points<kDim>(cage_subdivisions, cage_subdivisions));
+    SCOPED_TRACE(c.problem.num_control_points());
+    ASSERT_GT(c.problem.num_control_points(), 32);
+    expect_rows_and_blocks_alike<float, Half>(c);
+    expect_rows_and_blocks_alike<float, float>(c);
+    expect_rows_and_blocks_alike<double, double>(c);
   }
 }
 

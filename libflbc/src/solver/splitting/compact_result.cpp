@@ -53,8 +53,14 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>
     Index cell) const {
   if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
   AlignedArray<Scalar> rows(Dim * stride_);
-  kernel_.decode(cell_dual_.data() + static_cast<std::size_t>(cell) * Dim * stride_, rows.data(),
-                 Dim * stride_);
+  for (int d = 0; d < Dim; ++d) {
+    blocks_.for_each(static_cast<std::size_t>(cell) * Dim + d,
+                     static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim,
+                     [&](std::size_t begin, std::size_t width, std::size_t place) {
+                       kernel_.decode(cell_dual_.data() + place, rows.data() + d * stride_ + begin,
+                                      width);
+                     });
+  }
   const double scale = 1 / dual_scale(problem_, metric_, unit_, cell);
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density(n_, Dim);
   for (int d = 0; d < Dim; ++d) {

@@ -15,6 +15,7 @@ namespace flbc::compact {
 namespace {
 
 constexpr Index kRowBlock = 256;
+constexpr std::size_t kBlockWidth = 32;  // a cache line in half precision
 
 }  // namespace
 
@@ -26,12 +27,13 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
       kernel_(kernel),
       n_(problem.num_control_points()),
       stride_(padded(static_cast<std::size_t>(n_))),
+      blocks_(blocks_for(stride_, storage)),
       metric_(std::move(metric)),
       unit_(radius_unit(problem, metric_)),
       penalty_(penalty),
       relaxation_(relaxation),
       solver_(splitting::system_matrix(problem, metric_), stride_, linear_solver),
-      data_(make_compact_data(problem, metric_, solver_.position(), unit_, stride_, kernel_)) {
+      data_(make_compact_data(problem, metric_, solver_.position(), unit_, blocks_, kernel_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
   relaxed_ = state_array<Scalar>(storage, StateArray::kRelaxedIterate, vertices, 1, stride_);
@@ -47,11 +49,21 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
   residual_ = AlignedArray<Scalar>(data_.vertices.size() * stride_);
 }
 
+// Properties of a mesh have whole rows.
+template <class Scalar, class Stored, int Dim>
+ColumnBlocks CompactSplitting<Scalar, Stored, Dim>::blocks_for(std::size_t stride,
+                                                               const StateStorage* storage) {
+  if (storage != nullptr) return {stride, stride};
+  return {stride, stride > kBlockWidth ? kBlockWidth : kBlockWidth / 2};
+}
+
 template <class Scalar, class Stored, int Dim>
 Arrays<Scalar, Stored, Dim> CompactSplitting<Scalar, Stored, Dim>::arrays() {
   State arrays;
   arrays.stride = stride_;
+  arrays.block_width = blocks_.width;
   arrays.num_cells = data_.cells.size();
+  arrays.mesh_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
   arrays.num_interior = data_.vertices.size();
   arrays.extrapolated = extrapolated_.data();
   arrays.relaxed = relaxed_.data();

@@ -119,8 +119,8 @@ class CompactSplitting {
   //! rounding.
   CellFieldView<Scalar, Dim> flux();
 
-  //! Writes or reads the state, to the bit. What is read must be of the same problem, penalty, Scalar
-  //! and Stored.
+  //! Writes or reads the state, to the bit. What is read must be of the same problem, penalty,
+  //! Scalar and Stored.
   template <class Archive>
   void visit(Archive& archive) {
     archive(extrapolated_, relaxed_, vertex_dual_, cell_dual_, residual_, start_);
@@ -141,6 +141,7 @@ class CompactSplitting {
 
   double sigma() const { return penalty_ * unit_; }
   State arrays();
+  static ColumnBlocks blocks_for(std::size_t stride, const StateStorage* storage);
   void set_weights(const VectorsAt<1>& weights);
   void set_boundary_rows();
   void begin_from_weights();
@@ -155,6 +156,7 @@ class CompactSplitting {
   const Kernel<Scalar, Stored, Dim>& kernel_;
   const Index n_;
   const std::size_t stride_;
+  const ColumnBlocks blocks_;  // of cell_dual_ and of the radii
   const splitting::Metric metric_;
   const double unit_;  // u
   double penalty_;

@@ -18,12 +18,13 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
       kernel_(select_kernel<Kernel<Scalar, Stored, Dim>>()),
       n_(other.n_),
       stride_(other.stride_),
+      blocks_(other.blocks_),
       metric_(other.metric_),
       unit_(other.unit_),
       penalty_(other.penalty_),
       relaxation_(other.relaxation_),
       solver_(std::move(other.solver_)),
-      data_(make_compact_data(problem_, metric_, solver_.position(), unit_, stride_, kernel_)),
+      data_(make_compact_data(problem_, metric_, solver_.position(), unit_, blocks_, kernel_)),
       extrapolated_(std::move(other.extrapolated_)),
       relaxed_(std::move(other.relaxed_)),
       vertex_dual_(std::move(other.vertex_dual_)),
@@ -125,8 +126,14 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const VectorsAt<1>&
           rows[d * stride_ + i] = static_cast<Scalar>(scale * density(i, d));
         }
       }
-      kernel_.encode(rows.data(), cell_dual_.data() + static_cast<std::size_t>(s) * Dim * stride_,
-                     Dim * stride_);
+      for (int d = 0; d < Dim; ++d) {
+        blocks_.for_each(static_cast<std::size_t>(s) * Dim + d,
+                         static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim,
+                         [&](std::size_t begin, std::size_t width, std::size_t place) {
+                           kernel_.encode(rows.data() + d * stride_ + begin,
+                                          cell_dual_.data() + place, width);
+                         });
+      }
     }
   }
   std::fill_n(vertex_dual_.data(), vertex_dual_.size(), Scalar(0));
