@@ -74,17 +74,14 @@ DomainMesh<3> fill([[maybe_unused]] Mesher mesher, [[maybe_unused]] const Cage<3
 #endif
 }
 
-// Takes more vertices than were asked for where the cage needs them.
+// As few vertices as the cage takes where fewer were asked for.
 template <int Dim>
 DomainMesh<Dim> fill_or_exceed(Mesher mesher, const Cage<Dim>& cage, MeshingOptions<Dim> options) {
   try {
     return fill(mesher, cage, options);
-  } catch (const OptionError&) {  // too few for this cage or model, or far too many
-    const Index asked = options.vertices;
+  } catch (const TooFewVertices&) {
     options.vertices = 0;
-    auto mesh = fill(mesher, cage, options);
-    if (mesh.num_vertices() < asked) throw;
-    return mesh;
+    return fill(mesher, cage, options);
   }
 }
 

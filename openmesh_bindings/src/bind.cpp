@@ -23,7 +23,7 @@ DomainMesh<Dim> make_interior(const BindInput<Dim>& input, const BindOptions& op
   if (options.vertices != BindOptions::kDefaultVertices) return input.mesher(input.cage, meshing);
   try {
     return input.mesher(input.cage, meshing);
-  } catch (const OptionError&) {  // too few for this cage
+  } catch (const TooFewVertices&) {
     meshing.vertices = 0;
     return input.mesher(input.cage, meshing);
   }

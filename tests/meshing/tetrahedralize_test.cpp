@@ -193,7 +193,7 @@ TEST(TetrahedralizeTest, OptionsOutOfRange) {
   for (Index i = 0; i < cage.size(); ++i) cage.points(i % 3, i) *= 1 + 0.01 * i;
   const Index minimum = tetrahedralize(cage).num_vertices();
   const std::string text =
-      message_of<OptionError>([&] { tetrahedralize(cage, vertices(minimum / 2)); });
+      message_of<TooFewVertices>([&] { tetrahedralize(cage, vertices(minimum / 2)); });
   EXPECT_NE(text.find("--vertices"), std::string::npos);
   EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
   EXPECT_THROW(tetrahedralize(cage, vertices(-1)), OptionError);

@@ -157,7 +157,7 @@ TEST(TriangulateTest, OptionsOutOfRange) {
   const Cage<2> cage = square_with_hole(false, false);
   const Index minimum = triangulate(cage).num_vertices();
   const std::string text =
-      message_of<OptionError>([&] { triangulate(cage, vertices(minimum / 2)); });
+      message_of<TooFewVertices>([&] { triangulate(cage, vertices(minimum / 2)); });
   EXPECT_NE(text.find("--vertices"), std::string::npos);
   EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
   EXPECT_EQ(triangulate(cage, vertices(minimum)).num_vertices(), minimum);

@@ -27,6 +27,12 @@ class OptionError : public Error {
   using Error::Error;
 };
 
+//! Fewer vertices were asked for than a mesh of the cage takes. The text says how many these are.
+class TooFewVertices : public OptionError {
+ public:
+  using OptionError::OptionError;
+};
+
 //! A file that cannot be opened, read or written. The text names the file and the system's reason.
 class IoError : public Error {
  public:

@@ -97,10 +97,10 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
 
 void check_vertex_count(Index wanted, Index minimum, double tolerance) {
   if (wanted == 0 || wanted >= (1 - tolerance) * minimum) return;
-  throw OptionError("vertices (--vertices): " + std::to_string(wanted) +
-                    " vertices were asked for, but cells of good shape that fill this cage take at "
-                    "least about " +
-                    std::to_string(minimum) + "; ask for more, or for 0 to get as few as possible");
+  throw TooFewVertices(
+      "vertices (--vertices): " + std::to_string(wanted) +
+      " vertices were asked for, but cells of good shape that fill this cage take at least about " +
+      std::to_string(minimum) + "; ask for more, or for 0 to get as few as possible");
 }
 
 template <int Dim>

@@ -220,12 +220,12 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
   const bool may_keep_edges = !options.roughly && has_coplanar_facets(cage);
   const auto start = std::chrono::steady_clock::now();
   DomainMesh<3> mesh;
-  std::optional<OptionError> too_few;
+  std::optional<TooFewVertices> too_few;
   try {
     mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     throw InputError(error.what() + describe_thinnest(cage));
-  } catch (const OptionError& error) {  // joined facets of thin rods take more cells
+  } catch (const TooFewVertices& error) {  // joined facets of thin rods take more cells
     too_few = error;
   }
   if (may_keep_edges) {
@@ -233,7 +233,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);
   }
-  if (too_few && mesh.num_vertices() == 0) throw OptionError(*too_few);
+  if (too_few && mesh.num_vertices() == 0) throw TooFewVertices(*too_few);
   finish_mesh(mesh, static_cast<Index>(points.cols()));
   return mesh;
 }
