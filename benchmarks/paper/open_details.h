@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a publication leaves open, one detail at a time otherwise: a table of variants.
+//! Details that a publication leaves open, one at a time otherwise: a table of variants.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What weights differ by.
+//! Differences of weights.
 #pragma once
 
 #include "flbc/sparse_weights.h"

@@ -59,7 +59,7 @@ template <class Emit>
 RowMatrix assemble_rows(Index num_rows, Index num_columns, const Emit& emit) {
   constexpr Index kFewest = 1000;  // rows that are worth waking threads up
   const int threads = num_rows < kFewest ? 1 : omp_get_max_threads();
-  // What can run out of memory does so outside the parallel loops.
+  // Memory is asked for outside the parallel loops, which must not throw.
   std::vector<RowSum> sums(threads, RowSum(num_columns));
   const auto sum_up = [&](Index row, Index mark, Index* columns) -> RowSum& {
     RowSum& sum = sums[omp_get_thread_num()];

@@ -39,7 +39,7 @@ double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
   return measure * measure * boundary_flux_density(problem, s).squaredNorm();
 }
 
-// What is inside in front, in its order; std::stable_partition asks for memory.
+// Moves interior corners to the front, in their order; std::stable_partition asks for memory.
 template <std::size_t N, class Predicate>
 void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
   auto end = corners.begin();
@@ -55,12 +55,10 @@ void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metri
   const auto num_interior = static_cast<Index>(data.vertices.size());
   const auto row_of = [&](int k, Index s) { return data.row_of[problem.mesh.cells(k, s)]; };
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    bool is_inside = false;
-    for (int k = 0; k <= Dim; ++k) is_inside = is_inside || row_of(k, s) < num_interior;
-    if (is_inside) {
-      data.cell_index.push_back(s);
-    } else {
+    if (is_boundary_cell(problem, s)) {
       data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
+    } else {
+      data.cell_index.push_back(s);
     }
   }
   data.cells.resize(data.cell_index.size());
