@@ -11,6 +11,7 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "support/coarse_sample_mesher.h"
 #include "support/judge.h"
 #include "support/many_iterations.h"
 #include "support/sample_meshes.h"
@@ -268,6 +269,80 @@ TYPED_TEST(EditingTest, ThreadsDoNotChangeABit) {
   const auto one = result(1);
   EXPECT_TRUE(result(2) == one);
   EXPECT_TRUE(result(4) == one);
+}
+
+TYPED_TEST(EditingTest, FollowsOnSupports) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  auto options = tight();
+  options.active_pairs = ActivePairs::kOn;
+  options.gap = 0;
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options);
+  EXPECT_TRUE(coordinates.solution().weights ==
+              solve(sample.cage, sample.mesh, options).weights);  // to the bit
+  for (const double part : {0.004, 0.01}) {
+    const auto warm = coordinates.move(with_one_moved(sample.cage, part));
+    const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
+    EXPECT_LT(warm.report.active_pairs.density, 1);
+    EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
+    EXPECT_LT(warm.report.iterations, cold.report.iterations);
+    EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, optimum(coordinates)),
+              3 * kTolerance);
+  }
+  coordinates.move(with_one_moved(sample.cage, 0.02), {3, 0});
+  const auto& refined = coordinates.refine();
+  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights, optimum(coordinates)),
+            3 * kTolerance);
+  EXPECT_GE(refined.report.quality.min_weight, 0);
+}
+
+TYPED_TEST(EditingTest, DistancesComeFromACoarseMeshThatMovesAlong) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 24 : 8, 0.2);
+  auto options = tight();
+  options.distances = Distances::kInterpolated;
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, options,
+                                        coarse_sample_mesher<kDim>(kDim == 2 ? 8 : 4));
+  EXPECT_EQ(coordinates.solution().report.distances.source, Distances::kInterpolated);
+  const auto expect_near_exact = [&](const Solution& solution) {
+    const auto& distances = solution.report.distances;
+    EXPECT_EQ(distances.source, Distances::kInterpolated);
+    EXPECT_LT(distances.vertices, sample.mesh.num_vertices());
+    EXPECT_GT(distances.phi_error, 0);
+    EXPECT_LT(distances.phi_error, 0.05);
+    const auto exact = optimum(coordinates);
+    EXPECT_LT(mean_squared_difference(coordinates.mesh(), solution.weights, exact), 2e-6);
+    const auto judgement = judge(coordinates.cage(), coordinates.mesh(), solution.weights);
+    EXPECT_LT(judgement.reproduction_error, 1e-12);
+    EXPECT_GE(judgement.min_weight, 0);
+  };
+  expect_near_exact(coordinates.move(with_one_moved(sample.cage, 0.03)));
+  coordinates.anchor();
+  expect_near_exact(coordinates.move(bent(sample.cage, 0.02)));
+  PointList<kDim> turned = coordinates.cage().points;  // and grown: distances are of the shape
+  turned.row(0) = 3 * bent(sample.cage, 0.02).row(1);
+  turned.row(1) = -3 * bent(sample.cage, 0.02).row(0);
+  if (kDim == 3) turned.row(2) *= 3;
+  expect_near_exact(coordinates.move(turned));
+}
+
+// A coarse mesh that is none of the cage's is not interpolated from: distances are exact then.
+TYPED_TEST(EditingTest, WithoutACoarseMeshDistancesAreExact) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = sample_of<kDim>();
+  const CoarseMesher<kDim> fails = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+    throw InputError("no mesh");
+  };
+  EditableCoordinates<kDim> plain(sample.cage, sample.mesh, tight());
+  EditableCoordinates<kDim> coordinates(sample.cage, sample.mesh, tight(), fails);
+  const auto control_points = with_one_moved(sample.cage, 0.01);
+  const auto& solution = coordinates.move(control_points);
+  EXPECT_EQ(solution.report.distances.source, Distances::kExact);
+  EXPECT_TRUE(solution.weights == plain.move(control_points).weights);
+
+  auto interpolated = tight();
+  interpolated.distances = Distances::kInterpolated;
+  EXPECT_THROW(EditableCoordinates<kDim>(sample.cage, sample.mesh, interpolated), OptionError);
 }
 
 // Other methods work too; kGradient and kLbc2014 inherit as well.

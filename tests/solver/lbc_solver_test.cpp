@@ -9,6 +9,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "support/judge.h"
+#include "support/many_iterations.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -89,6 +90,37 @@ TYPED_TEST(LbcSolverTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing)
   EXPECT_EQ(fine.report.status, SolveStatus::kConverged);
   EXPECT_LT(fine.report.iterations, cold.report.iterations);
   EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights, cold.weights), 4e-6);
+}
+
+TYPED_TEST(LbcSolverTest, GoesOnFromSupports) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+  SolverOptions options;
+  options.active_pairs = ActivePairs::kOn;
+  options.tolerance = 1e-4;
+  options.gap = 0;
+  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  const auto first = solve(sample.cage, sample.mesh, options);
+  EXPECT_LT(first.report.active_pairs.density, 1);
+  EXPECT_TRUE(same_bits(solver.solve(), first));
+
+  options.tolerance = 1e-6;
+  solver.set_options(options);
+  const auto fine = solver.solve();
+  EXPECT_EQ(fine.report.status, SolveStatus::kConverged);
+  EXPECT_LT(fine.report.active_pairs.density, 1);
+  EXPECT_LT(fine.report.iterations, solve(sample.cage, sample.mesh, options).report.iterations);
+  const auto optimum = solve(sample.cage, sample.mesh, many_iterations(2000));
+  EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights, optimum.weights), 2e-6);
+
+  options.certify = true;  // which ends on all pairs, and so does what follows
+  solver.set_options(options);
+  const auto& certified = solver.solve().report;
+  EXPECT_LE(certified.certificate.lower_bound, optimum.report.objective * (1 + 1e-9));
+  EXPECT_LT(certified.certificate.relative_gap, 0.02);
+  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
+  solver.restart();
+  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
 }
 
 TYPED_TEST(LbcSolverTest, AnotherMethodOrPenaltyStartsAfresh) {

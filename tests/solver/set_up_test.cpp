@@ -8,6 +8,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/solver.h"
+#include "support/coarse_sample_mesher.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
@@ -24,19 +25,6 @@ Sample<Dim> sample_of() {
   return make_sample<Dim>(Shape::kCorner, Dim == 2 ? 24 : 8, 0.2);
 }
 
-// The sample's shape with fewer cells, where and as large as the cage given.
-template <int Dim>
-CoarseMesher<Dim> mesher_of(Index resolution) {
-  return [resolution](const Cage<Dim>& cage, Index) {
-    auto sample = make_sample<Dim>(Shape::kCorner, resolution, 0.2);
-    const double scale =
-        bounding_box_diagonal(cage.points) / bounding_box_diagonal(sample.cage.points);
-    const Vector<Dim> shift = cage.points.col(0) - scale * sample.cage.points.col(0);
-    sample.mesh.points = (scale * sample.mesh.points).colwise() + shift;
-    return sample.mesh;
-  };
-}
-
 template <int Dim>
 Solution solve_with(Distances distances, double tolerance, Index resolution,
                     Method method = Method::kValue) {
@@ -48,7 +36,7 @@ Solution solve_with(Distances distances, double tolerance, Index resolution,
   options.gap = 0;
   if (method != Method::kValue) options.max_iterations = 20;
   options.coarse_to_fine = CoarseToFine::kOff;
-  return solve(sample.cage, sample.mesh, options, mesher_of<Dim>(resolution));
+  return solve(sample.cage, sample.mesh, options, coarse_sample_mesher<Dim>(resolution));
 }
 
 TYPED_TEST(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreReported) {

@@ -34,8 +34,11 @@ class EditableCoordinates {
   //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
   //! \param options  of all solves; kValue and kGradient start from the solve before, other methods
   //! afresh
+  //! \param mesher  makes coarser meshes for the first solve; one of them then moves along, and
+  //! distances come from there where SolverOptions::distances allow. Empty for none
   //! \throws InputError if mesh and cage do not belong together; OptionError, SolverError
-  EditableCoordinates(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {});
+  EditableCoordinates(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {},
+                      const CoarseMesher<Dim>& mesher = {});
   ~EditableCoordinates();
   EditableCoordinates(EditableCoordinates&&) noexcept;
   EditableCoordinates& operator=(EditableCoordinates&&) noexcept;

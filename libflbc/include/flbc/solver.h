@@ -93,15 +93,16 @@ class LbcSolver {
   LbcSolver& operator=(LbcSolver&&) noexcept;
 
   //! Solves, from the last state if there is one. A run in parts is the same as one in one piece,
-  //! to the bit, if options give the penalty and kSingle or kDouble as precision; a penalty chosen
-  //! from the mesh stays as the first solve left it. Methods that do not iterate start afresh.
+  //! to the bit, if options give the penalty and kSingle or kDouble as precision, and not on
+  //! supports (SolverOptions::active_pairs); a penalty chosen from the mesh stays as the first
+  //! solve left it. Methods that do not iterate start afresh.
   //! \return the solution, which stays until the next solve; its report is of this solve alone
   //! \throws OptionError, SolverError; the solution is then as it was, and the next solve starts
   //! afresh
   const Solution& solve();
 
   //! Changes the options from the next solve on. It goes on from the last state unless method,
-  //! precision, non_negative, linear_solver or penalty are others than before.
+  //! precision, non_negative, linear_solver, penalty or active_pairs are others than before.
   //! \param options  with the phi of the problem
   //! \throws OptionError; options are then as they were
   void set_options(const SolverOptions& options);

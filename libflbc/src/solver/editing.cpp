@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/messages.h"
 #include "base/parallel.h"
@@ -13,9 +15,14 @@
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
+#include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
+#include "solver/multilevel/cascade.h"
+#include "solver/multilevel/moving_distances.h"
+#include "solver/multilevel/set_up.h"
 #include "solver/run_state.h"
 #include "solver/state_storage.h"
+#include "solver/supports/choice.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {
@@ -86,6 +93,7 @@ struct EditableCoordinates<Dim>::Shape {
   Cage<Dim> cage;  // as the user gave it
   DomainMesh<Dim> mesh;
   LbcProblem<Dim> problem;
+  DistanceReport distances{};  // behind its phi
   MeshState<Dim> state{};
   Solution solution{};
 };
@@ -93,16 +101,17 @@ struct EditableCoordinates<Dim>::Shape {
 template <int Dim>
 class EditableCoordinates<Dim>::State {
  public:
-  State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
+  State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+        const CoarseMesher<Dim>& mesher)
       : options_(offering_nothing(resolve(options))) {
     const ThreadScope threads(threads_for(options_.threads, cage.size(), mesh.num_vertices()));
     normalize_and_validate(mesh);
-    Stopwatch watch;
-    auto problem = make_problem(cage, mesh, options_.phi);
-    Shape shape{std::move(cage), std::move(mesh), std::move(problem)};
-    const double setup = watch.lap();
-    solve(shape, nullptr, {});
-    shape.solution.report.seconds.setup = setup;
+    std::optional<CoarseProblem<Dim>> coarsest;
+    auto ready = set_up(cage, mesh, options_, mesher, &coarsest);
+    if (coarsest) distances_.emplace(std::move(*coarsest), ready.problem);
+    Shape shape{std::move(cage), std::move(mesh), std::move(ready.problem), ready.distances};
+    solve_first(shape, std::move(ready.coarse));
+    shape.solution.report.seconds.setup = ready.seconds;
     present_ = std::move(shape);
     anchor();
   }
@@ -116,7 +125,7 @@ class EditableCoordinates<Dim>::State {
     const auto transfer =
         Transfer<Dim>::between_shapes(present_.problem, present_.state, shape.problem);
     kept_.forget();
-    solve(shape, &transfer, budget, &deadline);
+    solve(shape, &transfer, budget, deadline);
     shape.solution.report.seconds.setup = setup;
     present_ = std::move(shape);
   }
@@ -127,12 +136,13 @@ class EditableCoordinates<Dim>::State {
     // After a solve that failed the kept state is of no use.
     const auto transfer =
         Transfer<Dim>::between_shapes(present_.problem, present_.state, present_.problem);
-    solve(present_, kept_.penalty() > 0 ? nullptr : &transfer, budget, &deadline);
+    solve(present_, kept_.penalty() > 0 ? nullptr : &transfer, budget, deadline);
   }
 
   void anchor() {
     anchor_mesh_ = present_.mesh;
     anchor_weights_ = present_.solution.weights;
+    if (distances_) distances_->anchor(present_.mesh, anchor_weights_);
   }
 
   const Shape& present() const { return present_; }
@@ -144,34 +154,56 @@ class EditableCoordinates<Dim>::State {
   }
 
   // The mesh where the control points take it, not solved yet.
-  Shape moved(const PointList<Dim>& control_points) const {
+  Shape moved(const PointList<Dim>& control_points) {
     require_points_for(present_.cage, control_points);
     Cage<Dim> cage{control_points, present_.cage.facets};
     validate(cage);
     DomainMesh<Dim> mesh{deform<Dim>(anchor_weights_, control_points), present_.mesh.cells};
     refuse_folds(anchor_mesh_, mesh);
-    auto problem = make_problem(cage, mesh, present_.problem.topology, present_.problem.boundary,
-                                options_.phi);
-    return {std::move(cage), std::move(mesh), std::move(problem)};
+    auto problem =
+        make_geometry(cage, mesh, present_.problem.topology, present_.problem.boundary);
+    Shape shape{std::move(cage), std::move(mesh), std::move(problem)};
+    if (minimises(options_.method)) set_phi(shape);
+    return shape;
+  }
+
+  void set_phi(Shape& shape) {
+    auto& problem = shape.problem;
+    auto distances = distances_ ? (*distances_)(problem, options_, shape.distances)
+                                : distances_for(options_.phi, problem);
+    problem.phi = {options_.phi, std::move(distances), problem.mesh, problem.num_control_points()};
+  }
+
+  // Arrays of all pairs are kept for refine(); what works on supports goes on from their state.
+  StateStorage* storage_for(const Shape& shape) {
+    return supports::serve(shape.problem, options_) ? nullptr : &kept_;
+  }
+
+  void solve_first(Shape& shape, std::vector<CoarseProblem<Dim>> coarse) {
+    auto run = solve_in_cascade(shape.problem, std::move(coarse), options_, storage_for(shape),
+                                inherits(options_.method) ? &shape.state : nullptr);
+    shape.solution = finish<Solution>(shape.problem, options_, std::move(run));
+    shape.solution.report.distances = shape.distances;
   }
 
   // Leaves the shape as it was if it throws.
   void solve(Shape& shape, const Transfer<Dim>* start, const EditBudget& budget,
-             Deadline* deadline = nullptr) {
+             Deadline& deadline) {
     auto options = options_;
     if (budget.iterations > 0) {
       options.max_iterations = std::min(options.max_iterations, budget.iterations);
     }
-    if (deadline) deadline->impose_on(options);
+    deadline.impose_on(options);
     SolveReport report;
     MeshState<Dim> state;
     WarmStart<Dim> warm_start;
     if (inherits(options.method)) warm_start = {start, &state};
     try {
-      auto result = run_method(shape.problem, options, report, &kept_, warm_start);
-      if (deadline && deadline->passed()) report.status = SolveStatus::kIterationLimit;
+      auto result = run_method(shape.problem, options, report, storage_for(shape), warm_start);
+      if (deadline.passed()) report.status = SolveStatus::kIterationLimit;
       shape.solution =
           finish<Solution>(shape.problem, options, {std::move(result), std::move(report)});
+      shape.solution.report.distances = shape.distances;
       shape.state = std::move(state);
     } catch (...) {
       kept_.forget();
@@ -182,16 +214,18 @@ class EditableCoordinates<Dim>::State {
   SolverOptions options_;  // resolved
   Shape present_;
   KeptState kept_;  // of the present shape's iteration
+  std::optional<MovingDistances<Dim>> distances_;
   DomainMesh<Dim> anchor_mesh_;
   WeightMatrix anchor_weights_;
 };
 
 template <int Dim>
 EditableCoordinates<Dim>::EditableCoordinates(Cage<Dim> cage, DomainMesh<Dim> mesh,
-                                              const SolverOptions& options) {
-  validate(options);
+                                              const SolverOptions& options,
+                                              const CoarseMesher<Dim>& mesher) {
+  require_valid_set_up(options, bool(mesher));
   refuse_state(options);
-  state_ = std::make_unique<State>(std::move(cage), std::move(mesh), options);
+  state_ = std::make_unique<State>(std::move(cage), std::move(mesh), options, mesher);
 }
 
 template <int Dim>

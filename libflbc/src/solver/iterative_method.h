@@ -55,6 +55,8 @@ struct WarmStart {
   std::function<void()> started{};
   //! Instead of `from`, for Method::kValue on supports; may be null, and is then computed.
   const supports::ColdStart<Dim>* cold = nullptr;
+  //! Whether the last state is a finer mesh's start, for which a rough one does.
+  bool for_finer_mesh = false;
 };
 
 //! Method::kGradient and kPaper.

@@ -9,6 +9,7 @@
 #include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
+#include "solver/last_run.h"
 #include "solver/multilevel/cascade.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/run_state.h"
@@ -18,36 +19,21 @@
 namespace flbc {
 namespace {
 
-void require_valid(const SolverOptions& options, bool has_mesher) {
-  validate(options);
-  if (options.coarse_to_fine == CoarseToFine::kOn && !has_mesher) {
-    throw OptionError("coarse_to_fine cannot be on without a mesher for the coarser meshes");
-  }
-}
-
-// Where solve() sets the problem up.
-void require_valid_set_up(const SolverOptions& options, bool has_mesher) {
-  require_valid(options, has_mesher);
-  if (options.distances == Distances::kInterpolated && !has_mesher) {
-    throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
-  }
-}
-
 // Whether the state that one run leaves is a start for the other.
 bool share_state(const SolverOptions& a, const SolverOptions& b) {
   return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
-         a.linear_solver == b.linear_solver && a.penalty == b.penalty;
+         a.linear_solver == b.linear_solver && a.penalty == b.penalty &&
+         a.active_pairs == b.active_pairs;
 }
 
-//! \param options  resolved \param coarse  to start from
+//! \param options  resolved
 template <int Dim>
-MethodRun run_from(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
-                   const SolverOptions& options, StateStorage* storage) {
-  if (!coarse.empty()) return solve_in_cascade(problem, std::move(coarse), options, storage);
-  MethodRun run;
-  run.result =
-      run_method(problem, offering_levels(options, {}), run.report, storage, WarmStart<Dim>{});
-  return run;
+std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
+                                              const CoarseMesher<Dim>& mesher,
+                                              const SolverOptions& options) {
+  const auto sizes =
+      start_sizes(problem.num_control_points(), problem.mesh.num_vertices(), mesher, options);
+  return make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
 }
 
 //! \param options  valid
@@ -58,12 +44,9 @@ Solution solve_valid(const LbcProblem<Dim>& problem, const SolverOptions& user_o
   const ThreadScope threads(
       threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices()));
   std::vector<CoarseProblem<Dim>> coarse;
-  if (!resumes(storage)) {
-    const auto sizes = start_sizes(problem.num_control_points(), problem.mesh.num_vertices(),
-                                   mesher, options);
-    coarse = make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
-  }
-  return finish<Solution>(problem, options, run_from(problem, std::move(coarse), options, storage));
+  if (!resumes(storage)) coarse = coarse_starts(problem, mesher, options);
+  return finish<Solution>(problem, options,
+                          solve_in_cascade(problem, std::move(coarse), options, storage));
 }
 
 // A problem set up for a method that does not minimise comes without.
@@ -120,8 +103,8 @@ Result solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Solv
   }
   const auto told = offering_record(resolved, cage, mesh, ready.problem.phi.distances(),
                                     ready.distances, ready.seconds, coarse_seconds);
-  auto solution = finish<Result>(ready.problem, told,
-                                 run_from(ready.problem, std::move(ready.coarse), told, nullptr));
+  auto solution = finish<Result>(
+      ready.problem, told, solve_in_cascade(ready.problem, std::move(ready.coarse), told));
   add_set_up(ready.seconds, ready.distances, solution.report);
   return solution;
 }
@@ -183,7 +166,7 @@ class LbcSolver<Dim>::State {
   }
 
   void restart() {
-    kept_.forget();
+    last_run_.forget();
     ready_.coarse.clear();
   }
 
@@ -206,19 +189,19 @@ class LbcSolver<Dim>::State {
 
   // What set_up() made for the first solve serves that one alone.
   Solution solve_next() {
-    auto coarse = std::exchange(ready_.coarse, {});
-    if (coarse.empty()) return solve_valid(ready_.problem, options_, mesher_, &kept_);
-    const ThreadScope threads(threads_for(options_.threads, ready_.problem.num_control_points(),
-                                          ready_.problem.mesh.num_vertices()));
+    const auto& problem = ready_.problem;
     const auto options = offering_nothing(resolve(options_));
-    return finish<Solution>(ready_.problem, options,
-                            run_from(ready_.problem, std::move(coarse), options, &kept_));
+    const ThreadScope threads(
+        threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices()));
+    auto coarse = std::exchange(ready_.coarse, {});
+    if (coarse.empty() && !last_run_.is_there()) coarse = coarse_starts(problem, mesher_, options);
+    return finish<Solution>(problem, options, last_run_.go_on(problem, std::move(coarse), options));
   }
 
   SolverOptions options_;
   CoarseMesher<Dim> mesher_;
   SetUp<Dim> ready_;  // seconds until a report has told them, coarse problems until they are used
-  KeptState kept_;
+  LastRun<Dim> last_run_;
   Solution solution_{};
 };
 

@@ -26,7 +26,7 @@ class Cascade {
     while (num_solved_ < levels_.size() && !stopped_) solve_level(levels_[num_solved_]);
   }
 
-  MethodRun solve_finest(StateStorage* storage) {
+  MethodRun solve_finest(StateStorage* storage, MeshState<Dim>* final_state) {
     Stopwatch watch;
     std::vector<LevelReport> reports;
     for (std::size_t k = 0; k < num_solved_; ++k) reports.push_back(levels_[k].report);
@@ -45,8 +45,8 @@ class Cascade {
       state_ = {};
       for (auto& level : levels_) level = {{}, {}, level.report};
     };
-    auto result =
-        run_method(problem_, options, report, storage, {transfer.get(), nullptr, forget_levels});
+    auto result = run_method(problem_, options, report, storage,
+                             {transfer.get(), final_state, forget_levels});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
     for (const auto& level : levels_) {
@@ -78,7 +78,7 @@ class Cascade {
     MeshState<Dim> state;
     const auto started = [&level] { level.cold.reset(); };
     run_method(level.problem, options, report, nullptr,
-               {transfer.get(), &state, started, level.cold ? &*level.cold : nullptr});
+               {transfer.get(), &state, started, level.cold ? &*level.cold : nullptr, true});
     state_ = std::move(state);
     level.problem.phi = {};  // finer ones have theirs
     level.report.iterations = report.iterations;
@@ -98,15 +98,16 @@ class Cascade {
 
 template <int Dim>
 MethodRun solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-                           const SolverOptions& options, StateStorage* storage) {
+                           const SolverOptions& options, StateStorage* storage,
+                           MeshState<Dim>* final_state) {
   Cascade<Dim> cascade(problem, std::move(levels), options);
   cascade.climb();
-  return cascade.solve_finest(storage);
+  return cascade.solve_finest(storage, final_state);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                  \
   template MethodRun solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>, \
-                                      const SolverOptions&, StateStorage*);
+                                      const SolverOptions&, StateStorage*, MeshState<Dim>*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/multilevel/set_up.h"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
-#include "base/parallel.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
+#include "flbc/errors.h"
 #include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
+#include "solver/multilevel/choose_distances.h"
 #include "solver/multilevel/level_sizes.h"
 #include "solver/multilevel/mesh_ahead.h"
 #include "solver/supports/choice.h"
@@ -71,81 +70,40 @@ CoarsePlan plan_coarse(Index n, Index finest, const SolverOptions& options,
   return {std::move(sizes), {starts, interpolates}};
 }
 
-// Some control points: from the one that is the farthest from a part of the domain, in even steps
-// to the one that is the nearest to all of it.
-std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
-  constexpr Index kOneIn = 32;
-  constexpr Index kMost = 10;
-  const auto n = static_cast<Index>(distances.rows());
-  const Index count = std::min({n, 2 + n / kOneIn, kMost});
-  const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
-  std::vector<Index> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return farthest[a] > farthest[b]; });
-  std::vector<Index> chosen;
-  for (Index k = 0; k < count; ++k) chosen.push_back(order[k * (n - 1) / std::max(1, count - 1)]);
-  return chosen;
-}
-
-// Puts exact distances in for some control points and tells how far phi was off there, within the
-// reaches.
 template <int Dim>
-double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
-                       const Eigen::VectorXf& reach, DistanceMatrix& distances) {
-  const auto chosen = choose_control_points(distances);
-  const auto count = static_cast<Index>(chosen.size());
-  std::vector<Index> sources;
-  DistanceMatrix both(2 * count, distances.cols());
-  for (Index k = 0; k < count; ++k) {
-    sources.push_back(problem.boundary.control_vertices[chosen[k]]);
-    both.row(k) = distances.row(chosen[k]);
-  }
-  both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
-  for (Index k = 0; k < count; ++k) {
-    distances.row(chosen[k]) = both.row(count + k);
-    if (reach.size() == 0) continue;
-    for (const Index row : {k, count + k}) both.row(row) = both.row(row).cwiseMin(reach[chosen[k]]);
-  }
-  const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
-  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
-  const auto squares = parallel_sum(problem.mesh.num_cells(), zero, [&](Index begin, Index end) {
-    Eigen::Vector2d sum = zero;  // of the differences, and of phi
-    for (Index s = begin; s < end; ++s) {
-      const Eigen::VectorXd on_cell = phi.col(s);
-      sum[0] += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
-      sum[1] += on_cell.tail(count).squaredNorm();
-    }
-    return sum;
-  });
-  return std::sqrt(squares[0] / squares[1]);
-}
-
-// The mean squared change of weights by a relative error of phi: four times what it was on any
-// model where the error was 0.4 % and more (docs/results.md).
-double weight_error(double phi_error) {
-  constexpr double kInfluence = 3e-4;
-  return kInfluence * phi_error * phi_error;
-}
-
-template <int Dim>
-DistanceMatrix choose_distances(SetUp<Dim>& result, const SolverOptions& options) {
-  constexpr double kPart = 0.5;  // of the tolerance
+DistanceMatrix place_and_choose(SetUp<Dim>& result, const SolverOptions& options) {
   auto& coarse = result.coarse.back();
   coarse.finest_vertices =
       places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
-  auto distances = distances_from(coarse.problem, result.problem, coarse.finest_vertices);
-  const auto enlarged = static_cast<float>(enlargement(coarse.problem, result.problem));
-  const double error =
-      check_on_sample(result.problem, options.phi, enlarged * coarse.reach, distances);
-  if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
-    return distances_for(options.phi, result.problem);
+  return choose_distances(coarse, result.problem, options, result.distances);
+}
+
+// A copy, with the places of the finest mesh's vertices.
+template <int Dim>
+CoarseProblem<Dim> coarsest_of(const SetUp<Dim>& result) {
+  auto coarse = result.coarse.front();
+  if (coarse.finest_vertices.empty()) {
+    coarse.finest_vertices =
+        places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
   }
-  result.distances = {Distances::kInterpolated, coarse.report.vertices, error};
-  return distances;
+  return coarse;
 }
 
 }  // namespace
+
+void require_valid(const SolverOptions& options, bool has_mesher) {
+  validate(options);
+  if (options.coarse_to_fine == CoarseToFine::kOn && !has_mesher) {
+    throw OptionError("coarse_to_fine cannot be on without a mesher for the coarser meshes");
+  }
+}
+
+void require_valid_set_up(const SolverOptions& options, bool has_mesher) {
+  require_valid(options, has_mesher);
+  if (options.distances == Distances::kInterpolated && !has_mesher) {
+    throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
+  }
+}
 
 template <int Dim>
 std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& mesher,
@@ -162,7 +120,7 @@ std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& m
 
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                  const CoarseMesher<Dim>& mesher) {
+                  const CoarseMesher<Dim>& mesher, std::optional<CoarseProblem<Dim>>* coarsest) {
   Stopwatch watch;
   require_connected(mesh);
   const auto plan = plan_coarse(cage.size(), mesh.num_vertices(), options, mesher);
@@ -176,9 +134,12 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   result.coarse = make_coarse_problems(problem, ahead.mesher(), plan.sizes, options, plan.use);
   const StageScope scope(told_of(options, Stage::kDistances));
   auto distances = plan.use.distances && !result.coarse.empty()
-                       ? choose_distances(result, options)
+                       ? place_and_choose(result, options)
                        : distances_for(options.phi, problem);
   problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
+  if (coarsest != nullptr && result.distances.source == Distances::kInterpolated) {
+    *coarsest = coarsest_of(result);
+  }
   if (!plan.use.start) result.coarse.clear();
   result.seconds = watch.lap();
   for (const auto& level : result.coarse) {
@@ -191,7 +152,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   template std::vector<Index> start_sizes(Index, Index, const CoarseMesher<Dim>&, \
                                           const SolverOptions&);                  \
   template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,    \
-                             const CoarseMesher<Dim>&);
+                             const CoarseMesher<Dim>&, std::optional<CoarseProblem<Dim>>*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

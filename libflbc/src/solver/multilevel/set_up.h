@@ -3,6 +3,7 @@
 //! From cage and mesh to a problem, with what coarser meshes can do for it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/multilevel/coarse_problem.h"
@@ -25,14 +26,23 @@ template <int Dim>
 std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& mesher,
                                const SolverOptions& options);
 
+//! \throws OptionError if options are impossible, or demand a mesher where there is none
+void require_valid(const SolverOptions& options, bool has_mesher);
+
+//! The same where the problem is yet to be set up.
+void require_valid_set_up(const SolverOptions& options, bool has_mesher);
+
 //! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
 //! options say so, and without phi where the method does not need it.
 //! \param options  resolved
 //! \param mesher  may be empty unless options demand it; with several threads it is called from
 //! one of its own
+//! \param coarsest  where to leave the mesh whose distances were computed, with the places of the
+//! finest one's vertices, if distances were interpolated; may be null
 //! \throws InputError, SolverError
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                  const CoarseMesher<Dim>& mesher);
+                  const CoarseMesher<Dim>& mesher,
+                  std::optional<CoarseProblem<Dim>>* coarsest = nullptr);
 
 }  // namespace flbc

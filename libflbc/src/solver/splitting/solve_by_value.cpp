@@ -155,7 +155,7 @@ class ValueSolve {
   // A coarse mesh has told then where weights are.
   Window window_of(bool cold) const {
     if (!cold) return {0, kNever};
-    return {kUntilDualsAreThere, warm_start_.final_state ? kUntilDualsAreThere : kNever};
+    return {kUntilDualsAreThere, warm_start_.for_finer_mesh ? kUntilDualsAreThere : kNever};
   }
 
   // \return nothing if it has to go on with all pairs, from the start if there is one
@@ -216,7 +216,7 @@ class ValueSolve {
 
   // The part of the state that a finer mesh on supports will read.
   DualStart<Dim> handed_on(DualStart<Dim> start) const {
-    if (!supports::serve(problem_, options_)) return start;
+    if (!warm_start_.for_finer_mesh || !supports::serve(problem_, options_)) return start;
     const double finer_tolerance = options_.tolerance / options_.coarse_levels.looseness;
     start.flux_density =
         supports::where_weights_are(problem_, start, supports::threshold_for(finer_tolerance));

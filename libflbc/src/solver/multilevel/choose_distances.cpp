@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/multilevel/choose_distances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "problem/problem_geometry.h"
+#include "solver/warm_start/transfer.h"
+
+namespace flbc {
+namespace {
+
+// Some control points: from the one that is the farthest from a part of the domain, in even steps
+// to the one that is the nearest to all of it.
+std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
+  constexpr Index kOneIn = 32;
+  constexpr Index kMost = 10;
+  const auto n = static_cast<Index>(distances.rows());
+  const Index count = std::min({n, 2 + n / kOneIn, kMost});
+  const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return farthest[a] > farthest[b]; });
+  std::vector<Index> chosen;
+  for (Index k = 0; k < count; ++k) chosen.push_back(order[k * (n - 1) / std::max(1, count - 1)]);
+  return chosen;
+}
+
+// Puts exact distances in for some control points and tells how far phi was off there, within the
+// reaches.
+template <int Dim>
+double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
+                       const Eigen::VectorXf& reach, DistanceMatrix& distances) {
+  const auto chosen = choose_control_points(distances);
+  const auto count = static_cast<Index>(chosen.size());
+  std::vector<Index> sources;
+  DistanceMatrix both(2 * count, distances.cols());
+  for (Index k = 0; k < count; ++k) {
+    sources.push_back(problem.boundary.control_vertices[chosen[k]]);
+    both.row(k) = distances.row(chosen[k]);
+  }
+  both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
+  for (Index k = 0; k < count; ++k) {
+    distances.row(chosen[k]) = both.row(count + k);
+    if (reach.size() == 0) continue;
+    for (const Index row : {k, count + k}) both.row(row) = both.row(row).cwiseMin(reach[chosen[k]]);
+  }
+  const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  const auto squares = parallel_sum(problem.mesh.num_cells(), zero, [&](Index begin, Index end) {
+    Eigen::Vector2d sum = zero;  // of the differences, and of phi
+    for (Index s = begin; s < end; ++s) {
+      const Eigen::VectorXd on_cell = phi.col(s);
+      sum[0] += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
+      sum[1] += on_cell.tail(count).squaredNorm();
+    }
+    return sum;
+  });
+  return std::sqrt(squares[0] / squares[1]);
+}
+
+// The mean squared change of weights by a relative error of phi: four times what it was on any
+// model where the error was 0.4 % and more (docs/results.md).
+double weight_error(double phi_error) {
+  constexpr double kInfluence = 3e-4;
+  return kInfluence * phi_error * phi_error;
+}
+
+}  // namespace
+
+template <int Dim>
+DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                                const SolverOptions& options, DistanceReport& report) {
+  constexpr double kPart = 0.5;  // of the tolerance
+  auto distances = distances_from(coarse.problem, problem, coarse.finest_vertices);
+  const auto enlarged = static_cast<float>(enlargement(coarse.problem, problem));
+  const double error = check_on_sample(problem, options.phi, enlarged * coarse.reach, distances);
+  if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
+    report = {};
+    return distances_for(options.phi, problem);
+  }
+  report = {Distances::kInterpolated, coarse.problem.mesh.num_vertices(), error};
+  return distances;
+}
+
+template DistanceMatrix choose_distances(const CoarseProblem<2>&, const LbcProblem<2>&,
+                                         const SolverOptions&, DistanceReport&);
+template DistanceMatrix choose_distances(const CoarseProblem<3>&, const LbcProblem<3>&,
+                                         const SolverOptions&, DistanceReport&);
+
+}  // namespace flbc
