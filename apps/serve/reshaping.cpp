@@ -37,10 +37,10 @@ PointList<Dim> points_in(const Json& request, Index count) {
 
 template <int Dim>
 Reshaping<Dim>::Reshaping(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, PointList<Dim> model,
-                          const SolverOptions& options)
+                          const SolverOptions& options, const CoarseMesher<Dim>& mesher)
     : model_(std::move(model)),
       center_(view::page_center<Dim>(cage.points)),
-      coordinates_(cage, mesh, options) {
+      coordinates_(cage, mesh, options, mesher) {
 }
 
 template <int Dim>

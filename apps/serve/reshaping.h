@@ -17,9 +17,10 @@ class Reshaping {
  public:
   //! Solves for the first shape. \param mesh  of the cage's interior
   //! \param model  Dim x P, which stays where it is; without points the mesh is shown and moves
-  //! along \throws InputError, OptionError, SolverError
+  //! along \param mesher  makes coarser meshes of the cage; may be empty
+  //! \throws InputError, OptionError, SolverError
   Reshaping(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, PointList<Dim> model,
-            const SolverOptions& options);
+            const SolverOptions& options, const CoarseMesher<Dim>& mesher);
 
   //! Weights at the points shown, of few influences, for the present shape.
   WeightMatrix weights() const;

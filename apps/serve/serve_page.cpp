@@ -43,11 +43,11 @@ class InterruptsNoticed {
 };
 
 template <int Dim>
-DomainMesh<Dim> mesh_interior(const Cage<Dim>& cage, const ServeArguments& arguments) {
+MadeDomain<Dim> mesh_interior(const Cage<Dim>& cage, const ServeArguments& arguments) {
   const ProgressBar bar(arguments.quiet, meshing_stage(MesherSettings().timeout));
   constexpr Index kQuick = 2000;  // vertices that are solved again within a moment
   const Index vertices = arguments.vertices > 0 ? arguments.vertices : kQuick;
-  return make_domain<Dim>({cage, arguments.cage, vertices}).mesh;
+  return make_domain<Dim>({cage, arguments.cage, vertices});
 }
 
 template <int Dim>
@@ -61,14 +61,16 @@ void serve_cage(const Cage<Dim>& cage, const ServeArguments& arguments) {
   // One core is left to the browser, which draws meanwhile: threads that wait for one it has taken
   // cost more than they save.
   omp_set_num_threads(std::max(1, omp_get_max_threads() - 1));
-  const auto mesh = mesh_interior(cage, arguments);
+  const auto domain = mesh_interior(cage, arguments);
+  const auto& mesh = domain.mesh;
   auto model = shown_model(mesh, arguments);
   LocalServer server(arguments.port);
   auto reshaping = [&] {
     const ProgressBar bar(arguments.quiet, "solving");
     const bool has_model = !arguments.model.empty();
     return naming(has_model ? arguments.model : arguments.cage, [&] {
-      Reshaping<Dim> first(cage, mesh, has_model ? model.points : PointList<Dim>(), {});
+      Reshaping<Dim> first(cage, mesh, has_model ? model.points : PointList<Dim>(), {},
+                           coarse_mesher<Dim>(domain.mesher));
       first.weights();  // refuses a model that reaches out of its cage
       return first;
     });

@@ -91,7 +91,7 @@ Row after(const Context& context, const Setting<Dim>& setting, const SolverOptio
   auto row = mesh_row(setting);
   row["move"] = move.name;
   const auto& cage = setting.problem.cage;
-  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options);
+  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
   try {
     const auto& report = coordinates.move(moved_by<Dim>(cage.points, setting.model, move)).report;
     row["iterations"] = std::to_string(report.iterations);
@@ -107,7 +107,7 @@ Row after(const Context& context, const Setting<Dim>& setting, const SolverOptio
 template <int Dim>
 Row drag(const Context& context, const Setting<Dim>& setting, const SolverOptions& options) {
   const auto& cage = setting.problem.cage;
-  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options);
+  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
   const double length = kDragPart * bounding_box_diagonal(cage.points);
   const int steps = context.quick ? kQuickSteps : kDragSteps;
   double iterations = 0, seconds = 0, longest = 0;

@@ -29,10 +29,16 @@ class EditableMesh {
   //! \param cage  n control points
   //! \param options  of all solves
   //! \param weights  name of the property, a row of n doubles per vertex
+  //! \param mesher  makes coarser meshes of the cage (see EditableCoordinates); {} for none. By
+  //! default that of the component which the program links, as in solve()
   //! \throws InputError if mesh and cage do not belong together; OptionError, SolverError
   EditableMesh(Mesh& mesh, const Cage<kDim>& cage, const SolverOptions& options = {},
-               std::string weights = kWeights)
-      : mesh_(mesh), weights_(std::move(weights)), coordinates_(cage, domain_of(mesh, cage), options) {
+               std::string weights = kWeights,
+               const MesherArgument<kDim>& mesher =
+                   internal::coarse_mesher(internal::linked_mesher<kDim>()))
+      : mesh_(mesh),
+        weights_(std::move(weights)),
+        coordinates_(cage, domain_of(mesh, cage), options, mesher) {
     set_weights(mesh_, coordinates_.solution().weights, weights_);
     set_rest_cage(mesh_, cage.points, weights_);
   }
