@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Usage: scripts/fuzz.sh [SECONDS_PER_READER] [READER...]
 # Builds flbc_fuzz (libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer; preset `fuzz`), lets it
-# work on every reader, or on those that are named, for so many seconds each (60), and ends with a
-# table. Exit status 1 if there are findings: inputs on which a reader crashes, takes 10 s or 2 GiB,
-# throws what is no flbc::Error, or hands back what breaks a promise (tests/fuzz). What it has learnt
-# is kept in build/fuzz/corpus, so that the next run goes on from there.
+# work on every reader, or on those that are named, for so many seconds each (60), one reader a core,
+# and ends with a table. Exit status 1 if there are findings: inputs on which a reader crashes, takes
+# 10 s or 2 GiB, throws what is no flbc::Error, or hands back what breaks a promise (tests/fuzz). What
+# it has learnt is kept in build/fuzz/corpus, so that the next run goes on from there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -44,37 +44,47 @@ number_in() {
   grep -oE "$2 *[0-9]+" "$1" | tail -1 | grep -oE '[0-9]+$' || echo 0
 }
 
-table=()
-failed=0
-for reader in "${readers[@]}"; do
+# fuzz_reader READER: fuzzes one reader; its log and findings tell the rest.
+fuzz_reader() {
+  local reader=$1 file
   file=$(printf '%s\n' "${known[@]}" | sed -n "s/^$reader //p")
-  if [ -z "$file" ]; then
+  local corpus=$work/corpus/$reader findings=$work/findings/$reader
+  mkdir -p "$corpus" "$findings"
+  local inputs=("$corpus" "$work/seeds/$reader")
+  if [ -d "tests/fuzz/found/$reader" ]; then inputs+=("$PWD/tests/fuzz/found/$reader"); fi
+  local options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096
+    -print_final_stats=1 -artifact_prefix="$findings/")
+  local dictionary=tests/fuzz/dictionaries/${file##*.}.dict
+  if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
+  echo "$reader: $seconds s ..."
+  rm -f "$work/$reader.failed"
+  OMP_NUM_THREADS=1 "$fuzz" "$reader" "${options[@]}" "${inputs[@]}" >"$work/$reader.log" 2>&1 ||
+    touch "$work/$reader.failed"
+}
+
+for reader in "${readers[@]}"; do
+  if ! printf '%s\n' "${known[@]%% *}" | grep -qxF -- "$reader"; then
     echo "scripts/fuzz.sh: no reader \"$reader\"; there are: ${known[*]%% *}" >&2
     exit 1
   fi
-  corpus=$work/corpus/$reader findings=$work/findings/$reader log=$work/$reader.log
-  mkdir -p "$corpus" "$findings"
-  known_inputs=$work/seeds/$reader
-  found_before=()
-  if [ -d "tests/fuzz/found/$reader" ]; then found_before=("$PWD/tests/fuzz/found/$reader"); fi
-  options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096
-    -print_final_stats=1 -artifact_prefix="$findings/")
-  dictionary=tests/fuzz/dictionaries/${file##*.}.dict
-  if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
-  echo "$reader: $seconds s ..."
-  status=0
-  OMP_NUM_THREADS=1 "$fuzz" "$reader" "${options[@]}" "$corpus" "$known_inputs" \
-    "${found_before[@]}" >"$log" 2>&1 || status=$?
-  count=$(find "$findings" -type f | wc -l)
-  if [ "$status" -ne 0 ]; then
+done
+for reader in "${readers[@]}"; do
+  while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n; done
+  fuzz_reader "$reader" &
+done
+wait
+
+failed=0
+printf '\n%-14s %12s %10s %8s %9s\n' reader executions "a second" edges findings
+for reader in "${readers[@]}"; do
+  log=$work/$reader.log
+  printf '%-14s %12s %10s %8s %9s\n' "$reader" \
+    "$(number_in "$log" 'stat::number_of_executed_units:')" \
+    "$(number_in "$log" 'stat::average_exec_per_sec:')" "$(number_in "$log" 'cov:')" \
+    "$(find "$work/findings/$reader" -type f | wc -l)"
+  if [ -e "$work/$reader.failed" ]; then
     failed=1
     echo "$reader: a finding; build/fuzz/$reader.log tells" >&2
   fi
-  table+=("$(printf '%-14s %12s %10s %8s %9s' "$reader" \
-    "$(number_in "$log" 'stat::number_of_executed_units:')" \
-    "$(number_in "$log" 'stat::average_exec_per_sec:')" "$(number_in "$log" 'cov:')" "$count")")
 done
-
-printf '\n%-14s %12s %10s %8s %9s\n' reader executions "a second" edges findings
-printf '%s\n' "${table[@]}"
 exit $failed

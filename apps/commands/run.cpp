@@ -202,7 +202,6 @@ void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
 int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArguments& arguments) {
   check_arguments(arguments);
   read_auto_cage(auto_cage, arguments);
-  settle_checkpoint(arguments.settings);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
   require_model_to_embed(arguments.settings);

@@ -112,7 +112,6 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);
     refuse_unread_options(*command, arguments->settings);
-    settle_checkpoint(arguments->settings);
     check_outputs(*arguments);
     const auto cage = load_cage(arguments->settings.cage);
     exit_status = std::visit([&](const auto& any) { return solve_cage(any, *arguments); }, cage);

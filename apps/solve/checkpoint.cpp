@@ -44,6 +44,7 @@ KeptRun<Dim> read_run(const std::string& path, const std::string& lines) {
   auto& solved = run.solved;
   read(solved.domain.points, solved.domain.cells, solved.mesh_seconds, solved.mesher, run.history,
        run.iteration);
+  if (read.is_at_end()) throw InputError("it ends early");
   run.state = read.rest();
   normalize_and_validate(solved.domain);
   return run;

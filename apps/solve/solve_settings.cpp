@@ -75,16 +75,6 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   }
 }
 
-void settle_checkpoint(SolveSettings& settings) {
-  if (settings.checkpoint.file.empty()) return;
-  auto& choice = settings.options.active_pairs;
-  if (choice == ActivePairs::kOn) {
-    throw OptionError("--checkpoint: a run with --active on cannot be gone on from; leave one of "
-                      "them out");
-  }
-  choice = ActivePairs::kOff;
-}
-
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
   add_choice(command, "--method", options.method, "how to solve (auto)");

@@ -38,10 +38,6 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings);
 //! \throws OptionError naming the option
 void refuse_unread_options(const CLI::App& command, const SolveSettings& settings);
 
-//! With --checkpoint all pairs are worked on, since the state on supports is not one to go on from.
-//! \throws OptionError if supports are asked for as well
-void settle_checkpoint(SolveSettings& settings);
-
 //! Adds all options about the solver, --cache and --checkpoint, to a command. \param settings  outlives it
 void add_solver_options(CLI::App& command, SolveSettings& settings);
 

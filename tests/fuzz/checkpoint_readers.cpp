@@ -39,10 +39,12 @@ struct CrossPolytope {
   }
 };
 
+// In the plane a run on all pairs, in space one on supports: their states differ.
+template <int Dim>
 SolverOptions options_of_run() {
   SolverOptions options;
   options.method = Method::kValue;
-  options.active_pairs = ActivePairs::kOff;
+  options.active_pairs = Dim == 2 ? ActivePairs::kOff : ActivePairs::kOn;
   options.tolerance = 1e-12;
   options.gap = 0;
   options.check_interval = 2;
@@ -58,7 +60,7 @@ void read_checkpoint(const std::string& path) {
   const auto& domain = run->solved.domain;
   require_indices_in_range(domain);
   static const CrossPolytope<Dim> sample;
-  auto options = options_of_run();
+  auto options = options_of_run<Dim>();
   options.resume_from = run->state;
   require(!run->state.empty(), "there is a state");
   const auto solution = solve_sparse(sample.cage, domain, options);
@@ -74,7 +76,7 @@ std::string checkpoint() {
   app::SolvedDomain<Dim> solved;
   solved.domain = sample.mesh;
   return written("a.state", [&](const std::string& path) {
-    auto options = options_of_run();
+    auto options = options_of_run<Dim>();
     options.progress = [&](const Progress& progress) {
       app::Checkpoint<Dim>({path, 0}, kLines).look(progress, solved, {app::HistoryEntry{2, 0}});
       return false;

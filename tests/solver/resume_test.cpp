@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/bounding_box.h"
 #include "flbc/editing.h"
 #include "flbc/errors.h"
 #include "flbc/solver.h"
+#include "support/coarse_sample_mesher.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -59,6 +59,8 @@ void expect_same(const Solution& resumed, const Solution& whole) {
   EXPECT_EQ(a.objective, b.objective);
   EXPECT_EQ(a.certificate.relative_gap, b.certificate.relative_gap);
   EXPECT_EQ(a.state_scalars_per_cell, b.state_scalars_per_cell);
+  EXPECT_EQ(a.active_pairs.density, b.active_pairs.density);
+  EXPECT_EQ(a.active_pairs.growths, b.active_pairs.growths);
   EXPECT_EQ(a.distances.source, b.distances.source);
   EXPECT_EQ(a.distances.phi_error, b.distances.phi_error);
   ASSERT_EQ(a.coarse_levels.size(), b.coarse_levels.size());
@@ -143,15 +145,9 @@ TYPED_TEST(ResumeTest, StartFromCoarserMeshesIsNotRepeated) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 6, 0.2);
   int meshed = 0;
-  const CoarseMesher<kDim> mesher = [&](const Cage<kDim>& cage, Index) {
+  const CoarseMesher<kDim> mesher = [&](const Cage<kDim>& cage, Index vertices) {
     ++meshed;
-    // Where and as large as the cage given, whose first points are a frame.
-    auto coarse = make_sample<kDim>(Shape::kCorner, 3, 0.2);
-    const double scale =
-        bounding_box_diagonal(cage.points) / bounding_box_diagonal(coarse.cage.points);
-    const Vector<kDim> shift = cage.points.col(0) - scale * coarse.cage.points.col(0);
-    coarse.mesh.points = (scale * coarse.mesh.points).colwise() + shift;
-    return coarse.mesh;
+    return coarse_sample_mesher<kDim>(3)(cage, vertices);
   };
   SolverOptions options;
   options.method = Method::kValue;
@@ -169,6 +165,86 @@ TYPED_TEST(ResumeTest, StartFromCoarserMeshesIsNotRepeated) {
   EXPECT_EQ(meshed, before);
   options.resume_from = {};
   expect_resumable(sample, options, mesher);
+}
+
+// States from before, at and after the iterations at which the penalty is balanced and the ends of
+// supports are looked at; from harmonic coordinates and from a coarser mesh.
+TYPED_TEST(ResumeTest, SupportsGoOn) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+  for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
+    for (const auto& mesher :
+         {CoarseMesher<kDim>{}, coarse_sample_mesher<kDim>(kDim == 2 ? 5 : 2)}) {
+      SCOPED_TRACE(mesher ? "coarse start" : "cold start");
+      SolverOptions options;
+      options.precision = precision;
+      options.active_pairs = ActivePairs::kOn;
+      options.coarse_to_fine = mesher ? CoarseToFine::kOn : CoarseToFine::kOff;
+      options.coarse_levels.coarsest = 5;
+      options.tolerance = 1e-7;
+      options.gap = 0;
+      options.check_interval = 5;
+      const auto report = expect_resumable(sample, options, mesher);
+      EXPECT_LT(report.active_pairs.density, 1);
+      EXPECT_EQ(report.coarse_levels.size(), mesher ? 1U : 0U);
+      EXPECT_GT(report.iterations, 40);
+    }
+  }
+}
+
+// What the supports do not end, all pairs do: so that the gap is known, or because one was asked for.
+TYPED_TEST(ResumeTest, SupportsGoOnToAllPairs) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+  SolverOptions options;
+  options.active_pairs = ActivePairs::kOn;
+  options.tolerance = 1e-6;
+  options.certify = true;
+  options.check_interval = 20;
+  EXPECT_GT(expect_resumable(sample, options).certificate.lower_bound, 0);
+}
+
+TYPED_TEST(ResumeTest, HalfPrecisionOnSupportsGoesOn) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 72 : 12, 0.2);
+  ASSERT_GE(sample.mesh.num_cells(), 10000);
+  SolverOptions options;
+  options.active_pairs = ActivePairs::kOn;
+  options.precision = Precision::kHalf;
+  options.tolerance = 1e-7;
+  options.gap = 0;
+  options.check_interval = 20;
+  options.max_iterations = 400;
+  expect_resumable(sample, options);
+}
+
+// Wherever a byte of the supports is another: refused, or lists on which weights still exist.
+TYPED_TEST(ResumeTest, DamagedSupportsAreRefusedOrLeaveWeights) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+  SolverOptions options;
+  options.active_pairs = ActivePairs::kOn;
+  options.max_iterations = 60;
+  options.tolerance = 1e-12;
+  options.gap = 0;
+  options.check_interval = 55;
+  std::vector<State> states;
+  solve_and_keep(sample, options, {}, states);
+  ASSERT_FALSE(states.empty());
+  const auto& whole = states.front().bytes;
+  int refused = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 400) {
+    auto damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x41);
+    options.resume_from = damaged;
+    try {
+      const auto solution = solve(sample.cage, sample.mesh, options);
+      EXPECT_TRUE(solution.weights.allFinite()) << at;
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
 }
 
 TYPED_TEST(ResumeTest, LimitAndThreadsMayChange) {

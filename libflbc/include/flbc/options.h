@@ -145,7 +145,6 @@ struct SolverOptions {
   std::optional<double> gap{};
 
   //! Work only where weights are. Read by kValue, but not where a state is kept (StateStorage).
-  //! Progress::write_state is empty while supports are worked on.
   ActivePairs active_pairs = ActivePairs::kAuto;
 
   //! Largest number of iterations, >= 1; reaching it is reported, not an error. Read by kValue,

@@ -15,7 +15,7 @@ namespace {
 template <int Dim>
 std::uint64_t origin_of(const SolverOptions& options, const Cage<Dim>& cage,
                         const DomainMesh<Dim>& mesh) {
-  const std::string lines = "flbc run of " FLBC_VERSION ", cells by blocks\n" + option_lines(options);
+  const std::string lines = "flbc run of " FLBC_VERSION ", of supports or all pairs\n" + option_lines(options);
   ContentHash hash;
   hash.add(lines.data(), lines.size());
   const Index sizes[] = {Dim, cage.size(), mesh.num_vertices(), mesh.num_cells()};

@@ -49,6 +49,7 @@ class CompactSplitting {
  public:
   static constexpr bool kStoresHalf = std::is_same_v<Stored, Half>;
   static constexpr bool kAdapts = true;  //!< has iterate_and_adapt()
+  static constexpr bool kOnSupports = false;
 
   //! \param metric  see splitting_data.h
   //! \param penalty  rho > 0

@@ -31,18 +31,11 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
          (storage == nullptr || storage->holds_half());
 }
 
-// The front of what the progress callback is offered.
-struct StateFront {
-  bool is_half = false;
-  double penalty = 0;
-  splitting::Start start = splitting::Start::kCold;
-};
-
-// Takes it off. \return none where there is no state to go on from
+// \return none where there is no state to go on from
 std::optional<StateFront> take_front(ByteReader& read) {
   if (read.is_at_end()) return std::nullopt;
   StateFront front;
-  read(front.is_half, front.penalty, front.start);
+  front.visit(read);
   return front;
 }
 
@@ -69,6 +62,7 @@ class ValueSolve {
 
   template <class Stored>
   MethodResult solve() {
+    if (front_) return go_on<Stored>();
     if (storage_ == nullptr && supports::serve(problem_, options_)) {
       if (auto result = on_supports<Stored>()) return std::move(*result);
     }
@@ -129,7 +123,7 @@ class ValueSolve {
 
   template <class Stored>
   MethodResult advance(std::shared_ptr<Splitting<Stored>> splitting) {
-    const auto outcome = run_.iterate(*splitting, certify_by(splitting), {earliest_, kNever});
+    const auto outcome = run_.iterate(*splitting, certify_by(splitting), {earliest_, kNever, 0});
     return outcome == Outcome::kEnded ? end(std::move(splitting))
                                       : advance(in_single(std::move(splitting)));
   }
@@ -154,8 +148,14 @@ class ValueSolve {
 
   // A coarse mesh has told then where weights are.
   Window window_of(bool cold) const {
-    if (!cold) return {0, kNever};
-    return {kUntilDualsAreThere, warm_start_.for_finer_mesh ? kUntilDualsAreThere : kNever};
+    if (!cold) return {0, kNever, 0};
+    return {kUntilDualsAreThere, warm_start_.for_finer_mesh ? kUntilDualsAreThere : kNever, 0};
+  }
+
+  // Of the penalty of all pairs. Where fewer weights move a smaller one serves, and a yet smaller
+  // one where they are nearly right already; as measured.
+  double part_of_penalty(bool cold) const {
+    return options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25;
   }
 
   // \return nothing if it has to go on with all pairs, from the start if there is one
@@ -170,15 +170,51 @@ class ValueSolve {
       if (cold) start_.reset();
       return {};
     }
-    run_.offer_no_state();
     supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
-    // Where fewer weights move a smaller penalty serves, and a yet smaller one where they are
-    // nearly right already; as measured.
-    const double part = options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25;
+    const double part = part_of_penalty(cold);
     if (cold && options_.penalty == 0) iteration.balance_from(start_->weights, part);
     auto last =
         iteration.template run<Stored>(*std::exchange(start_, {}), part * of_all_pairs,
                                        std::move(lists), window_of(cold), [&] { forget_start(); });
+    return after_supports(std::move(last), part);
+  }
+
+  // From a state.
+  template <class Stored>
+  MethodResult go_on() {
+    earliest_ = front_->earliest;
+    if (front_->on_supports) {
+      if (auto result = go_on_with_supports<Stored>()) return std::move(*result);
+    }
+    return on_all_pairs<Stored>();
+  }
+
+  // \return nothing if it has to go on with all pairs
+  template <class Stored>
+  std::optional<MethodResult> go_on_with_supports() {
+    const auto front = *front_;
+    supports::SupportLists lists;
+    read_(lists.start, lists.items);
+    supports::require_supports(problem_, lists);
+    supports::Iteration<Scalar, Dim> iteration(problem_, metric_, options_, run_, report_);
+    const bool cold = front.start == splitting::Start::kCold;
+    const double part = part_of_penalty(cold);
+    if (cold && options_.penalty == 0 && front.since < supports::kLastBalance) {
+      const auto start = supports::cold_start(problem_, linear_solver_for(problem_, options_));
+      iteration.balance_from(start.state().weights, part);
+    }
+    auto last = iteration.template resume<Stored>(
+        front.penalty, std::move(lists), {front.earliest, kNever, front.since},
+        [&](supports::SupportSplitting<Scalar, Stored, Dim>& splitting) {
+          splitting.visit(read_);
+          run_.resume(read_);
+          front_.reset();
+        });
+    return after_supports(std::move(last), part);
+  }
+
+  // \return nothing if it has to go on with all pairs
+  std::optional<MethodResult> after_supports(supports::LastState<Dim> last, double part) {
     report_.penalty = last.state.penalty;
     last.state = with_penalty(last.state, last.state.penalty / part);
     if (!last.ended || options_.certify) {

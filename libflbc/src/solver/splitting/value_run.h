@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -33,10 +34,27 @@ enum class Outcome {
   kTrembles  //!< half precision does no longer; it is to go on in single precision
 };
 
-//! Iterations between which a run may end, and after which it pauses.
+//! Iterations of a part of a run: with which it may end, after which it pauses, and after which the
+//! part has begun.
 struct Window {
   int earliest;
   int pause;
+  int since;
+};
+
+//! The front of a state: how the run was going on.
+struct StateFront {
+  std::uint8_t on_supports = 0;  // flags as bytes: a file may hold any
+  std::uint8_t is_half = 0;
+  double penalty = 0;
+  splitting::Start start = splitting::Start::kCold;
+  int earliest = 0;  // of the window
+  int since = 0;
+
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(on_supports, is_half, penalty, start, earliest, since);
+  }
 };
 
 //! A run from its start to its end, which may go on in another precision or on other supports on
@@ -68,22 +86,20 @@ class ValueRun {
     require_whole_state(read, report_, options_);
   }
 
-  //! From now on the state is one that cannot be gone on from.
-  void offer_no_state() { offers_state_ = false; }
-
   //! \param certify_weights  by the duals of the splitting
   template <class Splitting>
   Outcome iterate(Splitting& splitting,
                   const std::function<Certificate(const WeightMatrix&)>& certify_weights,
                   Window window) {
     constexpr int kFewest = 8;
-    const auto options = told(splitting);
+    const auto options = told(splitting, window);
     certificate_ = [&] { return certify_weights(splitting.weights()); };
     const auto read = [&](Index v, Scalar* weights) { splitting.read_vertex(v, weights); };
     if (!history_) {
       start_history();
       (*history_)(0, read);
     }
+    if (report_.iterations >= window.pause) return Outcome::kPaused;  // a state of that iteration
     for (;;) {
       if (Splitting::kStoresHalf && trembles()) return Outcome::kTrembles;
       const int iteration = ++report_.iterations;
@@ -111,23 +127,24 @@ class ValueRun {
 
   // Options whose progress callback may ask for the objective and the state.
   template <class Splitting>
-  SolverOptions told(Splitting& splitting) {
+  SolverOptions told(Splitting& splitting, Window window) {
     auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
-    if constexpr (Splitting::kAdapts) {
-      if (offers_state_) {
-        return offering(std::move(options), [&](ByteWriter& write) {
-          write(Splitting::kStoresHalf, splitting.penalty(), start_);
-          splitting.visit(write);
-          visit(write);
-        });
+    return offering(std::move(options), [&, window](ByteWriter& write) {
+      StateFront{Splitting::kOnSupports, Splitting::kStoresHalf, splitting.penalty(), start_,
+                 window.earliest,        window.since}
+          .visit(write);
+      if constexpr (Splitting::kOnSupports) {
+        write(splitting.supports().start, splitting.supports().items);
       }
-    }
-    return offering_nothing(std::move(options));
+      splitting.visit(write);
+      visit(write);
+    });
   }
 
   template <class Archive>
   void visit(Archive& archive) {
-    archive(report_.iterations, report_.primal_residual);
+    archive(report_.iterations, report_.primal_residual, report_.active_pairs.growths,
+            report_.active_pairs.density);
     history_->visit(archive);
     estimate_.visit(archive);
     gap_.visit(archive);
@@ -159,7 +176,6 @@ class ValueRun {
   const SolverOptions& options_;
   const bool adaptive_;
   const splitting::Start start_;
-  bool offers_state_ = true;
   SolveReport& report_;
   const double num_weights_;
   const double residual_scale_;

@@ -74,19 +74,28 @@ LastState<Dim> Iteration<Scalar, Dim>::run(DualStart<Dim> start, double penalty,
   return advance<Stored>(std::move(splitting), window);
 }
 
+template <class Scalar, int Dim>
+template <class Stored>
+LastState<Dim> Iteration<Scalar, Dim>::resume(
+    double penalty, SupportLists lists, Window window,
+    const std::function<void(SupportSplitting<Scalar, Stored, Dim>&)>& read) {
+  auto splitting = std::make_shared<Splitting<Stored>>(problem_, metric_, penalty,
+                                                       options_.relaxation, std::move(lists));
+  read(*splitting);
+  return advance<Stored>(std::move(splitting), window);
+}
+
 // The run is certified from some iteration on, for which all duals are needed.
 template <class Scalar, int Dim>
 int Iteration<Scalar, Dim>::latest() const {
   return *options_.gap > 0 ? kFirstCertified - 1 : std::numeric_limits<int>::max();
 }
 
-constexpr int kLastBalance = 40;
-
 template <class Scalar, int Dim>
-int Iteration<Scalar, Dim>::next_balance() const {
+int Iteration<Scalar, Dim>::next_balance(int since) const {
   constexpr int kFirstBalance = 10;
   if (!start_weights_) return std::numeric_limits<int>::max();
-  return report_.iterations < kFirstBalance ? kFirstBalance : kLastBalance;
+  return since < kFirstBalance ? kFirstBalance : kLastBalance;
 }
 
 // As in CompactSplitting::adapt_penalty.
@@ -124,11 +133,11 @@ LastState<Dim> Iteration<Scalar, Dim>::advance(std::shared_ptr<Splitting<Stored>
     return start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting));
   };
   const auto no_certificate = [](const WeightMatrix&) { return Certificate{}; };
-  for (;;) {
-    const int balance = next_balance();
-    const int pause =
-        std::min({latest(), window.pause, balance, report_.iterations + kBetweenLooks});
-    const auto outcome = run_.iterate(*splitting, no_certificate, {window.earliest, pause});
+  for (;; window.since = report_.iterations) {
+    const int balance = next_balance(window.since);
+    const int pause = std::min({latest(), window.pause, balance, window.since + kBetweenLooks});
+    const auto outcome =
+        run_.iterate(*splitting, no_certificate, {window.earliest, pause, window.since});
     report_.active_pairs.density = density(problem_, splitting->supports());
     report_.state_scalars_per_cell = splitting->state_scalars_per_cell();
     if (outcome == Outcome::kPaused && pause == window.pause) {
@@ -141,6 +150,7 @@ LastState<Dim> Iteration<Scalar, Dim>::advance(std::shared_ptr<Splitting<Stored>
     }
     if (outcome == Outcome::kTrembles) {
       if constexpr (Splitting<Stored>::kStoresHalf) {
+        window.since = report_.iterations;
         return advance<Scalar>(make<Scalar>(state(), splitting->penalty(), splitting->supports()),
                                window);
       }
@@ -157,6 +167,18 @@ LastState<Dim> Iteration<Scalar, Dim>::advance(std::shared_ptr<Splitting<Stored>
     window.earliest = report_.iterations + kAfterGrowth;
   }
 }
+
+#define FLBC_RESUME(Scalar, Stored, Dim)                  \
+  template LastState<Dim> Iteration<Scalar, Dim>::resume( \
+      double, SupportLists, Window,                       \
+      const std::function<void(SupportSplitting<Scalar, Stored, Dim>&)>&);
+FLBC_RESUME(float, compact::Half, 2)
+FLBC_RESUME(float, compact::Half, 3)
+FLBC_RESUME(float, float, 2)
+FLBC_RESUME(float, float, 3)
+FLBC_RESUME(double, double, 2)
+FLBC_RESUME(double, double, 3)
+#undef FLBC_RESUME
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template LastState<Dim> Iteration<float, Dim>::run<compact::Half>(                               \

@@ -14,6 +14,9 @@
 
 namespace flbc::supports {
 
+//! Iteration after which a run from harmonic coordinates balances its penalty for the last time.
+constexpr int kLastBalance = 40;
+
 //! Where an iteration on supports has come to.
 template <int Dim>
 struct LastState {
@@ -44,6 +47,12 @@ class Iteration {
   LastState<Dim> run(DualStart<Dim> start, double penalty, SupportLists lists, Window window,
                      const std::function<void()>& started);
 
+  //! Goes on from a state. \param penalty, lists, window  of the state
+  //! \param read  fills the splitting and the run
+  template <class Stored>
+  LastState<Dim> resume(double penalty, SupportLists lists, Window window,
+                        const std::function<void(SupportSplitting<Scalar, Stored, Dim>&)>& read);
+
  private:
   template <class Stored>
   using Splitting = SupportSplitting<Scalar, Stored, Dim>;
@@ -56,7 +65,7 @@ class Iteration {
   template <class Stored>
   bool reaches_ends(const Splitting<Stored>& splitting) const;
   int latest() const;
-  int next_balance() const;
+  int next_balance(int since) const;
   double balanced_penalty(const DualStart<Dim>& state);
 
   const LbcProblem<Dim>& problem_;

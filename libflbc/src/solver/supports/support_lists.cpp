@@ -2,11 +2,14 @@
 #include "solver/supports/support_lists.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
+#include "flbc/errors.h"
 #include "projection/nearest_point_in_hull.h"
 
 namespace flbc::supports {
@@ -168,6 +171,32 @@ SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& wei
 }
 
 template <int Dim>
+void require_supports(const LbcProblem<Dim>& problem, const SupportLists& supports) {
+  const auto require = [](bool holds) {
+    if (!holds) throw InputError("the supports in it are damaged");
+  };
+  const auto& [start, items] = supports;
+  require(static_cast<Index>(start.size()) == problem.mesh.num_vertices() + 1);
+  require(start.front() == 0 && start.back() == static_cast<Index>(items.size()));
+  require(std::is_sorted(start.begin(), start.end()));
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    const auto list = supports.of(v);
+    require(std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end());
+    require(list.begin() == list.end() || *(list.end() - 1) < problem.num_control_points());
+  }
+  const Flags flags = flags_of_lists(problem, supports);
+  Flags complete = flags;
+  add_boundary(problem, complete);
+  require(complete == flags);
+  std::atomic<bool> feasible = true;
+#pragma omp parallel for schedule(dynamic, 64)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.is_interior(v) && !is_feasible(problem, v, flags)) feasible = false;
+  }
+  require(feasible);
+}
+
+template <int Dim>
 VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const DualStart<Dim>& start,
                                  double threshold) {
   return [&problem, lists = supports_of(problem, start.weights, threshold),
@@ -236,6 +265,7 @@ double density(const LbcProblem<Dim>& problem, const SupportLists& supports) {
   template SupportLists supports_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);    \
   template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const DualStart<Dim>&,   \
                                             double);                                         \
+  template void require_supports(const LbcProblem<Dim>&, const SupportLists&);               \
   template SupportLists grown(const LbcProblem<Dim>&, const SupportLists&, double,           \
                               const WeightInList&);                                          \
   template double squared_at_ends(const LbcProblem<Dim>&, const SupportLists&,               \

@@ -36,6 +36,11 @@ template <int Dim>
 SupportLists supports_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                          double threshold);
 
+//! \throws InputError unless a splitting can work on them: lists of control points in order, those
+//! of boundary vertices complete, and weights on them at every vertex
+template <int Dim>
+void require_supports(const LbcProblem<Dim>& problem, const SupportLists& supports);
+
 //! The flux densities of a start where weights above the threshold are near, zero elsewhere.
 template <int Dim>
 VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const DualStart<Dim>& start,

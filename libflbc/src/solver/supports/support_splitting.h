@@ -24,6 +24,7 @@ class SupportSplitting {
  public:
   static constexpr bool kStoresHalf = std::is_same_v<Stored, compact::Half>;
   static constexpr bool kAdapts = false;
+  static constexpr bool kOnSupports = true;
 
   //! \param metric  see splitting_data.h
   //! \param penalty  rho > 0
@@ -68,6 +69,12 @@ class SupportSplitting {
 
   //! q - w of an interior vertex, n numbers.
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
+
+  //! Writes or reads the state, of the same supports and penalty.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(extrapolated_, relaxed_, vertex_dual_, residual_, cell_dual_);
+  }
 
   //! Numbers of state held per cell and control point, in units of the Scalar.
   double state_scalars_per_cell() const;
