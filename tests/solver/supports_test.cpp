@@ -198,7 +198,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance) {
   supports::Iteration<Scalar, Dim> iteration(problem, metric, options, run, report);
   auto last =
       iteration.template run<Stored>(start, start.penalty, supports_of_harmonic(problem, 0.2),
-                                     {0, std::numeric_limits<int>::max()}, [] {});
+                                     {0, std::numeric_limits<int>::max(), 0}, [] {});
   return {last.weights.dense(), std::move(report)};
 }
 

@@ -31,14 +31,6 @@ bool takes_half(const LbcProblem<Dim>& problem, const SolverOptions& options,
          (storage == nullptr || storage->holds_half());
 }
 
-// \return none where there is no state to go on from
-std::optional<StateFront> take_front(ByteReader& read) {
-  if (read.is_at_end()) return std::nullopt;
-  StateFront front;
-  front.visit(read);
-  return front;
-}
-
 // A solve in the arithmetic of `Scalar`, on all pairs of vertices and control points and on
 // supports in turn.
 template <class Scalar, int Dim>
@@ -154,9 +146,7 @@ class ValueSolve {
 
   // Of the penalty of all pairs. Where fewer weights move a smaller one serves, and a yet smaller
   // one where they are nearly right already; as measured.
-  double part_of_penalty(bool cold) const {
-    return options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25;
-  }
+  double part_of_penalty(bool cold) const { return options_.penalty > 0 ? 1 : cold ? 0.5 : 0.25; }
 
   // \return nothing if it has to go on with all pairs, from the start if there is one
   template <class Stored>
@@ -222,7 +212,7 @@ class ValueSolve {
       earliest_ = report_.iterations + kUntilDualsAreThere;
       return {};
     }
-    if (warm_start_.final_state) *warm_start_.final_state = keep_state(last.state);
+    if (warm_start_.final_state) *warm_start_.final_state = mesh_state(problem_, last.state);
     last.state = {};  // frees the iteration
     report_.seconds.solve = watch_.lap();
     return MethodResult{{}, {}, std::move(last.weights)};
@@ -233,21 +223,6 @@ class ValueSolve {
     return [splitting, &problem = problem_](const WeightMatrix& weights) {
       return certify(problem, splitting->flux(), weights);
     };
-  }
-
-  MeshState<Dim> keep_state(const DualStart<Dim>& start) const {
-    const Index n = problem_.num_control_points();
-    MeshState<Dim> state;
-    state.flux_density = {n, problem_.mesh.num_cells(), start.flux_density};
-    state.penalty = start.penalty;
-    state.weights = SparseWeights::of(n, problem_.mesh.num_vertices(),
-                                      with_known_values(problem_, start.weights));
-    if (!start.vertex_dual) return state;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
-    state.vertex_dual = SparseWeights::of(n, problem_.mesh.num_vertices(), [&](Index v) {
-      return problem_.boundary.is_interior(v) ? start.vertex_dual(v) : none;
-    });
-    return state;
   }
 
   // The part of the state that a finer mesh on supports will read.
@@ -268,8 +243,8 @@ class ValueSolve {
     report_.penalty = splitting->penalty();
     if (storage_ != nullptr) storage_->keep_penalty(report_.penalty);
     if (warm_start_.final_state) {
-      *warm_start_.final_state =
-          keep_state(handed_on(start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting))));
+      *warm_start_.final_state = mesh_state(
+          problem_, handed_on(start_of<Dim>(std::shared_ptr<const Splitting<Stored>>(splitting))));
     }
     return {splitting->weights(), certify_by(splitting)};
   }

@@ -28,8 +28,8 @@ class AugmentedLagrangian {
   AugmentedLagrangian(const LbcProblem<Dim>& problem, const SolverOptions& options)
       : chosen_(options.penalty == 0), penalty_(options.penalty) {
     constexpr double kOfSize = 1.0 / 30;  // the best one of those measured (docs/lab_book.md)
-    const auto like_value = splitting::measure_metric(
-        problem, options.non_negative == NonNegative::kConstraint);
+    const auto like_value =
+        splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
     const Eigen::VectorXd& measures = like_value.cell;
     mean_measure_ = measures.squaredNorm() / measures.sum();
     metric_.cell = measures.cwiseAbs2();
@@ -141,12 +141,11 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
     visit(read);
     require_whole_state(read, report, options);
   }
-  const auto told =
-      offering(with_objective(problem, options, [&] { return splitting->weights(); }),
-               [&](ByteWriter& write) {
-                 write(penalty);
-                 visit(write);
-               });
+  const auto told = offering(with_objective(problem, options, [&] { return splitting->weights(); }),
+                             [&](ByteWriter& write) {
+                               write(penalty);
+                               visit(write);
+                             });
   iterate(*splitting, told, gap, report);
   report.penalty = penalty;
   report.state_scalars_per_cell = splitting->state_scalars_per_cell();

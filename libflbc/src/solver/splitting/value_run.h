@@ -57,6 +57,14 @@ struct StateFront {
   }
 };
 
+//! \return none where there is no state to go on from
+inline std::optional<StateFront> take_front(ByteReader& read) {
+  if (read.is_at_end()) return std::nullopt;
+  StateFront front;
+  front.visit(read);
+  return front;
+}
+
 //! A run from its start to its end, which may go on in another precision or on other supports on
 //! the way.
 template <class Scalar, int Dim>
@@ -130,7 +138,8 @@ class ValueRun {
   SolverOptions told(Splitting& splitting, Window window) {
     auto options = with_objective(problem_, options_, [&] { return splitting.weights(); });
     return offering(std::move(options), [&, window](ByteWriter& write) {
-      StateFront{Splitting::kOnSupports, Splitting::kStoresHalf, splitting.penalty(), start_,
+      StateFront{Splitting::kOnSupports, Splitting::kStoresHalf,
+                 splitting.penalty(),    start_,
                  window.earliest,        window.since}
           .visit(write);
       if constexpr (Splitting::kOnSupports) {

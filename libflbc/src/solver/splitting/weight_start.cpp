@@ -133,12 +133,12 @@ void WeightSplitting<Scalar, Dim>::take_back_correction() {
   }
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
-  template void WeightSplitting<Scalar, Dim>::resume();                                   \
-  template void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix&);    \
-  template void WeightSplitting<Scalar, Dim>::start_without_duals(const WeightMatrix&);   \
-  template void WeightSplitting<Scalar, Dim>::start_from_harmonic(int);                   \
-  template void WeightSplitting<Scalar, Dim>::start_from_duals(                           \
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                   \
+  template void WeightSplitting<Scalar, Dim>::resume();                                 \
+  template void WeightSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix&);  \
+  template void WeightSplitting<Scalar, Dim>::start_without_duals(const WeightMatrix&); \
+  template void WeightSplitting<Scalar, Dim>::start_from_harmonic(int);                 \
+  template void WeightSplitting<Scalar, Dim>::start_from_duals(                         \
       const WeightMatrix&, const VectorsAt<Dim>&, const WeightMatrix&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)

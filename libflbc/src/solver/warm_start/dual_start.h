@@ -69,4 +69,21 @@ DualStart<Dim> start_of(std::shared_ptr<const Splitting> splitting) {
   return start;
 }
 
+//! What a start holds, of its own.
+template <int Dim>
+MeshState<Dim> mesh_state(const LbcProblem<Dim>& problem, const DualStart<Dim>& start) {
+  const Index n = problem.num_control_points();
+  MeshState<Dim> state;
+  state.flux_density = {n, problem.mesh.num_cells(), start.flux_density};
+  state.penalty = start.penalty;
+  state.weights =
+      SparseWeights::of(n, problem.mesh.num_vertices(), with_known_values(problem, start.weights));
+  if (!start.vertex_dual) return state;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
+  state.vertex_dual = SparseWeights::of(n, problem.mesh.num_vertices(), [&](Index v) {
+    return problem.boundary.is_interior(v) ? start.vertex_dual(v) : none;
+  });
+  return state;
+}
+
 }  // namespace flbc
