@@ -280,7 +280,6 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   }
   expect_failure(solve + "--method gradient --active off", 1,
                  "--active: the method gradient does not read it");
-  expect_failure(solve + "--active on --checkpoint " + path("state"), 1, "--checkpoint: a run with");
   expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
   expect_failure(solve + "--outside nearest", 1, "--outside: there is no model");
   expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,
