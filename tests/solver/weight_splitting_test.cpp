@@ -14,6 +14,8 @@
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
+#include "solver/state_storage.h"
+#include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
@@ -226,6 +228,39 @@ TYPED_TEST(WeightSplittingTest, IsTheSameForAnyNumberOfThreads) {
   const auto one = run(1);
   EXPECT_EQ((run(2) - one).cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ((run(4) - one).cwiseAbs().maxCoeff(), 0);
+}
+
+// The rows of a storage are whole, other arrays of cells come in slices, one a thread.
+TYPED_TEST(WeightSplittingTest, SlicesOfControlPointsChangeNoBit) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = with_fine_cage<kDim>(Shape::kCorner, kDim == 2 ? 7 : 2, kDim == 2 ? 14 : 4);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  ASSERT_GT(problem.num_control_points(), 32);
+  const auto metric = make_metric(problem, 1, true);
+  const auto run = [&](StateStorage* storage, int threads, WeightMatrix& flux) {
+    const ThreadScope scope(threads);
+    WeightSplitting<float, kDim> splitting(problem, metric, make_penalty(problem, metric), 1.9,
+                                           LinearSolver::kDirect, storage);
+    splitting.start_from_harmonic(8);
+    for (int iteration = 0; iteration < 5; ++iteration) splitting.iterate();
+    const auto weights = splitting.weights();
+    const auto dual = splitting.vertex_dual();
+    const auto density = splitting.flux();
+    flux = density.cell(0);
+    for (Index s = 1; s < problem.mesh.num_cells(); ++s) flux += (s % 7 - 3.0) * density.cell(s);
+    splitting.start_from_duals(
+        weights, [&](Index s) { return density.cell(s).transpose().eval(); }, dual);
+    for (int iteration = 0; iteration < 5; ++iteration) splitting.iterate();
+    return splitting.weights();
+  };
+  KeptState rows;
+  WeightMatrix flux, flux_of_slices;
+  const auto expected = run(&rows, 1, flux);
+  EXPECT_GT(flux.norm(), 0);
+  for (const int threads : {1, 2, 3, 5}) {
+    EXPECT_EQ((run(nullptr, threads, flux_of_slices) - expected).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((flux_of_slices - flux).cwiseAbs().maxCoeff(), 0);
+  }
 }
 
 // (5) of the paper, by the judge's own sum.

@@ -56,13 +56,13 @@ void set_up_rows(const LbcProblem<Dim>& problem, const Metric& metric,
 }
 
 template <class Scalar, int Dim>
-void set_up_cells(const LbcProblem<Dim>& problem, const Metric& metric, std::size_t stride,
+void set_up_cells(const LbcProblem<Dim>& problem, const Metric& metric, const ColumnSlices& slices,
                   SplittingData<Scalar, Dim>& data) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const Index n = problem.num_control_points();
   // A cell's phi may be as good as zero, which must not take radii into the denormal range.
   constexpr double kSmallestPhi = 1e-10;
-  data.phi = AlignedArray<Scalar>(cells * stride);
+  data.phi = AlignedArray<Scalar>(cells * slices.stride());
   data.hat_gradients.resize(cells * Dim * Dim);
   data.cell_metric.resize(cells);
   data.measures.resize(cells);
@@ -74,9 +74,12 @@ void set_up_cells(const LbcProblem<Dim>& problem, const Metric& metric, std::siz
         geometry.hat_gradients.template rightCols<Dim>().template cast<Scalar>();
     data.measures[s] = static_cast<Scalar>(geometry.measure);
     data.cell_metric[s] = static_cast<Scalar>(metric.cell[s]);
-    for (Index i = 0; i < n; ++i) {
-      data.phi[s * stride + i] = static_cast<Scalar>(std::max(problem.phi(i, s), kSmallestPhi));
-    }
+    slices.for_each(s, cells, [&](std::size_t begin, std::size_t width, std::size_t place) {
+      const auto end = std::min(static_cast<Index>(begin + width), n);
+      for (auto i = static_cast<Index>(begin); i < end; ++i) {
+        data.phi[place++] = static_cast<Scalar>(std::max(problem.phi(i, s), kSmallestPhi));
+      }
+    });
   }
 }
 
@@ -113,20 +116,20 @@ void SplittingData<Scalar, Dim>::set_radius_scale(const Metric& metric, double p
 template <class Scalar, int Dim>
 SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>& problem, const Metric& metric,
                                                const std::vector<Index>& position,
-                                               std::size_t stride) {
+                                               const ColumnSlices& slices) {
   SplittingData<Scalar, Dim> data;
   set_up_rows(problem, metric, position, data);
-  set_up_cells(problem, metric, stride, data);
-  data.constraints = row_constraints<Scalar>(problem, data.vertices, stride);
+  set_up_cells(problem, metric, slices, data);
+  data.constraints = row_constraints<Scalar>(problem, data.vertices, slices.stride());
   return data;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                            \
-  template RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>&,                   \
-                                                       const std::vector<Index>&, std::size_t);  \
-  template struct SplittingData<Scalar, Dim>;                                                    \
-  template SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>&, const Metric&, \
-                                                          const std::vector<Index>&, std::size_t);
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                           \
+  template RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>&,                  \
+                                                       const std::vector<Index>&, std::size_t); \
+  template struct SplittingData<Scalar, Dim>;                                                   \
+  template SplittingData<Scalar, Dim> make_splitting_data(                                      \
+      const LbcProblem<Dim>&, const Metric&, const std::vector<Index>&, const ColumnSlices&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

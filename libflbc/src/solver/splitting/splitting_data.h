@@ -9,6 +9,7 @@
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "linear/row_matrix.h"
+#include "solver/splitting/column_slices.h"
 
 namespace flbc::splitting {
 
@@ -60,11 +61,11 @@ struct SplittingData {
 };
 
 //! \param position  the row of every unknown in the linear solver's arrays
-//! \param stride  numbers per row
+//! \param slices  of phi
 //! \return all but the radii
 template <class Scalar, int Dim>
 SplittingData<Scalar, Dim> make_splitting_data(const LbcProblem<Dim>& problem, const Metric& metric,
                                                const std::vector<Index>& position,
-                                               std::size_t stride);
+                                               const ColumnSlices& slices);
 
 }  // namespace flbc::splitting

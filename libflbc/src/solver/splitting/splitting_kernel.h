@@ -4,8 +4,9 @@
 //! for several instruction sets; there is no Eigen here, whose inline functions could clash.
 //!
 //! Every array is element-major, then component, then `stride` control points contiguous (n padded
-//! to a multiple of 8; the padding stays zero). Except for the projection of rows, control points
-//! do not see each other: a thread takes a slice of them through all cells.
+//! to a multiple of 8; the padding stays zero); those of cells may come in slices of control
+//! points, see column_slices.h. Except for the projection of rows, control points do not see each
+//! other: a thread takes a slice of them through all cells.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +19,13 @@ namespace flbc::splitting {
 template <class Scalar, int Dim>
 struct Arrays {
   std::size_t stride;
+  std::size_t cell_stride;   // of the slice's rows of cell_state and phi, where column i is at i
   std::size_t num_cells;     // F
   std::size_t num_interior;  // m
   // state
-  Scalar* weights;        // V: w, in the order of the mesh
-  Scalar* cell_state;     // F x Dim: y
-  Scalar* vertex_state;   // V: q, in the order of the mesh; null without non-negativity
+  Scalar* weights;       // V: w, in the order of the mesh
+  Scalar* cell_state;    // F x Dim: y
+  Scalar* vertex_state;  // V: q, in the order of the mesh; null without non-negativity
   // m + 1: right-hand side, solution, and last the change of w; the last row is for the boundary
   Scalar* residual;
   double* violation;      // stride: squared constraint violation per control point, if measured

@@ -85,7 +85,7 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
       PackN<Scalar, kRowLanes> p[Dim];
       weight_gradient<Scalar, Dim, kRowLanes>(cell, i, x);
       for (int d = 0; d < Dim; ++d) {
-        y[d] = load_pack<kRowLanes>(cell.state + d * arrays.stride + i);
+        y[d] = load_pack<kRowLanes>(cell.state + d * arrays.cell_stride + i);
       }
       clip<Scalar, Dim, kRowLanes>(cell, i, x, y, p);
       for (int d = 0; d < Dim; ++d) {

@@ -23,8 +23,8 @@ inline Cell<Scalar, Dim> gather_cell(const Arrays<Scalar, Dim>& arrays, std::siz
     cell.weights[k] = arrays.weights + std::size_t(arrays.cells[corner]) * arrays.stride;
     cell.residual[k] = arrays.residual + std::size_t(arrays.cell_rows[corner]) * arrays.stride;
   }
-  cell.state = arrays.cell_state + s * Dim * arrays.stride;
-  cell.phi = arrays.phi + s * arrays.stride;
+  cell.state = arrays.cell_state + s * Dim * arrays.cell_stride;
+  cell.phi = arrays.phi + s * arrays.cell_stride;
   for (int k = 0; k < Dim; ++k) {
     for (int d = 0; d < Dim; ++d) {
       cell.hat_gradients[k][d] = arrays.hat_gradients[(s * Dim + k) * Dim + d];
@@ -88,14 +88,14 @@ inline void z_step_at(const Arrays<Scalar, Dim>& arrays, const Cell<Scalar, Dim>
   Numbers y[Dim];
   Numbers p[Dim];
   weight_gradient<Scalar, Dim, Lanes>(cell, i, x);
-  for (int d = 0; d < Dim; ++d) y[d] = load_pack<Lanes>(cell.state + d * arrays.stride + i);
+  for (int d = 0; d < Dim; ++d) y[d] = load_pack<Lanes>(cell.state + d * arrays.cell_stride + i);
   clip<Scalar, Dim, Lanes>(cell, i, x, y, p);
   Numbers violation{};
   for (int d = 0; d < Dim; ++d) {
     const Numbers step = x[d] - y[d] - p[d];
     if constexpr (Measured) violation += step * step;
     y[d] += arrays.relaxation * step;
-    store_pack<Lanes>(cell.state + d * arrays.stride + i, y[d]);
+    store_pack<Lanes>(cell.state + d * arrays.cell_stride + i, y[d]);
     y[d] = cell.metric * (y[d] - x[d]);
   }
   if constexpr (Measured) {

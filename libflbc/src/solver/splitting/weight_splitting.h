@@ -11,6 +11,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"
+#include "solver/splitting/column_slices.h"
 #include "solver/splitting/splitting_data.h"
 #include "solver/splitting/splitting_kernel.h"
 
@@ -49,9 +50,9 @@ class WeightSplitting {
   //! Starts from weights n x V, with y = 0 and q = w: duals zero where the weights are harmonic.
   void start_from_weights(const WeightMatrix& weights);
 
-  //! The same from weights that nearly minimise sum m |grad w|^2, by the iteration's own factor: one
-  //! solve without non-negativity; with it solves that each take the weights before for q, until
-  //! they no longer move or `steps` are done.
+  //! The same from weights that nearly minimise sum m |grad w|^2, by the iteration's own factor:
+  //! one solve without non-negativity; with it solves that each take the weights before for q,
+  //! until they no longer move or `steps` are done.
   void start_from_harmonic(int steps);
 
   //! Starts from weights n x V with all duals zero: z = y = grad w.
@@ -68,8 +69,8 @@ class WeightSplitting {
   //! \return squared change of all weights
   double iterate();
 
-  //! The same, with the norms of the residuals. The dual one is that of an exact Y-step; a multigrid
-  //! cycle in its place gives no less.
+  //! The same, with the norms of the residuals. The dual one is that of an exact Y-step; a
+  //! multigrid cycle in its place gives no less.
   Residuals iterate_with_residuals();
 
   double penalty() const { return penalty_; }
@@ -88,7 +89,9 @@ class WeightSplitting {
   //! Writes or reads the state, to the bit. What is read must be of the same problem and penalty.
   template <class Archive>
   void visit(Archive& archive) {
-    archive(weights_, cell_state_, vertex_state_, residual_);
+    auto rows = cell_rows();
+    archive(weights_, rows, vertex_state_, residual_);
+    set_cell_rows(rows);
   }
 
   //! Numbers of state held per cell and control point; phi is one more.
@@ -98,7 +101,13 @@ class WeightSplitting {
   //! A step on one slice of the control points.
   using SliceLoop = std::function<void(const Arrays<Scalar, Dim>&, Columns)>;
 
-  Arrays<Scalar, Dim> arrays();
+  using StateRow = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
+
+  Arrays<Scalar, Dim> arrays(Slice slice);
+  AlignedArray<Scalar> cell_rows() const;
+  void set_cell_rows(const AlignedArray<Scalar>& rows);
+  template <class Body>
+  void for_cell_row(Index cell, int component, const Body& body);
   void for_slices(const SliceLoop& body);
   double run(const SliceLoop& residual);
   void keep_right_side(Columns columns);
@@ -112,6 +121,8 @@ class WeightSplitting {
   const Kernel<Scalar, Dim>& kernel_;
   const Index n_;
   const std::size_t stride_;
+  const ColumnSlices slices_;       // one a thread
+  const ColumnSlices cell_slices_;  // of cell_state_ and of phi
   const Metric metric_;
   const double penalty_;
   const double relaxation_;

@@ -79,6 +79,21 @@ void WeightSplitting<Scalar, Dim>::start_from_duals(const WeightMatrix& weights,
   set_weights(weights);
 }
 
+// Calls body(begin, width, row) for the slices of a component of a cell's state, without padding.
+template <class Scalar, int Dim>
+template <class Body>
+void WeightSplitting<Scalar, Dim>::for_cell_row(Index cell, int component, const Body& body) {
+  const auto rows = static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim;
+  cell_slices_.for_each(static_cast<std::size_t>(cell) * Dim + component, rows,
+                        [&](std::size_t begin, std::size_t width, std::size_t place) {
+                          const auto first = static_cast<Index>(begin);
+                          const Index own = std::min(static_cast<Index>(width), n_ - first);
+                          if (own > 0) {
+                            body(first, own, StateRow(cell_state_.data() + place, own));
+                          }
+                        });
+}
+
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::set_states(const VectorsAt<Dim>& flux_density,
                                               const WeightMatrix& vertex_dual) {
@@ -93,9 +108,10 @@ void WeightSplitting<Scalar, Dim>::set_states(const VectorsAt<Dim>& flux_density
         state.row(i) += static_cast<double>(corner[i]) * geometry.hat_gradients.col(k).transpose();
       }
     }
-    Scalar* rows = cell_state_.data() + static_cast<std::size_t>(s) * Dim * stride_;
     for (int d = 0; d < Dim; ++d) {
-      for (Index i = 0; i < n_; ++i) rows[d * stride_ + i] = static_cast<Scalar>(state(i, d));
+      for_cell_row(s, d, [&](Index begin, Index width, StateRow row) {
+        row = state.col(d).segment(begin, width).template cast<Scalar>();
+      });
     }
   }
   std::copy_n(weights_.data(), vertex_state_.size(), vertex_state_.data());
@@ -110,19 +126,19 @@ void WeightSplitting<Scalar, Dim>::set_states(const VectorsAt<Dim>& flux_density
 // y -= grad d and q -= d for the correction d that the last Y-step left, zero on the boundary.
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::take_back_correction() {
-  using Row = Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>;
-  using StateRow = Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>;
+  using Row = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
   const std::size_t boundary_row = data_.vertices.size() * stride_;
   std::fill_n(residual_.data() + boundary_row, stride_, Scalar(0));
   const auto correction = [&](Index row) { return Row(residual_.data() + row * stride_, n_); };
 #pragma omp parallel for schedule(static)
   for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
     const auto hats = cell_geometry(problem_.mesh, s).hat_gradients;
-    Scalar* rows = cell_state_.data() + static_cast<std::size_t>(s) * Dim * stride_;
     for (int k = 0; k <= Dim; ++k) {
       const auto d = correction(data_.cell_rows[static_cast<std::size_t>(s) * (Dim + 1) + k]);
       for (int c = 0; c < Dim; ++c) {
-        StateRow(rows + c * stride_, n_) -= static_cast<Scalar>(hats(c, k)) * d;
+        for_cell_row(s, c, [&](Index begin, Index width, StateRow row) {
+          row -= static_cast<Scalar>(hats(c, k)) * d.segment(begin, width);
+        });
       }
     }
   }
