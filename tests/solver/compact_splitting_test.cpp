@@ -38,7 +38,7 @@ struct Case {
   double penalty;
 };
 
-// Control points for several of the blocks in which duals of cells are stored.
+// Control points for several of the slices in which duals of cells are stored.
 template <int Dim>
 Sample<Dim> with_many_control_points(Index cage_subdivisions, Index subdivisions) {
   auto sample = with_fine_cage<Dim>(Shape::kCorner, cage_subdivisions, subdivisions);
@@ -146,9 +146,9 @@ TYPED_TEST(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// The rows of a storage are whole, other arrays of cells come in blocks of control points.
+// The rows of a storage are whole, other arrays of cells come in slices, one a thread.
 template <class Scalar, class Stored, int Dim>
-void expect_rows_and_blocks_alike(const Case<Dim>& c) {
+void expect_rows_and_slices_alike(const Case<Dim>& c) {
   const auto run = [&](StateStorage* storage, int threads, WeightMatrix& flux) {
     const ThreadScope scope(threads);
     CompactSplitting<Scalar, Stored, Dim> splitting(c.problem, c.metric, c.penalty, 1.9,
@@ -163,25 +163,25 @@ void expect_rows_and_blocks_alike(const Case<Dim>& c) {
     return splitting.weights();
   };
   KeptState rows;
-  WeightMatrix flux, flux_of_blocks;
+  WeightMatrix flux, flux_of_slices;
   const auto expected = run(&rows, 1, flux);
   EXPECT_GT(flux.norm(), 0);
   for (const int threads : {1, 2, 3, 5}) {
-    EXPECT_EQ((run(nullptr, threads, flux_of_blocks) - expected).cwiseAbs().maxCoeff(), 0);
-    EXPECT_EQ((flux_of_blocks - flux).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((run(nullptr, threads, flux_of_slices) - expected).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((flux_of_slices - flux).cwiseAbs().maxCoeff(), 0);
   }
 }
 
-TYPED_TEST(CompactSplittingTest, BlocksOfControlPointsChangeNoBit) {
+TYPED_TEST(CompactSplittingTest, SlicesOfControlPointsChangeNoBit) {
   constexpr int kDim = TypeParam::value;
-  // From two blocks to more than are gone through at a time.
+
   for (const Index cage_subdivisions : {kDim == 2 ? 7 : 2, kDim == 2 ? 25 : 5}) {
     const auto c = make_case(with_many_control_points<kDim>(cage_subdivisions, cage_subdivisions));
     SCOPED_TRACE(c.problem.num_control_points());
     ASSERT_GT(c.problem.num_control_points(), 32);
-    expect_rows_and_blocks_alike<float, Half>(c);
-    expect_rows_and_blocks_alike<float, float>(c);
-    expect_rows_and_blocks_alike<double, double>(c);
+    expect_rows_and_slices_alike<float, Half>(c);
+    expect_rows_and_slices_alike<float, float>(c);
+    expect_rows_and_slices_alike<double, double>(c);
   }
 }
 

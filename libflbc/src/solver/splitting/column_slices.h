@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Arrays of cells by slices of control points, one a thread: each thread then reads memory of its
+//! Arrays of cells by slices of control points, one a thread: each thread then streams memory of its
 //! own, where of rows of all control points it would read a part of every line.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "base/aligned_array.h"
 #include "linear/panel_cholesky.h"
 
 namespace flbc::splitting {
 
-//! The order slice, cell, component, control point of the slice.
+//! The slices, and the order slice, cell, component, control point of the slice.
 class ColumnSlices {
  public:
   //! \param stride  numbers of a row in all slices \param count  of slices at most
-  ColumnSlices(std::size_t stride, int count) : stride_(stride) {
+  //! \param whole_rows  for arrays in the order cell, component, control point all the same, as
+  //! properties of a mesh have it
+  ColumnSlices(std::size_t stride, int count, bool whole_rows)
+      : stride_(stride), whole_rows_(whole_rows) {
     for (int k = 0; k < count; ++k) {
       const Slice slice = slice_of(stride, k, count);
       if (slice.begin < slice.end) slices_.push_back(slice);
@@ -26,18 +31,53 @@ class ColumnSlices {
   std::size_t size() const { return slices_.size(); }
   Slice operator[](std::size_t k) const { return slices_[k]; }
 
+  //! Numbers from one row of a slice to the next.
+  std::size_t stride_of(Slice slice) const {
+    return whole_rows_ ? stride_ : slice.end - slice.begin;
+  }
+
+  //! Where column 0 of a slice's first row is, or would be. \param rows  of the array
+  std::size_t offset_of(Slice slice, std::size_t rows) const {
+    return whole_rows_ ? 0 : rows * slice.begin - slice.begin;
+  }
+
   //! Calls body(begin, width, place) for the columns of every slice, and where in the array they
   //! stand. \param row  of so many rows: cell times components, and the component
   template <class Body>
   void for_each(std::size_t row, std::size_t rows, const Body& body) const {
-    for (const Slice& slice : slices_) {
-      const std::size_t width = slice.end - slice.begin;
-      body(slice.begin, width, rows * slice.begin + row * width);
+    for (const Slice slice : slices_) {
+      body(slice.begin, slice.end - slice.begin,
+           offset_of(slice, rows) + row * stride_of(slice) + slice.begin);
+    }
+  }
+
+  //! The array with whole rows, which are the same for any slices.
+  template <class Number>
+  AlignedArray<Number> rows_of(const AlignedArray<Number>& array) const {
+    AlignedArray<Number> whole(array.size());
+    const std::size_t rows = array.size() / stride_;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for_each(row, rows, [&](std::size_t begin, std::size_t width, std::size_t place) {
+        std::copy_n(array.data() + place, width, whole.data() + row * stride_ + begin);
+      });
+    }
+    return whole;
+  }
+
+  //! Takes over whole rows.
+  template <class Number>
+  void set_rows(const AlignedArray<Number>& whole, AlignedArray<Number>& array) const {
+    const std::size_t rows = array.size() / stride_;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for_each(row, rows, [&](std::size_t begin, std::size_t width, std::size_t place) {
+        std::copy_n(whole.data() + row * stride_ + begin, width, array.data() + place);
+      });
     }
   }
 
  private:
   std::size_t stride_;
+  bool whole_rows_;
   std::vector<Slice> slices_;
 };
 

@@ -82,13 +82,13 @@ void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metri
 
 template <class Scalar, class Stored, int Dim>
 void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-                  const ColumnBlocks& blocks, const Kernel<Scalar, Stored, Dim>& kernel,
+                  const splitting::ColumnSlices& slices, const Kernel<Scalar, Stored, Dim>& kernel,
                   CompactData<Scalar, Stored, Dim>& data) {
   const Index n = problem.num_control_points();
-  data.radius = AlignedArray<Stored>(data.cells.size() * blocks.stride);
+  data.radius = AlignedArray<Stored>(data.cells.size() * slices.stride());
 #pragma omp parallel
   {
-    AlignedArray<Scalar> row(blocks.stride);
+    AlignedArray<Scalar> row(slices.stride());
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
       const Index s = data.cell_index[k];
@@ -97,7 +97,7 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
       for (Index i = 0; i < n; ++i) {
         row[i] = static_cast<Scalar>(scale * std::max(phi[i], kSmallestPhi));
       }
-      blocks.for_each(k, data.cells.size(),
+      slices.for_each(k, data.cells.size(),
                       [&](std::size_t begin, std::size_t width, std::size_t place) {
                         kernel.encode(row.data() + begin, data.radius.data() + place, width);
                       });
@@ -130,11 +130,11 @@ template <class Scalar, class Stored, int Dim>
 CompactData<Scalar, Stored, Dim> make_compact_data(const LbcProblem<Dim>& problem,
                                                    const splitting::Metric& metric,
                                                    const std::vector<Index>& position, double unit,
-                                                   const ColumnBlocks& blocks,
+                                                   const splitting::ColumnSlices& slices,
                                                    const Kernel<Scalar, Stored, Dim>& kernel) {
   auto data = make_rows_and_cells<Scalar, Stored>(problem, metric, position, unit);
-  set_up_radii(problem, metric, unit, blocks, kernel, data);
-  data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, blocks.stride);
+  set_up_radii(problem, metric, unit, slices, kernel, data);
+  data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, slices.stride());
   return data;
 }
 
@@ -145,7 +145,7 @@ template double radius_unit(const LbcProblem<3>&, const splitting::Metric&);
       const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double); \
   template CompactData<Scalar, Stored, Dim> make_compact_data(                              \
       const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double,  \
-      const ColumnBlocks&, const Kernel<Scalar, Stored, Dim>&);
+      const splitting::ColumnSlices&, const Kernel<Scalar, Stored, Dim>&);
 FLBC_INSTANTIATE(float, Half, 2)
 FLBC_INSTANTIATE(float, Half, 3)
 FLBC_INSTANTIATE(float, float, 2)

@@ -9,7 +9,7 @@
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "mesh/cell_geometry.h"
-#include "solver/splitting/column_blocks.h"
+#include "solver/splitting/column_slices.h"
 #include "solver/splitting/compact_kernel.h"
 #include "solver/splitting/splitting_data.h"
 
@@ -52,13 +52,13 @@ CompactData<Scalar, Stored, Dim> make_rows_and_cells(const LbcProblem<Dim>& prob
 
 //! \param position  the row of every unknown in the linear solver's arrays
 //! \param unit  u: a radius is u phi A / sqrt(m)
-//! \param blocks  of the radii
+//! \param slices  of the radii
 //! \param kernel  stores the radii
 template <class Scalar, class Stored, int Dim>
 CompactData<Scalar, Stored, Dim> make_compact_data(const LbcProblem<Dim>& problem,
                                                    const splitting::Metric& metric,
                                                    const std::vector<Index>& position, double unit,
-                                                   const ColumnBlocks& blocks,
+                                                   const splitting::ColumnSlices& slices,
                                                    const Kernel<Scalar, Stored, Dim>& kernel);
 
 }  // namespace flbc::compact

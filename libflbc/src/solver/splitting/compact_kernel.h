@@ -5,7 +5,7 @@
 //! clash.
 //!
 //! Every array is element-major, then component, then `stride` control points contiguous (n, padded
-//! with zeros); those of cells come in blocks of control points, each of which has all cells.
+//! with zeros); those of cells may come in slices of control points, see column_slices.h.
 //! Units: vertex arrays hold weights times sigma, cell arrays are scaled by sigma sqrt(m), so that
 //! gradients need the scaled hat gradients and nothing else. Rows are those of the interior
 //! vertices in the order of the linear solver, then those of the boundary.
@@ -33,7 +33,7 @@ struct Cell {
 template <class Scalar, class Stored, int Dim>
 struct Arrays {
   std::size_t stride;
-  std::size_t block_width;   // of the blocks of cell_dual and radius, see column_blocks.h
+  std::size_t cell_stride;   // of the slice's rows of cell_dual and radius, where column i is at i
   std::size_t num_cells;     // those with interior corners
   std::size_t mesh_cells;    // F
   std::size_t num_interior;  // m

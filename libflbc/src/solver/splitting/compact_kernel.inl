@@ -61,41 +61,18 @@ inline void collect_violation(const Arrays<Scalar, Stored, Dim>& arrays, Columns
   }
 }
 
-// The blocks' columns of one cell. A single block, as threads mostly have, is known to the compiler.
-template <class Scalar, class Stored, int Dim, int Interior, bool Measured>
-[[gnu::always_inline]] inline void z_step_of_cell(const Arrays<Scalar, Stored, Dim>& arrays,
-                                                  const Block<Stored>& block, std::size_t s) {
-  for_packs(
-      block.begin, block.end, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        z_step_at<Scalar, Stored, Dim, Interior, Measured, decltype(lanes)::kCount>(arrays, block,
-                                                                                    s, i);
-      });
-}
-
 template <class Scalar, class Stored, int Dim, bool Measured>
 void z_step(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns) {
-  const auto over_cells = [&](const auto& over_blocks) __attribute__((always_inline)) {
-    for_cells(
-        arrays, [&](auto corners, std::size_t s) __attribute__((always_inline)) {
-          over_blocks([&](const Block<Stored>& block) __attribute__((always_inline)) {
-            z_step_of_cell<Scalar, Stored, Dim, decltype(corners)::kCount, Measured>(arrays, block,
-                                                                                     s);
-          });
-          if constexpr (Measured) {
-            if (s % kCollected == 0) collect_violation(arrays, columns);
-          }
-        });
-  };
-  for_blocks(
-      arrays, columns,
-      [&](const Block<Stored>* blocks, std::size_t count) __attribute__((always_inline)) {
-        if (count == 1) {
-          const Block<Stored> only = blocks[0];
-          over_cells([&](const auto& step) __attribute__((always_inline)) { step(only); });
-        } else {
-          over_cells([&](const auto& step) __attribute__((always_inline)) {
-            for (std::size_t b = 0; b < count; ++b) step(blocks[b]);
-          });
+  for_cells(
+      arrays, [&](auto corners, std::size_t s) __attribute__((always_inline)) {
+        for_packs(
+            columns.begin,
+            columns.end, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+              z_step_at<Scalar, Stored, Dim, decltype(corners)::kCount, Measured,
+                        decltype(lanes)::kCount>(arrays, s, i);
+            });
+        if constexpr (Measured) {
+          if (s % kCollected == 0) collect_violation(arrays, columns);
         }
       });
   if constexpr (Measured) collect_violation(arrays, columns);
@@ -153,27 +130,23 @@ RowSums w_step(const Arrays<Scalar, Stored, Dim>& arrays, std::int32_t begin, st
   });
 }
 
-// Calls `body(block, cell, column)` for all cells and packs of 8 columns.
+// Calls `body(cell, column)` for all cells and packs of 8 columns.
 template <class Scalar, class Stored, int Dim, class Body>
 inline void for_numbers(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns,
                         const Body& body) {
-  for_blocks(arrays, columns, [&](const Block<Stored>* blocks, std::size_t count) {
-    for (std::size_t s = 0; s < arrays.num_cells; ++s) {
-      for (std::size_t b = 0; b < count; ++b) {
-        for (std::size_t i = blocks[b].begin; i < blocks[b].end; i += 8) body(blocks[b], s, i);
-      }
-    }
-  });
+  for (std::size_t s = 0; s < arrays.num_cells; ++s) {
+    for (std::size_t i = columns.begin; i < columns.end; i += 8) body(s, i);
+  }
 }
 
 template <class Scalar, class Stored, int Dim>
 void start_cell_dual(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns) {
-  for_numbers(arrays, columns, [&](const Block<Stored>& block, std::size_t s, std::size_t i) {
-    Stored* rows = block.dual + std::size_t(arrays.cell_index[s]) * Dim * block.stride;
+  for_numbers(arrays, columns, [&](std::size_t s, std::size_t i) {
+    Stored* rows = arrays.cell_dual + std::size_t(arrays.cell_index[s]) * Dim * arrays.cell_stride;
     PackN<Scalar, 8> gradient[Dim] = {};
     add_gradient<Scalar, Dim, 8>(arrays.cells[s], arrays.extrapolated, arrays.stride, i, gradient);
     for (int d = 0; d < Dim; ++d) {
-      store_stored<8>(rows + d * block.stride + i, saturated<Stored, Scalar, 8>(gradient[d]));
+      store_stored<8>(rows + d * arrays.cell_stride + i, saturated<Stored, Scalar, 8>(gradient[d]));
     }
   });
 }
@@ -181,12 +154,12 @@ void start_cell_dual(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns)
 template <class Scalar, class Stored, int Dim>
 void flux(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns, const Scalar* scale,
           Scalar* flux) {
-  for_numbers(arrays, columns, [&](const Block<Stored>& block, std::size_t s, std::size_t i) {
+  for_numbers(arrays, columns, [&](std::size_t s, std::size_t i) {
     const auto cell = std::size_t(arrays.cell_index[s]);
     PackN<Scalar, 8> p[Dim];
-    load_cell_dual<Scalar, Stored, Dim, 8>(arrays, block, s, i, p);
+    load_cell_dual<Scalar, Stored, Dim, 8>(arrays, s, i, p);
     add_gradient<Scalar, Dim, 8>(arrays.cells[s], arrays.extrapolated, arrays.stride, i, p);
-    clip<Scalar, Stored, Dim, 8>(block, s, i, p);
+    clip<Scalar, Stored, Dim, 8>(arrays, s, i, p);
     for (int d = 0; d < Dim; ++d) {
       store_pack<8>(flux + (cell * Dim + d) * arrays.stride + i, scale[cell] * p[d]);
     }
@@ -198,10 +171,10 @@ template <class Scalar, class Stored, int Dim>
 void balance(const Arrays<Scalar, Stored, Dim>& arrays, Columns columns, const Scalar* moved,
              double* dual, double* motion) {
   using Numbers = PackN<Scalar, 8>;
-  for_numbers(arrays, columns, [&](const Block<Stored>& block, std::size_t s, std::size_t i) {
+  for_numbers(arrays, columns, [&](std::size_t s, std::size_t i) {
     Numbers p[Dim];
     Numbers gradient[Dim] = {};
-    load_cell_dual<Scalar, Stored, Dim, 8>(arrays, block, s, i, p);
+    load_cell_dual<Scalar, Stored, Dim, 8>(arrays, s, i, p);
     add_gradient<Scalar, Dim, 8>(arrays.cells[s], arrays.difference, arrays.stride, i, p);
     add_gradient<Scalar, Dim, 8>(arrays.cells[s], moved, arrays.stride, i, gradient);
     Numbers dual2{};

@@ -54,7 +54,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Stored, Dim>
   if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
   AlignedArray<Scalar> rows(Dim * stride_);
   for (int d = 0; d < Dim; ++d) {
-    blocks_.for_each(static_cast<std::size_t>(cell) * Dim + d,
+    slices_.for_each(static_cast<std::size_t>(cell) * Dim + d,
                      static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim,
                      [&](std::size_t begin, std::size_t width, std::size_t place) {
                        kernel_.decode(cell_dual_.data() + place, rows.data() + d * stride_ + begin,
@@ -78,8 +78,9 @@ CellFieldView<Scalar, Dim> CompactSplitting<Scalar, Stored, Dim>::flux() {
     scale[s] = static_cast<Scalar>(std::sqrt(metric_.cell[static_cast<Index>(s)]) / unit_);
   }
   set_boundary_flux();
-  for_slices([&](const State& state, Columns columns) {
-    kernel_.flux(state, columns, scale.data(), flux_.data());
+#pragma omp parallel
+  for_slices(arrays(), [&](const State& slice, Columns columns) {
+    kernel_.flux(slice, columns, scale.data(), flux_.data());
   });
   return {flux_.data(), stride_, n_};
 }

@@ -15,7 +15,6 @@ namespace flbc::compact {
 namespace {
 
 constexpr Index kRowBlock = 256;
-constexpr std::size_t kBlockWidth = 32;  // a cache line in half precision
 
 }  // namespace
 
@@ -27,13 +26,13 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
       kernel_(kernel),
       n_(problem.num_control_points()),
       stride_(padded(static_cast<std::size_t>(n_))),
-      blocks_(blocks_for(stride_, storage)),
+      slices_(stride_, omp_get_max_threads(), storage != nullptr),
       metric_(std::move(metric)),
       unit_(radius_unit(problem, metric_)),
       penalty_(penalty),
       relaxation_(relaxation),
       solver_(splitting::system_matrix(problem, metric_), stride_, linear_solver),
-      data_(make_compact_data(problem, metric_, solver_.position(), unit_, blocks_, kernel_)) {
+      data_(make_compact_data(problem, metric_, solver_.position(), unit_, slices_, kernel_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
   relaxed_ = state_array<Scalar>(storage, StateArray::kRelaxedIterate, vertices, 1, stride_);
@@ -49,19 +48,11 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
   residual_ = AlignedArray<Scalar>(data_.vertices.size() * stride_);
 }
 
-// Properties of a mesh have whole rows.
-template <class Scalar, class Stored, int Dim>
-ColumnBlocks CompactSplitting<Scalar, Stored, Dim>::blocks_for(std::size_t stride,
-                                                               const StateStorage* storage) {
-  if (storage != nullptr) return {stride, stride};
-  return {stride, stride > kBlockWidth ? kBlockWidth : kBlockWidth / 2};
-}
-
 template <class Scalar, class Stored, int Dim>
 Arrays<Scalar, Stored, Dim> CompactSplitting<Scalar, Stored, Dim>::arrays() {
   State arrays;
   arrays.stride = stride_;
-  arrays.block_width = blocks_.width;
+  arrays.cell_stride = stride_;
   arrays.num_cells = data_.cells.size();
   arrays.mesh_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
   arrays.num_interior = data_.vertices.size();
@@ -85,16 +76,23 @@ Arrays<Scalar, Stored, Dim> CompactSplitting<Scalar, Stored, Dim>::arrays() {
   return arrays;
 }
 
-// Calls `body` for each thread's slice of control points.
+template <class Scalar, class Stored, int Dim>
+Arrays<Scalar, Stored, Dim> CompactSplitting<Scalar, Stored, Dim>::in_slice(State state,
+                                                                            Slice slice) const {
+  state.cell_stride = slices_.stride_of(slice);
+  state.cell_dual += slices_.offset_of(slice, state.mesh_cells * Dim);
+  state.radius += slices_.offset_of(slice, state.num_cells);
+  return state;
+}
+
+// Calls `body` for each slice of control points; to be called by all threads of a team.
 template <class Scalar, class Stored, int Dim>
 void CompactSplitting<Scalar, Stored, Dim>::for_slices(
-    const std::function<void(const State&, Columns)>& body) {
-  const auto state = arrays();
-#pragma omp parallel
-  {
-    const FlushDenormals flush;
-    const Slice slice = slice_of(stride_, omp_get_thread_num(), omp_get_num_threads());
-    if (slice.begin < slice.end) body(state, Columns{slice.begin, slice.end});
+    const State& state, const std::function<void(const State&, Columns)>& body) {
+  const FlushDenormals flush;
+#pragma omp for schedule(static, 1)
+  for (std::size_t k = 0; k < slices_.size(); ++k) {
+    body(in_slice(state, slices_[k]), Columns{slices_[k].begin, slices_[k].end});
   }
 }
 
@@ -108,12 +106,12 @@ RowSums CompactSplitting<Scalar, Stored, Dim>::run(const State& state, SliceLoop
 #pragma omp parallel
   {
     const FlushDenormals flush;
-    const Slice slice = slice_of(stride_, omp_get_thread_num(), omp_get_num_threads());
-    if (cells != nullptr && slice.begin < slice.end) {
-      cells(state, Columns{slice.begin, slice.end});
-      solver_.solve_slice(residual_.data(), stride_, slice.begin, slice.end);
+    if (cells != nullptr) {
+      for_slices(state, [&](const State& slice, Columns columns) {
+        cells(slice, columns);
+        solver_.solve_slice(residual_.data(), stride_, columns.begin, columns.end);
+      });
     }
-#pragma omp barrier
 #pragma omp for schedule(static)
     for (std::size_t block = 0; block < parts.size(); ++block) {
       const Index begin = static_cast<Index>(block) * kRowBlock;
@@ -181,8 +179,9 @@ void CompactSplitting<Scalar, Stored, Dim>::adapt_penalty(double ratio, double l
   for (std::size_t k = 0; k < size; ++k) moved[k] = extrapolated_[k] - difference_[k] - start_[k];
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
-  for_slices([&](const State& state, Columns columns) {
-    kernel_.balance(state, columns, moved.data(), dual.data(), motion.data());
+#pragma omp parallel
+  for_slices(arrays(), [&](const State& slice, Columns columns) {
+    kernel_.balance(slice, columns, moved.data(), dual.data(), motion.data());
   });
   const double dual2 = std::accumulate(dual.data(), dual.data() + n_, 0.0) + data_.boundary_dual2;
   const double motion2 = std::accumulate(motion.data(), motion.data() + n_, 0.0);

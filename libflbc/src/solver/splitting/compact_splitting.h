@@ -124,7 +124,9 @@ class CompactSplitting {
   //! Scalar and Stored.
   template <class Archive>
   void visit(Archive& archive) {
-    archive(extrapolated_, relaxed_, vertex_dual_, cell_dual_, residual_, start_);
+    auto rows = slices_.rows_of(cell_dual_);
+    archive(extrapolated_, relaxed_, vertex_dual_, rows, residual_, start_);
+    slices_.set_rows(rows, cell_dual_);
   }
 
   //! Leaves the state in the storage, complete.
@@ -142,11 +144,11 @@ class CompactSplitting {
 
   double sigma() const { return penalty_ * unit_; }
   State arrays();
-  static ColumnBlocks blocks_for(std::size_t stride, const StateStorage* storage);
+  State in_slice(State state, Slice slice) const;
   void set_weights(const VectorsAt<1>& weights);
   void set_boundary_rows();
   void begin_from_weights();
-  void for_slices(const std::function<void(const State&, Columns)>& body);
+  void for_slices(const State& state, const std::function<void(const State&, Columns)>& body);
   RowSums run(const State& state, SliceLoop cells, RowLoop rows);
   void adapt_penalty(double ratio, double largest);
   void set_difference();
@@ -157,7 +159,7 @@ class CompactSplitting {
   const Kernel<Scalar, Stored, Dim>& kernel_;
   const Index n_;
   const std::size_t stride_;
-  const ColumnBlocks blocks_;  // of cell_dual_ and of the radii
+  const splitting::ColumnSlices slices_;  // one a thread; cell_dual_ and radii are in their order
   const splitting::Metric metric_;
   const double unit_;  // u
   double penalty_;

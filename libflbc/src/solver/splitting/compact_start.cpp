@@ -18,13 +18,13 @@ CompactSplitting<Scalar, Stored, Dim>::CompactSplitting(
       kernel_(select_kernel<Kernel<Scalar, Stored, Dim>>()),
       n_(other.n_),
       stride_(other.stride_),
-      blocks_(other.blocks_),
+      slices_(other.slices_),
       metric_(other.metric_),
       unit_(other.unit_),
       penalty_(other.penalty_),
       relaxation_(other.relaxation_),
       solver_(std::move(other.solver_)),
-      data_(make_compact_data(problem_, metric_, solver_.position(), unit_, blocks_, kernel_)),
+      data_(make_compact_data(problem_, metric_, solver_.position(), unit_, slices_, kernel_)),
       extrapolated_(std::move(other.extrapolated_)),
       relaxed_(std::move(other.relaxed_)),
       vertex_dual_(std::move(other.vertex_dual_)),
@@ -100,7 +100,8 @@ void CompactSplitting<Scalar, Stored, Dim>::begin_from_weights() {
                 relaxed_.data() + data_.vertices[row] * stride_);
   }
   std::fill_n(vertex_dual_.data(), vertex_dual_.size(), Scalar(0));
-  for_slices(kernel_.start_cell_dual);
+#pragma omp parallel
+  for_slices(arrays(), kernel_.start_cell_dual);
   run(arrays(), nullptr, kernel_.w_step);
   start_ = AlignedArray<Scalar>(data_.vertices.size() * stride_);
   std::copy_n(extrapolated_.data(), start_.size(), start_.data());
@@ -127,7 +128,7 @@ void CompactSplitting<Scalar, Stored, Dim>::start_from_duals(const VectorsAt<1>&
         }
       }
       for (int d = 0; d < Dim; ++d) {
-        blocks_.for_each(static_cast<std::size_t>(s) * Dim + d,
+        slices_.for_each(static_cast<std::size_t>(s) * Dim + d,
                          static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim,
                          [&](std::size_t begin, std::size_t width, std::size_t place) {
                            kernel_.encode(rows.data() + d * stride_ + begin,

@@ -29,52 +29,22 @@ template <class Scalar, int Dim, int Interior, int Lanes>
   }
 }
 
-// The columns begin .. end - 1 of the arrays of cells, in a block whose rows are `stride` long.
-template <class Stored>
-struct Block {
-  Stored* dual;          // such that column i of a row is at row * stride + i
-  const Stored* radius;  // likewise
-  std::size_t stride;
-  std::size_t begin;
-  std::size_t end;
-};
-
-// Calls `body(blocks, count)` for the columns, a few blocks at a time: what a cell has for all
-// control points is then read once for these.
-template <class Scalar, class Stored, int Dim, class Body>
-[[gnu::always_inline]] inline void for_blocks(const Arrays<Scalar, Stored, Dim>& arrays,
-                                              Columns columns, const Body& body) {
-  constexpr std::size_t kMost = 4;
-  Block<Stored> blocks[kMost];
-  std::size_t column = columns.begin;
-  while (column < columns.end) {
-    std::size_t count = 0;
-    for (; count < kMost && column < columns.end; ++count) {
-      const std::size_t first = column / arrays.block_width * arrays.block_width;
-      const std::size_t next = first + arrays.block_width;
-      const std::size_t last = next < arrays.stride ? next : arrays.stride;
-      blocks[count] = {arrays.cell_dual + (arrays.mesh_cells * Dim * first - first),
-                       arrays.radius + (arrays.num_cells * first - first), last - first, column,
-                       last < columns.end ? last : columns.end};
-      column = blocks[count].end;
-    }
-    body(blocks, count);
-  }
-}
-
 template <class Scalar, class Stored, int Dim, int Lanes>
 [[gnu::always_inline]] inline void load_cell_dual(const Arrays<Scalar, Stored, Dim>& arrays,
-                                                  const Block<Stored>& block, std::size_t s,
-                                                  std::size_t i, PackN<Scalar, Lanes>* dual) {
-  const Stored* rows = block.dual + std::size_t(arrays.cell_index[s]) * Dim * block.stride;
-  for (int d = 0; d < Dim; ++d) dual[d] = load_stored<Lanes>(rows + d * block.stride + i);
+                                                  std::size_t s, std::size_t i,
+                                                  PackN<Scalar, Lanes>* dual) {
+  const std::size_t row = std::size_t(arrays.cell_index[s]) * Dim;
+  for (int d = 0; d < Dim; ++d) {
+    dual[d] = load_stored<Lanes>(arrays.cell_dual + (row + d) * arrays.cell_stride + i);
+  }
 }
 
 // field, shortened to the cell's radius.
 template <class Scalar, class Stored, int Dim, int Lanes>
-[[gnu::always_inline]] inline void clip(const Block<Stored>& block, std::size_t s, std::size_t i,
-                                        PackN<Scalar, Lanes>* field) {
-  const PackN<Scalar, Lanes> radius = load_stored<Lanes>(block.radius + s * block.stride + i);
+[[gnu::always_inline]] inline void clip(const Arrays<Scalar, Stored, Dim>& arrays,
+                                        std::size_t s, std::size_t i, PackN<Scalar, Lanes>* field) {
+  const PackN<Scalar, Lanes> radius =
+      load_stored<Lanes>(arrays.radius + s * arrays.cell_stride + i);
   PackN<Scalar, Lanes> length2 = field[0] * field[0];
   for (int d = 1; d < Dim; ++d) length2 += field[d] * field[d];
   const PackN<Scalar, Lanes> shrink = shrinkage<Stored, Scalar, Lanes>(radius, length2);
@@ -84,17 +54,16 @@ template <class Scalar, class Stored, int Dim, int Lanes>
 // Z-step and dual step: P += relaxation (clip(P + G a) - P).
 template <class Scalar, class Stored, int Dim, int Interior, bool Measured, int Lanes>
 [[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Stored, Dim>& arrays,
-                                             const Block<Stored>& block, std::size_t s,
-                                             std::size_t i) {
+                                             std::size_t s, std::size_t i) {
   using Numbers = PackN<Scalar, Lanes>;
   const Cell<Scalar, Dim>& cell = arrays.cells[s];
   const std::size_t stride = arrays.stride;
-  Stored* rows = block.dual + std::size_t(arrays.cell_index[s]) * Dim * block.stride + i;
+  Stored* rows = arrays.cell_dual + std::size_t(arrays.cell_index[s]) * Dim * arrays.cell_stride + i;
   Numbers dual[Dim];
   Numbers clipped[Dim];
-  for (int d = 0; d < Dim; ++d) clipped[d] = dual[d] = load_stored<Lanes>(rows + d * block.stride);
+  for (int d = 0; d < Dim; ++d) clipped[d] = dual[d] = load_stored<Lanes>(rows + d * arrays.cell_stride);
   add_gradient<Scalar, Dim, Lanes>(cell, arrays.extrapolated, stride, i, clipped);
-  clip<Scalar, Stored, Dim, Lanes>(block, s, i, clipped);
+  clip<Scalar, Stored, Dim, Lanes>(arrays, s, i, clipped);
   if constexpr (Measured) {
     Numbers step[Dim];
     for (int d = 0; d < Dim; ++d) step[d] = dual[d] - clipped[d];
@@ -107,7 +76,7 @@ template <class Scalar, class Stored, int Dim, int Interior, bool Measured, int 
   const Scalar keep = Scalar(1) - arrays.relaxation;
   for (int d = 0; d < Dim; ++d) {
     dual[d] = keep * dual[d] + arrays.relaxation * clipped[d];
-    store_stored<Lanes>(rows + d * block.stride, dual[d]);
+    store_stored<Lanes>(rows + d * arrays.cell_stride, dual[d]);
   }
   subtract_divergence<Scalar, Dim, Interior, Lanes>(cell, arrays.residual, stride, i, dual);
 }

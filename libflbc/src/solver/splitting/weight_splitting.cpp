@@ -21,14 +21,12 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
       kernel_(select_kernel<Kernel<Scalar, Dim>>()),
       n_(problem.num_control_points()),
       stride_(padded(static_cast<std::size_t>(n_))),
-      slices_(stride_, omp_get_max_threads()),
-      // Properties of a mesh have whole rows.
-      cell_slices_(stride_, storage != nullptr ? 1 : omp_get_max_threads()),
+      slices_(stride_, omp_get_max_threads(), storage != nullptr),
       metric_(std::move(metric)),
       penalty_(penalty),
       relaxation_(relaxation),
       solver_(system_matrix(problem, metric_), stride_, linear_solver),
-      data_(make_splitting_data<Scalar>(problem, metric_, solver_.position(), cell_slices_)) {
+      data_(make_splitting_data<Scalar>(problem, metric_, solver_.position(), slices_)) {
   const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
   const auto vertices = static_cast<std::size_t>(problem.mesh.num_vertices());
   weights_ = state_array<Scalar>(storage, StateArray::kIterate, vertices, 1, stride_);
@@ -45,15 +43,13 @@ WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>& problem, Me
 
 template <class Scalar, int Dim>
 Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays(Slice slice) {
-  const bool whole = cell_slices_.size() < slices_.size();
   Arrays<Scalar, Dim> arrays;
   arrays.stride = stride_;
-  arrays.cell_stride = whole ? stride_ : slice.end - slice.begin;
+  arrays.cell_stride = slices_.stride_of(slice);
   arrays.num_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
-  const std::size_t first = whole ? 0 : slice.begin;
   arrays.num_interior = data_.vertices.size();
   arrays.weights = weights_.data();
-  arrays.cell_state = cell_state_.data() + (arrays.num_cells * Dim * first - first);
+  arrays.cell_state = cell_state_.data() + slices_.offset_of(slice, arrays.num_cells * Dim);
   arrays.vertex_state = vertex_state_.data();
   arrays.residual = residual_.data();
   arrays.violation = violation_.data();
@@ -64,7 +60,7 @@ Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays(Slice slice) {
   arrays.hat_gradients = data_.hat_gradients.data();
   arrays.cell_metric = data_.cell_metric.data();
   arrays.vertex_metric = data_.vertex_metric.data();
-  arrays.phi = data_.phi.data() + (arrays.num_cells * first - first);
+  arrays.phi = data_.phi.data() + slices_.offset_of(slice, arrays.num_cells);
   arrays.radius_scale = data_.radius_scale.data();
   arrays.basis = data_.constraints.basis.data();
   arrays.row_target = data_.constraints.target.data();
@@ -73,10 +69,10 @@ Arrays<Scalar, Dim> WeightSplitting<Scalar, Dim>::arrays(Slice slice) {
   return arrays;
 }
 
-// Calls `body` for each slice of control points, in parallel; to be called by all threads of a
-// team.
+// Calls `body` for each slice of control points; to be called by all threads of a team.
 template <class Scalar, int Dim>
 void WeightSplitting<Scalar, Dim>::for_slices(const SliceLoop& body) {
+  const FlushDenormals flush;
 #pragma omp for schedule(static, 1)
   for (std::size_t k = 0; k < slices_.size(); ++k) {
     const Slice slice = slices_[k];
@@ -203,36 +199,10 @@ CellFieldView<Scalar, Dim> WeightSplitting<Scalar, Dim>::flux() {
     scale[s] = static_cast<Scalar>(penalty_ * metric_.cell[static_cast<Index>(s)]);
   }
 #pragma omp parallel
-  {
-    const FlushDenormals flush;
-    for_slices([&](const Arrays<Scalar, Dim>& slice, Columns columns) {
-      kernel_.flux(slice, columns, scale.data(), flux_.data());
-    });
-  }
+  for_slices([&](const Arrays<Scalar, Dim>& slice, Columns columns) {
+    kernel_.flux(slice, columns, scale.data(), flux_.data());
+  });
   return {flux_.data(), stride_, n_};
-}
-
-// The state of cells in the order cell, component, control point, whatever the number of threads.
-template <class Scalar, int Dim>
-AlignedArray<Scalar> WeightSplitting<Scalar, Dim>::cell_rows() const {
-  AlignedArray<Scalar> rows(cell_state_.size());
-  const std::size_t count = rows.size() / stride_;
-  for (std::size_t row = 0; row < count; ++row) {
-    cell_slices_.for_each(row, count, [&](std::size_t begin, std::size_t width, std::size_t place) {
-      std::copy_n(cell_state_.data() + place, width, rows.data() + row * stride_ + begin);
-    });
-  }
-  return rows;
-}
-
-template <class Scalar, int Dim>
-void WeightSplitting<Scalar, Dim>::set_cell_rows(const AlignedArray<Scalar>& rows) {
-  const std::size_t count = rows.size() / stride_;
-  for (std::size_t row = 0; row < count; ++row) {
-    cell_slices_.for_each(row, count, [&](std::size_t begin, std::size_t width, std::size_t place) {
-      std::copy_n(rows.data() + row * stride_ + begin, width, cell_state_.data() + place);
-    });
-  }
 }
 
 template <class Scalar, int Dim>
@@ -245,8 +215,6 @@ double WeightSplitting<Scalar, Dim>::state_scalars_per_cell() const {
 #define FLBC_INSTANTIATE(Scalar, Dim)                                                            \
   template WeightSplitting<Scalar, Dim>::WeightSplitting(const LbcProblem<Dim>&, Metric, double, \
                                                          double, LinearSolver, StateStorage*);   \
-  template AlignedArray<Scalar> WeightSplitting<Scalar, Dim>::cell_rows() const;                 \
-  template void WeightSplitting<Scalar, Dim>::set_cell_rows(const AlignedArray<Scalar>&);        \
   template double WeightSplitting<Scalar, Dim>::run(const SliceLoop&);                           \
   template double WeightSplitting<Scalar, Dim>::iterate();                                       \
   template Residuals WeightSplitting<Scalar, Dim>::iterate_with_residuals();                     \

@@ -89,9 +89,9 @@ class WeightSplitting {
   //! Writes or reads the state, to the bit. What is read must be of the same problem and penalty.
   template <class Archive>
   void visit(Archive& archive) {
-    auto rows = cell_rows();
+    auto rows = slices_.rows_of(cell_state_);
     archive(weights_, rows, vertex_state_, residual_);
-    set_cell_rows(rows);
+    slices_.set_rows(rows, cell_state_);
   }
 
   //! Numbers of state held per cell and control point; phi is one more.
@@ -104,8 +104,6 @@ class WeightSplitting {
   using StateRow = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
 
   Arrays<Scalar, Dim> arrays(Slice slice);
-  AlignedArray<Scalar> cell_rows() const;
-  void set_cell_rows(const AlignedArray<Scalar>& rows);
   template <class Body>
   void for_cell_row(Index cell, int component, const Body& body);
   void for_slices(const SliceLoop& body);
@@ -121,8 +119,7 @@ class WeightSplitting {
   const Kernel<Scalar, Dim>& kernel_;
   const Index n_;
   const std::size_t stride_;
-  const ColumnSlices slices_;       // one a thread
-  const ColumnSlices cell_slices_;  // of cell_state_ and of phi
+  const ColumnSlices slices_;  // one a thread; cell_state_ and phi are in their order
   const Metric metric_;
   const double penalty_;
   const double relaxation_;

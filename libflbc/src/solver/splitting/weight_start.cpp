@@ -84,7 +84,7 @@ template <class Scalar, int Dim>
 template <class Body>
 void WeightSplitting<Scalar, Dim>::for_cell_row(Index cell, int component, const Body& body) {
   const auto rows = static_cast<std::size_t>(problem_.mesh.num_cells()) * Dim;
-  cell_slices_.for_each(static_cast<std::size_t>(cell) * Dim + component, rows,
+  slices_.for_each(static_cast<std::size_t>(cell) * Dim + component, rows,
                         [&](std::size_t begin, std::size_t width, std::size_t place) {
                           const auto first = static_cast<Index>(begin);
                           const Index own = std::min(static_cast<Index>(width), n_ - first);

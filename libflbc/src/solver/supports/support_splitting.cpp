@@ -102,7 +102,7 @@ template <class Scalar, class Stored, int Dim>
 compact::Arrays<Scalar, Stored, Dim> SupportSplitting<Scalar, Stored, Dim>::patch_state(
     const Patch& patch) {
   State state{};
-  state.stride = state.block_width = patch.stride;
+  state.stride = state.cell_stride = patch.stride;
   state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
   state.num_interior = static_cast<std::size_t>(patch.num_interior);
   state.cell_dual = cell_dual_.data() + Dim * patch.first_number;
