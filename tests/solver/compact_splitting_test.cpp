@@ -174,7 +174,6 @@ void expect_rows_and_slices_alike(const Case<Dim>& c) {
 
 TYPED_TEST(CompactSplittingTest, SlicesOfControlPointsChangeNoBit) {
   constexpr int kDim = TypeParam::value;
-
   for (const Index cage_subdivisions : {kDim == 2 ? 7 : 2, kDim == 2 ? 25 : 5}) {
     const auto c = make_case(with_many_control_points<kDim>(cage_subdivisions, cage_subdivisions));
     SCOPED_TRACE(c.problem.num_control_points());
