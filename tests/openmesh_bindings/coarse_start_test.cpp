@@ -70,5 +70,65 @@ TEST(CoarseStart, IsThereInSpace) {
   EXPECT_TRUE(resumed.coarse_levels.empty());
 }
 
+template <int Dim>
+auto mesh_of(const DomainMesh<Dim>& domain) {
+  if constexpr (Dim == 2) {
+    return openmesh::to_mesh<Tri>(domain);
+  } else {
+    return openmesh::TetMesh::from(domain);
+  }
+}
+
+// What saves time in solve() of a cage and a mesh has a place here, too, unless the state is to be
+// kept as properties of the mesh.
+template <int Dim>
+void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& domain) {
+  SolverOptions options;
+  options.tolerance = 1e-5;
+  for (const auto pairs : {ActivePairs::kOff, ActivePairs::kOn}) {
+    options.active_pairs = pairs;
+    const auto mesher = openmesh::internal::coarse_mesher(openmesh::internal::linked_mesher<Dim>());
+    const auto expected = solve<Dim>(cage, domain, options, mesher);
+    auto mesh = mesh_of(domain);
+    const auto report = openmesh::solve(mesh, cage, options);
+    EXPECT_EQ(report.iterations, expected.report.iterations);
+    EXPECT_EQ(report.distances.source, expected.report.distances.source);
+    EXPECT_EQ(report.coarse_levels.size(), expected.report.coarse_levels.size());
+    EXPECT_EQ(report.state_scalars_per_cell, expected.report.state_scalars_per_cell);
+    EXPECT_EQ(report.active_pairs.density, expected.report.active_pairs.density);
+    EXPECT_EQ(report.active_pairs.density < 1, pairs == ActivePairs::kOn);
+    EXPECT_LT((openmesh::get_weights(mesh) - expected.weights).cwiseAbs().maxCoeff(), 1e-3);
+    if (pairs == ActivePairs::kOn) continue;
+    openmesh::PropertyOptions properties;
+    properties.keep_state = true;
+    const auto kept = openmesh::solve(mesh, cage, options, properties);
+    EXPECT_GT(kept.state_scalars_per_cell, report.state_scalars_per_cell);
+    EXPECT_LT(mean_squared_difference(openmesh::get_weights(mesh), expected.weights), 2e-5);
+  }
+}
+
+TEST(CoarseStart, WithoutAStateItSolvesAsOnArrays) {
+  const auto cage = star();
+  expect_solve_of_cage_and_mesh(cage, triangulate(cage, {9000}));
+  const auto sample = make_sample<3>(Shape::kCorner, 12, 0.1);
+  ASSERT_GE(sample.mesh.num_vertices(), 3000);
+  expect_solve_of_cage_and_mesh(sample.cage, sample.mesh);
+}
+
+// Nothing of a state is lost by a solve that could not begin.
+TEST(CoarseStart, AStateOutlivesASolveThatCouldNotBegin) {
+  const auto sample = make_sample<3>(Shape::kBox, 4);
+  auto mesh = openmesh::TetMesh::from(sample.mesh);
+  openmesh::PropertyOptions properties;
+  properties.keep_state = true;
+  SolverOptions options;
+  options.method = Method::kGradient;
+  openmesh::solve(mesh, sample.cage, options, properties);
+  auto moved = sample.cage;
+  moved.points(0, 0) -= 0.5;
+  EXPECT_THROW(openmesh::solve(mesh, moved), InputError);
+  EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
+}
+
 }  // namespace
 }  // namespace flbc::testing

@@ -67,6 +67,13 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const SolverOptions& options = {}, const MesherArgument<Dim>& mesher = {});
 
+//! The same where the mesh's facets are known already, as a halfedge mesh knows them.
+//! \param topology  of the mesh; with several parts, facets are enumerated anew
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+               const MeshTopology<Dim>& topology, const SolverOptions& options,
+               const MesherArgument<Dim>& mesher);
+
 //! The same weights without their zeros. Where the iteration works on supports
 //! (SolverOptions::active_pairs) no n x V matrix of weights is made. Parameters, errors as above.
 template <int Dim>

@@ -87,16 +87,16 @@ Result go_on(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, SolverOptions o
   return solution;
 }
 
-// solve() of a cage and a mesh, in the form that is wanted.
+// solve() of a cage and a mesh, in the form that is wanted. \param topology  null if not known
 template <class Result, int Dim>
 Result solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
-                  const CoarseMesher<Dim>& mesher) {
+                  const CoarseMesher<Dim>& mesher, const MeshTopology<Dim>* topology = nullptr) {
   require_valid_set_up(options, bool(mesher));
   if (count_parts(mesh) > 1) return solve_parts<Result, Dim>(cage, mesh, options, mesher);
   const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   const auto resolved = resolve(options);
   if (!resolved.resume_from.empty()) return go_on<Result>(cage, mesh, resolved);
-  auto ready = set_up(cage, mesh, resolved, mesher);
+  auto ready = set_up<Dim>(cage, mesh, resolved, mesher, nullptr, topology);
   double coarse_seconds = 0;
   for (const auto& level : ready.coarse) {
     coarse_seconds += level.report.mesh_seconds + level.report.setup_seconds;
@@ -124,6 +124,13 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher) {
   return solve_cage<Solution, Dim>(cage, mesh, options, mesher);
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+               const MeshTopology<Dim>& topology, const SolverOptions& options,
+               const MesherArgument<Dim>& mesher) {
+  return solve_cage<Solution, Dim>(cage, mesh, options, mesher, &topology);
 }
 
 template <int Dim>
@@ -254,6 +261,9 @@ const Solution& LbcSolver<Dim>::solution() const {
   template Solution solve(const LbcProblem<Dim>&, const SolverOptions&,                        \
                           const MesherArgument<Dim>&, StateStorage*);                          \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&, \
+                               const MesherArgument<Dim>&);                                    \
+  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&,                       \
+                               const MeshTopology<Dim>&, const SolverOptions&,                 \
                                const MesherArgument<Dim>&);                                    \
   template SparseSolution solve_sparse<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&,          \
                                             const SolverOptions&, const MesherArgument<Dim>&); \

@@ -120,12 +120,15 @@ std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& m
 
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                  const CoarseMesher<Dim>& mesher, std::optional<CoarseProblem<Dim>>* coarsest) {
+                  const CoarseMesher<Dim>& mesher, std::optional<CoarseProblem<Dim>>* coarsest,
+                  const MeshTopology<Dim>* topology) {
   Stopwatch watch;
   require_connected(mesh);
   const auto plan = plan_coarse(cage.size(), mesh.num_vertices(), options, mesher);
   const MeshAhead<Dim> ahead(cage, mesh, plan.sizes, mesher);
-  SetUp<Dim> result{make_geometry(std::move(cage), std::move(mesh))};
+  SetUp<Dim> result{topology == nullptr
+                        ? make_geometry(std::move(cage), std::move(mesh))
+                        : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& problem = result.problem;
   if (!minimises(options.method)) {
     result.seconds = watch.lap();
@@ -148,11 +151,12 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                     \
-  template std::vector<Index> start_sizes(Index, Index, const CoarseMesher<Dim>&, \
-                                          const SolverOptions&);                  \
-  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,    \
-                             const CoarseMesher<Dim>&, std::optional<CoarseProblem<Dim>>*);
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template std::vector<Index> start_sizes(Index, Index, const CoarseMesher<Dim>&,          \
+                                          const SolverOptions&);                           \
+  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,             \
+                             const CoarseMesher<Dim>&, std::optional<CoarseProblem<Dim>>*, \
+                             const MeshTopology<Dim>*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -39,10 +39,12 @@ void require_valid_set_up(const SolverOptions& options, bool has_mesher);
 //! one of its own
 //! \param coarsest  where to leave the mesh whose distances were computed, with the places of the
 //! finest one's vertices, if distances were interpolated; may be null
+//! \param topology  of the mesh where it is known, else null
 //! \throws InputError, SolverError
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
                   const CoarseMesher<Dim>& mesher,
-                  std::optional<CoarseProblem<Dim>>* coarsest = nullptr);
+                  std::optional<CoarseProblem<Dim>>* coarsest = nullptr,
+                  const MeshTopology<Dim>* topology = nullptr);
 
 }  // namespace flbc

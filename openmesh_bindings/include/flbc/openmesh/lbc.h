@@ -28,7 +28,7 @@ struct PropertyOptions {
 
   //! First part of the names of the state's properties, such as "flbc:splitting_state" and
   //! "flbc:iterate", or "flbc:gradient", "flbc:tv_dual" and "flbc:integrability_dual"; the mesh
-  //! property "flbc:state" says what they belong to. The iteration works on them in place.
+  //! property "flbc:state" says what they belong to.
   std::string state_prefix = "flbc:";
 
   //! The weight functions phi_i on the cells, a row of n doubles >= 0 per cell of type
@@ -36,7 +36,10 @@ struct PropertyOptions {
   //! is, the computed ones are left there. Empty: neither.
   std::string phi{};
 
-  //! Keep the state, so that a later call with the same method goes on from it.
+  //! Keep the state, so that a later call with the same method goes on from it. The iteration then
+  //! works in place, on whole rows of floats or doubles and with distances of the mesh itself. Else
+  //! it has memory of its own and solves as solve() of a cage and a mesh does, in less time:
+  //! Precision::kHalf, SolverOptions::active_pairs, SolverOptions::distances.
   bool keep_state = false;
 
   //! Do not go on from a state that is there.
@@ -69,6 +72,7 @@ Eigen::MatrixXd phi_of(const Mesh& mesh, const std::string& name, Index control_
   return phi;
 }
 
+//! Leaves phi where there is none yet.
 template <class Mesh>
 void leave_phi(Mesh& mesh, const WeightFunctions& phi, const PropertyOptions& properties) {
   if (properties.phi.empty()) return;
@@ -82,6 +86,18 @@ void leave_phi(Mesh& mesh, const WeightFunctions& phi, const PropertyOptions& pr
     }
   }
   if (properties.persistent) mesh.property(handle).set_persistent(true);
+}
+
+//! The problem with the phi that is on the mesh; if there is none, its own is left there.
+template <int Dim, class Mesh>
+LbcProblem<Dim> problem_on(Mesh& mesh, const Cage<Dim>& cage, Domain<Dim> domain,
+                           Eigen::MatrixXd phi, DistanceScheme scheme,
+                           const PropertyOptions& properties) {
+  auto problem = make_problem(cage, std::move(domain.mesh), std::move(domain.topology),
+                              phi.size() > 0 ? DistanceScheme::kConstant : scheme);
+  if (phi.size() > 0) problem.phi = WeightFunctions(std::move(phi));
+  leave_phi(mesh, problem.phi, properties);
+  return problem;
 }
 
 //! The record of the state on the mesh.
@@ -141,21 +157,23 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
   record.requested_penalty = options.penalty;
 
   snap_to_cage(cage, domain.topology, internal::kSinglePrecision, domain.mesh);
-  auto problem = make_problem(cage, std::move(domain.mesh), std::move(domain.topology),
-                              phi.size() > 0 ? DistanceScheme::kConstant : options.phi);
-  if (phi.size() > 0) problem.phi = WeightFunctions(std::move(phi));
-  internal::leave_phi(mesh, problem.phi, properties);
-  if (!properties.phi.empty()) record.phi = content_hash(problem.phi.dense()).text();
-
-  // Until it is through, what is on the mesh is no state to go on from.
-  mesh.property(handle) = to_json(record);
-  storage.rescale_duals(options.precision);
+  const bool in_place = properties.keep_state || report.resumed;
   Solution solution;
-  try {
-    solution = flbc::solve(problem, options, mesher, &storage);
-  } catch (...) {
-    storage.remove();
-    throw;
+  if (!in_place && properties.phi.empty()) {
+    solution = flbc::solve(cage, domain.mesh, domain.topology, options, mesher);
+  } else {
+    const auto problem = internal::problem_on(mesh, cage, std::move(domain), std::move(phi),
+                                              options.phi, properties);
+    if (!properties.phi.empty()) record.phi = content_hash(problem.phi.dense()).text();
+    // Until it is through, what is on the mesh is no state to go on from.
+    mesh.property(handle) = to_json(record);
+    storage.rescale_duals(options.precision);
+    try {
+      solution = flbc::solve(problem, options, mesher, in_place ? &storage : nullptr);
+    } catch (...) {
+      storage.remove();
+      throw;
+    }
   }
   static_cast<SolveReport&>(report) = std::move(solution.report);
   set_weights(mesh, solution.weights, properties.weights, properties.persistent);
@@ -179,16 +197,17 @@ MeshSolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, SolverOptions option
 //! refuse. Another method, precision or phi begins anew, as the report says. After an exception
 //! from the iteration there is no state any more.
 //! \param mesher  makes coarser meshes to start from where that pays (flbc/coarse_to_fine.h); {} for
-//! none. By default that of the component which the program links besides flbc::openmesh, flbc::cgal
-//! in the plane and flbc::tetgen in space, if it does (SolverOptions::coarse_to_fine switches it off)
+//! none. By default that of the component which the program links besides flbc::openmesh,
+//! flbc::cgal in the plane and flbc::tetgen in space, if it does (SolverOptions::coarse_to_fine
+//! switches it off)
 //! \throws InputError naming the element if mesh and cage do not belong together, if the mesh has
 //! deleted elements, or if there is a state that belongs to another cage, mesh or penalty;
 //! OptionError, SolverError
 template <class Mesh, int Dim>
-MeshSolveReport solve(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
-                      const PropertyOptions& properties = {},
-                      const MesherArgument<Dim>& mesher =
-                          internal::coarse_mesher(internal::linked_mesher<Dim>())) {
+MeshSolveReport solve(
+    Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
+    const PropertyOptions& properties = {},
+    const MesherArgument<Dim>& mesher = internal::coarse_mesher(internal::linked_mesher<Dim>())) {
   if constexpr (std::is_same_v<Mesh, TetMesh>) {
     static_assert(Dim == 3, "tetrahedra do not fill a cage in the plane");
     return solve_on<Dim>(mesh, cage, options, properties, mesher);
