@@ -39,12 +39,14 @@ struct CrossPolytope {
   }
 };
 
-// In the plane a run on all pairs, in space one on supports: their states differ.
-template <int Dim>
+// By value in the plane a run on all pairs, in space one on supports: their states differ.
+template <int Dim, Method kMethod>
 SolverOptions options_of_run() {
   SolverOptions options;
-  options.method = Method::kValue;
-  options.active_pairs = Dim == 2 ? ActivePairs::kOff : ActivePairs::kOn;
+  options.method = kMethod;
+  if (kMethod == Method::kValue) {
+    options.active_pairs = Dim == 2 ? ActivePairs::kOff : ActivePairs::kOn;
+  }
   options.tolerance = 1e-12;
   options.gap = 0;
   options.check_interval = 2;
@@ -53,14 +55,14 @@ SolverOptions options_of_run() {
   return options;
 }
 
-template <int Dim>
+template <int Dim, Method kMethod>
 void read_checkpoint(const std::string& path) {
   const auto run = app::Checkpoint<Dim>({path}, kLines).find();
   require(run.has_value(), "a file that is there is read or refused");
   const auto& domain = run->solved.domain;
   require_indices_in_range(domain);
   static const CrossPolytope<Dim> sample;
-  auto options = options_of_run<Dim>();
+  auto options = options_of_run<Dim, kMethod>();
   options.resume_from = run->state;
   require(!run->state.empty(), "there is a state");
   const auto solution = solve_sparse(sample.cage, domain, options);
@@ -70,13 +72,13 @@ void read_checkpoint(const std::string& path) {
 }
 
 // Of a run after its first iterations, without the checksum.
-template <int Dim>
+template <int Dim, Method kMethod>
 std::string checkpoint() {
   const CrossPolytope<Dim> sample;
   app::SolvedDomain<Dim> solved;
   solved.domain = sample.mesh;
   return written("a.state", [&](const std::string& path) {
-    auto options = options_of_run<Dim>();
+    auto options = options_of_run<Dim, kMethod>();
     options.progress = [&](const Progress& progress) {
       app::Checkpoint<Dim>({path, 0}, kLines).look(progress, solved, {app::HistoryEntry{2, 0}});
       return false;
@@ -85,16 +87,23 @@ std::string checkpoint() {
   });
 }
 
-template <int Dim>
+template <int Dim, Method kMethod>
 Reader checkpoint_reader(const std::string& name) {
-  return {name, "input.state", read_checkpoint<Dim>, {without_hash(checkpoint<Dim>())},
-          {},   with_hash};
+  return {name,
+          "input.state",
+          read_checkpoint<Dim, kMethod>,
+          {without_hash(checkpoint<Dim, kMethod>())},
+          {},
+          with_hash};
 }
 
 }  // namespace
 
 std::vector<Reader> checkpoint_readers() {
-  return {checkpoint_reader<2>("checkpoint_2d"), checkpoint_reader<3>("checkpoint_3d")};
+  return {checkpoint_reader<2, Method::kValue>("checkpoint_2d"),
+          checkpoint_reader<3, Method::kValue>("checkpoint_3d"),
+          checkpoint_reader<2, Method::kGradient>("checkpoint_gradient"),
+          checkpoint_reader<3, Method::kLbc2014>("checkpoint_lbc2014")};
 }
 
 }  // namespace flbc::fuzz

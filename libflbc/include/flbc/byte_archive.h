@@ -9,6 +9,7 @@
 #include <ostream>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "flbc/content_hash.h"
 #include "flbc/errors.h"
@@ -27,6 +28,12 @@ inline std::uint64_t hash_of(std::string_view bytes) {
 template <class Value>
 constexpr bool kIsMatrix = std::is_base_of_v<Eigen::EigenBase<Value>, Value>;
 
+//! Whether an array's size can change; else its memory may be someone else's.
+template <class Array, class = void>
+constexpr bool kHasResize = false;
+template <class Array>
+constexpr bool kHasResize<Array, std::void_t<decltype(std::declval<Array&>().resize(0))>> = true;
+
 //! Writes to a stream.
 class ByteWriter {
  public:
@@ -37,11 +44,17 @@ class ByteWriter {
     out_.write(data, static_cast<std::streamsize>(size));
   }
 
-  //! Numbers, enumerations, arrays of what can be copied by its bytes, and matrices, both with their
-  //! sizes.
+  //! Numbers, enumerations, arrays of what can be copied by its bytes, and matrices, both with
+  //! their sizes.
   template <class... Values>
   void operator()(const Values&... values) {
     (add(values), ...);
+  }
+
+  //! An array that is empty or has this size.
+  template <class Array>
+  void empty_or(std::size_t, const Array& array) {
+    add(array);
   }
 
  private:
@@ -69,10 +82,19 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
 
-  //! Arrays that are not empty must have the size that they had.
+  //! Arrays that cannot be resized must have the size that they had.
   template <class... Values>
   void operator()(Values&... values) {
     (get(values), ...);
+  }
+
+  //! An array that cannot be resized, and is empty so far: it stays so or gets this size.
+  template <class Array>
+  void empty_or(std::size_t size, Array& array) {
+    const auto count = size_of<Array>();
+    if (count != 0 && count != size) refuse_size();
+    array = Array(count);
+    take_numbers(array);
   }
 
   //! A number of things that take `size` bytes or more each, so that there cannot be more of them
@@ -98,23 +120,35 @@ class ByteReader {
   }
   template <class Value>
   void get(Value& value) {
-    if constexpr (!std::is_class_v<Value>) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      std::uint8_t byte = 0;
+      get(byte);
+      if (byte > 1) throw InputError("a flag in it is neither set nor not");
+      value = byte == 1;
+    } else if constexpr (!std::is_class_v<Value>) {
       take(reinterpret_cast<char*>(&value), sizeof value);
     } else {
       if constexpr (kIsMatrix<Value>) {
-        resize(value);
-      } else {
-        // An array with a size may be memory of someone else, who wants the numbers there.
-        const auto size = static_cast<std::size_t>(count(sizeof *value.data()));
-        if (value.size() > 0 && size != value.size()) refuse_size();
-        if (value.size() == 0) value = Value(size);
+        resize_matrix(value);
+      } else if constexpr (kHasResize<Value>) {
+        value.resize(size_of<Value>());
+      } else if (size_of<Value>() != value.size()) {
+        refuse_size();
       }
-      take(reinterpret_cast<char*>(value.data()),
-           sizeof *value.data() * static_cast<std::size_t>(value.size()));
+      take_numbers(value);
     }
   }
+  template <class Array>
+  std::size_t size_of() {
+    return static_cast<std::size_t>(count(sizeof *std::declval<Array&>().data()));
+  }
+  template <class Array>
+  void take_numbers(Array& array) {
+    take(reinterpret_cast<char*>(array.data()),
+         sizeof *array.data() * static_cast<std::size_t>(array.size()));
+  }
   template <class Matrix>
-  void resize(Matrix& matrix) {
+  void resize_matrix(Matrix& matrix) {
     constexpr auto kSize = sizeof(typename Matrix::Scalar);
     const auto rows = count(kSize);
     const auto cols = count(kSize * static_cast<std::size_t>(rows > 0 ? rows : 1));

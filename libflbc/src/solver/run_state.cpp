@@ -15,7 +15,8 @@ namespace {
 template <int Dim>
 std::uint64_t origin_of(const SolverOptions& options, const Cage<Dim>& cage,
                         const DomainMesh<Dim>& mesh) {
-  const std::string lines = "flbc run of " FLBC_VERSION ", of supports or all pairs\n" + option_lines(options);
+  const std::string lines =
+      "flbc run of " FLBC_VERSION ", of supports or all pairs\n" + option_lines(options);
   ContentHash hash;
   hash.add(lines.data(), lines.size());
   const Index sizes[] = {Dim, cage.size(), mesh.num_vertices(), mesh.num_cells()};
@@ -99,12 +100,20 @@ RunRecord take_record(SolverOptions& options, const Cage<Dim>& cage, const Domai
   RunRecord record;
   read(record.distances, record.source.source, record.source.vertices, record.source.phi_error,
        record.setup_seconds, record.solve_seconds, record.levels);
-  const bool fits =
-      record.distances.size() == 0 ||
-      (record.distances.rows() == cage.size() && record.distances.cols() == mesh.num_vertices());
-  if (!fits) throw InputError("the state to go on from is damaged");
+  const auto& distances = record.distances;
+  const bool fits = options.phi == DistanceScheme::kConstant
+                        ? distances.size() == 0
+                        : distances.rows() == cage.size() &&
+                              distances.cols() == mesh.num_vertices() && distances.allFinite() &&
+                              distances.minCoeff() >= 0 && distances.maxCoeff() > 0;
+  const auto source = record.source.source;
+  require_undamaged(fits && (source == Distances::kExact || source == Distances::kInterpolated));
   options.resume_from = read.rest();
   return record;
+}
+
+void require_undamaged(bool can_be) {
+  if (!can_be) throw InputError("the state to go on from is damaged");
 }
 
 void require_whole_state(const ByteReader& read, const SolveReport& report,

@@ -47,6 +47,9 @@ SolverOptions offering_record(SolverOptions options, const Cage<Dim>& cage,
 template <int Dim>
 RunRecord take_record(SolverOptions& options, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh);
 
+//! \throws InputError unless what was read can be part of a state
+void require_undamaged(bool can_be);
+
 //! To be called when a method has read its part. \param report  as the state has it
 //! \throws InputError if something is left, or if the number of iterations is none of such a run
 void require_whole_state(const ByteReader& read, const SolveReport& report,

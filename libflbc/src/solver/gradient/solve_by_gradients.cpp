@@ -103,6 +103,13 @@ class RunToError {
     estimate_.visit(archive);
   }
 
+  // Whether what was read can be of a run on this problem.
+  bool is_undamaged() const {
+    if (weights_.size() == 0) return looked_at_ == -1;
+    return weights_.rows() == problem_.num_control_points() &&
+           weights_.cols() == problem_.mesh.num_vertices();
+  }
+
   // The last weights, if they are those of this iteration.
   WeightMatrix take_weights(int iteration) {
     return iteration == looked_at_ ? std::move(weights_) : recover_();
@@ -215,6 +222,7 @@ MethodResult solve(const LbcProblem<Dim>& problem, const SolverOptions& options,
   };
   if (goes_on) {
     visit(read);
+    require_undamaged(run.is_undamaged());
     require_whole_state(read, report, options);
   }
   const auto told = offering(options, visit);

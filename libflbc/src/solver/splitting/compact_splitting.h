@@ -125,7 +125,8 @@ class CompactSplitting {
   template <class Archive>
   void visit(Archive& archive) {
     auto rows = slices_.rows_of(cell_dual_);
-    archive(extrapolated_, relaxed_, vertex_dual_, rows, residual_, start_);
+    archive(extrapolated_, relaxed_, vertex_dual_, rows, residual_);
+    archive.empty_or(residual_.size(), start_);
     slices_.set_rows(rows, cell_dual_);
   }
 

@@ -36,7 +36,7 @@ class WeightHistory {
   //! Writes or reads the weights that are kept.
   template <class Archive>
   void visit(Archive& archive) {
-    for (auto& kept : kept_) archive(kept);
+    for (auto& kept : kept_) archive.empty_or(sample_.size() * stride_, kept);
   }
 
  private:

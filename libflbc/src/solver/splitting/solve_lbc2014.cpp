@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Method::kLbc2014 from start to weights.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "base/stopwatch.h"
@@ -114,6 +115,7 @@ MethodResult solve_in(const LbcProblem<Dim>& problem, const SolverOptions& optio
   const bool goes_on = !read.is_at_end();
   if (goes_on) {
     read(penalty);
+    require_undamaged(penalty > 0 && std::isfinite(penalty));
   } else if (resumes(storage)) {
     penalty = storage->penalty();
   } else if (warm_start.from && lagrangian.is_chosen()) {

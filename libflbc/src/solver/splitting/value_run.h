@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -62,6 +63,10 @@ inline std::optional<StateFront> take_front(ByteReader& read) {
   if (read.is_at_end()) return std::nullopt;
   StateFront front;
   front.visit(read);
+  using splitting::Start;
+  require_undamaged(front.penalty > 0 && std::isfinite(front.penalty) &&
+                    (front.start == Start::kCold || front.start == Start::kCoarserMesh ||
+                     front.start == Start::kNearby));
   return front;
 }
 
