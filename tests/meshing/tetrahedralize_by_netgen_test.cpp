@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
@@ -99,6 +100,11 @@ TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
   EXPECT_NE(message_of<InputError>([&] { tetrahedralize_by_netgen(cage, hasty); })
                 .find("time limit of 0.2 s (--mesh-timeout)"),
             std::string::npos);
+  // One limit for all that is tried where a run fails.
+  hasty.time_limit = 2;
+  Stopwatch watch;
+  EXPECT_THROW(tetrahedralize_by_netgen(cage, hasty), InputError);
+  EXPECT_LT(watch.lap(), 2 * hasty.time_limit);
   const Cage<3> crossing = join(box_cage<3>(Vector<3>(-1, -2, -1), Vector<3>(1, 2, 1)),
                                 box_cage<3>(Vector<3>(-3, -0.5, -0.5), Vector<3>(3, 0.5, 0.5)));
   EXPECT_THROW(tetrahedralize_by_netgen(crossing), InputError);

@@ -18,7 +18,8 @@ struct MeshingOptions {
   //! this order, with their coordinates unchanged.
   PointList<Dim> embedded_points{};
 
-  //! Longest time in seconds for one run of a mesher, after which it is stopped.
+  //! Longest time in seconds for one run of a mesher, with all its further tries where it fails,
+  //! after which it is stopped.
   double time_limit = 60;
 
   //! Whether to take the first mesh of about so many vertices, within a factor of three where the

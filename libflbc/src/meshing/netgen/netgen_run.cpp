@@ -155,9 +155,10 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
 
 }  // namespace
 
-DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double time_limit) {
+DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
+                         double time_limit) {
   const ProcessOutcome outcome = run_isolated(
-      [&](const ByteSink& send) { mesh_and_send(surface, longest, send); }, time_limit);
+      [&](const ByteSink& send) { mesh_and_send(surface, longest, send); }, seconds);
   refuse_failure(outcome, time_limit);
 
   ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });

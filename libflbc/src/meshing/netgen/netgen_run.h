@@ -10,9 +10,10 @@ namespace flbc {
 //! Fills a surface with tetrahedra in a process of its own.
 //! \param surface     outer shells with their normals outwards, cavities the other way round
 //! \param longest     of edges of cells, roughly; in the units of the surface
-//! \param time_limit  in seconds
+//! \param seconds     after which it is stopped \param time_limit  that messages name
 //! \return a mesh that begins with the surface's points and has all of its triangles
 //! \throws InputError if Netgen fails, crashes, takes longer or cannot be loaded
-DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double time_limit);
+DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
+                         double time_limit);
 
 }  // namespace flbc

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "base/messages.h"
+#include "base/stopwatch.h"
 #include "cage/oriented_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
@@ -73,34 +75,36 @@ void check_surface_is_kept(const Task& task, const Cage<3>& surface, const Domai
                    format_number(volume));
 }
 
-DomainMesh<3> fill_once(const Task& task, double longest) {
+DomainMesh<3> fill_once(const Task& task, double longest, double seconds) {
   const Cage<3> surface = subdivide_surface(task.oriented.cage, longest);
-  DomainMesh<3> mesh = run_netgen(surface, longest, task.time_limit);
+  DomainMesh<3> mesh = run_netgen(surface, longest, seconds, task.time_limit);
   check_surface_is_kept(task, surface, mesh);
   return mesh;
 }
 
 // Netgen fails on some surfaces and not on others of the same shape: coarse triangles on thin walls
-// are the worst.
-DomainMesh<3> fill(const Task& task, double longest) {
-  for (const double finer : {1.0, 0.9}) {
+// are the worst. \param longest  edges to try in turn, all within one limit of time
+DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest) {
+  Stopwatch watch;
+  double left = task.time_limit;
+  for (std::size_t k = 0;; ++k) {
     try {
-      return fill_once(task, longest * finer);
+      return fill_once(task, longest[k], left);
     } catch (const InputError&) {
+      left -= watch.lap();
+      if (k + 1 == longest.size() || left <= 0) throw;
     }
   }
-  return fill_once(task, 0.75 * longest);
+}
+
+DomainMesh<3> fill(const Task& task, double longest) {
+  return fill_by_first(task, {longest, 0.9 * longest, 0.75 * longest});
 }
 
 DomainMesh<3> fill_coarsely(const Task& task) {
-  double longest = task.size;
-  for (int halving = 0; halving < 5; ++halving, longest /= 2) {
-    try {
-      return fill_once(task, longest);
-    } catch (const InputError&) {
-    }
-  }
-  return fill_once(task, longest);
+  std::vector<double> longest{task.size};
+  for (int halving = 0; halving < 5; ++halving) longest.push_back(longest.back() / 2);
+  return fill_by_first(task, longest);
 }
 
 DomainMesh<3> fill_with(const Task& task, Index vertices, bool roughly) {

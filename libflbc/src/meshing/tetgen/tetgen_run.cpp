@@ -10,6 +10,7 @@
 #define TETLIBRARY
 #include <tetgen.h>
 
+#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "meshing/isolated_process.h"
 
@@ -111,12 +112,16 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
 // incrementally.
 ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& switches,
                                   double time_limit) {
+  Stopwatch watch;
+  double left = time_limit;
   ProcessOutcome outcome;
   for (const char* order : {"", "b0/0", "lb0/0"}) {
     outcome = run_isolated(
         [&](const ByteSink& send) { tetrahedralize_and_send(input, switches + order, send); },
-        time_limit);
+        left);
     if (outcome.end != ProcessEnd::kCrashed && outcome.end != ProcessEnd::kThrew) break;
+    left -= watch.lap();
+    if (left <= 0) break;
   }
   return outcome;
 }
