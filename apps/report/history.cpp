@@ -2,6 +2,7 @@
 #include "report/history.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -32,6 +33,15 @@ double number_or_none(const Json& value) {
   return value.is_null() ? kNone : value.get<double>();
 }
 
+// Beyond an int, the conversion from JSON would give any number.
+int small_integer(const Json& value) {
+  constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
+  const auto number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
+  if (number < 0 || number > kLargest)
+    throw InputError(value.dump() + " is no number of iterations");
+  return static_cast<int>(number);
+}
+
 RunHistory parse(const Json& solve) {
   const auto& history = solve.at("history");
   RunHistory run;
@@ -40,8 +50,8 @@ RunHistory parse(const Json& solve) {
   run.entries.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     auto& entry = run.entries[k];
-    entry.iteration = history["iterations"].at(k);
-    entry.finer_levels = history.at("finer_levels").at(k);
+    entry.iteration = small_integer(history["iterations"].at(k));
+    entry.finer_levels = small_integer(history.at("finer_levels").at(k));
     for (const auto& [name, value] : kQuantities) {
       entry.*value = number_or_none(history.at(name).at(k));
     }
@@ -120,11 +130,14 @@ RunHistory read_history(const std::string& file) {
   }
   const auto& solve = report.contains("solve") ? report["solve"] : report;
   if (!solve.is_object() || !solve.contains("history")) {
-    throw InputError(file + ": has no history; let flbc solve or flbc run write the report with "
-                            "--history");
+    throw InputError(file +
+                     ": has no history; let flbc solve or flbc run write the report with "
+                     "--history");
   }
   try {
     return parse(solve);
+  } catch (const InputError& error) {
+    throw InputError(file + ": the history is damaged: " + error.what());
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file + ": the history is damaged: " + error.what());
   }

@@ -2,6 +2,8 @@
 #include "flbc/openmesh/state_record.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -42,6 +44,17 @@ std::string to_json(const StateRecord& record) {
   return json.dump();
 }
 
+namespace {
+
+// Beyond an Index, the conversion from JSON would give any number. \return -1 for those
+Index index_of(const nlohmann::json& json) {
+  const auto number = json.is_number_integer() ? json.get<std::int64_t>() : -1;
+  return number >= 0 && number <= std::numeric_limits<Index>::max() ? static_cast<Index>(number)
+                                                                    : -1;
+}
+
+}  // namespace
+
 StateRecord parse_state_record(const std::string& text) {
   StateRecord record;
   try {
@@ -49,7 +62,7 @@ StateRecord parse_state_record(const std::string& text) {
     record.method = json.at("method");
     record.precision = json.at("precision");
     record.phi = json.at("phi");
-    record.control_points = json.at("control_points");
+    record.control_points = index_of(json.at("control_points"));
     record.cage = json.at("cage");
     record.points = json.at("points");
     record.cells = json.at("cells");

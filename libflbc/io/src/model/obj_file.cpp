@@ -115,6 +115,9 @@ class ObjReader {
       read_corners("a face", 3, model_.soup.polygons.emplace_back());
     } else if (keyword == "l") {
       read_corners("a polyline", 2, model_.soup.polylines.emplace_back());
+    } else if (keyword == "mtllib" || keyword == "usemtl") {
+      // Read in any case: it may be continued on the next line.
+      read_material(keyword, rest_of_line(reader_));
     } else if (!reads_attributes_) {
       return;
     } else if (keyword == "vt" || keyword == "vn") {
@@ -127,9 +130,13 @@ class ObjReader {
           "be on one");
     } else {
       add_other(model_, "lines with " + in_quotes(keyword));
-      if (keyword == "mtllib") material_files_.push_back(rest_of_line(reader_));
-      if (keyword == "usemtl") use_material(rest_of_line(reader_));
     }
+  }
+
+  void read_material(std::string_view keyword, std::string name) {
+    if (!reads_attributes_) return;
+    add_other(model_, "lines with " + in_quotes(keyword));
+    keyword == "mtllib" ? material_files_.push_back(std::move(name)) : use_material(name);
   }
 
   void use_material(const std::string& name) {

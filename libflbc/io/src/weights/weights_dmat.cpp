@@ -50,6 +50,7 @@ void write_dmat(std::ostream& out, const WeightMatrix& weights) {
   TextWriter header(out);
   header << "0 0\n" << weights.rows() << " " << weights.cols() << "\n";
   header.flush();
+  if (weights.size() == 0) return;
   Eigen::VectorXd column;
   for (Eigen::Index i = 0; i < weights.rows(); ++i) {
     column = weights.row(i);
