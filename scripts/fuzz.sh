@@ -4,12 +4,13 @@
 # work on every reader, or on those that are named, for so many seconds each (60), one reader a core,
 # and ends with a table. Exit status 1 if there are findings: inputs on which a reader crashes, takes
 # 10 s or 2 GiB, throws what is no flbc::Error, or hands back what breaks a promise (tests/fuzz). What
-# it has learnt is kept in build/fuzz/corpus, so that the next run goes on from there.
+# it has learnt is kept in build/fuzz/corpus, so that the next run goes on from there. With SEED=1 in
+# the environment it forgets that and does the same in every run, as far as it gets.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 if [[ ${1:-} == -* ]]; then
-  sed -n '2,7s/^# //p' scripts/fuzz.sh
+  sed -n '2,8s/^# //p' scripts/fuzz.sh
   exit 1
 fi
 seconds=${1:-60}
@@ -49,11 +50,12 @@ fuzz_reader() {
   local reader=$1 file
   file=$(printf '%s\n' "${known[@]}" | sed -n "s/^$reader //p")
   local corpus=$work/corpus/$reader findings=$work/findings/$reader
+  if [ -n "${SEED:-}" ]; then rm -rf "$corpus"; fi
   mkdir -p "$corpus" "$findings"
   local inputs=("$corpus" "$work/seeds/$reader")
   if [ -d "tests/fuzz/found/$reader" ]; then inputs+=("$PWD/tests/fuzz/found/$reader"); fi
   local options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096
-    -print_final_stats=1 -artifact_prefix="$findings/")
+    -print_final_stats=1 -artifact_prefix="$findings/" -seed="${SEED:-0}")
   local dictionary=tests/fuzz/dictionaries/${file##*.}.dict
   if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
   echo "$reader: $seconds s ..."
