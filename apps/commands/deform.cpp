@@ -74,6 +74,7 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
                       " poses, so that this name needs a %d, as in out_%03d.obj");
   }
   std::vector<std::string> names;
+  names.reserve(poses.size());
   for (const auto& pose : poses) names.push_back(with_number(pattern, pose.number));
   return names;
 }

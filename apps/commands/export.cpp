@@ -95,7 +95,7 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
   if (keyframes.empty()) {
     return animation_of(load_poses<Dim>(poses, arguments.frames_per_second), num_control_points);
   }
-  const auto animation = animation_of(load_keyframes<Dim>(keyframes, rest), num_control_points);
+  auto animation = animation_of(load_keyframes<Dim>(keyframes, rest), num_control_points);
   naming(keyframes, [&] { gltf::validate(animation, rest.cols()); });
   return animation;
 }

@@ -9,6 +9,7 @@
 #include "commands/exit_status.h"
 #include "files/load.h"
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
