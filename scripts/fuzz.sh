@@ -5,12 +5,13 @@
 # and ends with a table. Exit status 1 if there are findings: inputs on which a reader crashes, takes
 # 10 s or 2 GiB, throws what is no flbc::Error, or hands back what breaks a promise (tests/fuzz). What
 # it has learnt is kept in build/fuzz/corpus, so that the next run goes on from there. With SEED=1 in
-# the environment it forgets that and does the same in every run, as far as it gets.
+# the environment it forgets that and does the same in every run, as far as it gets; with RUNS=N it
+# ends after N inputs a reader.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 if [[ ${1:-} == -* ]]; then
-  sed -n '2,8s/^# //p' scripts/fuzz.sh
+  sed -n '2,9s/^# //p' scripts/fuzz.sh
   exit 1
 fi
 seconds=${1:-60}
@@ -55,7 +56,8 @@ fuzz_reader() {
   local inputs=("$corpus" "$work/seeds/$reader")
   if [ -d "tests/fuzz/found/$reader" ]; then inputs+=("$PWD/tests/fuzz/found/$reader"); fi
   local options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096
-    -print_final_stats=1 -artifact_prefix="$findings/" -seed="${SEED:-0}")
+    -print_final_stats=1 -artifact_prefix="$findings/" -seed="${SEED:-0}" -runs="${RUNS:--1}"
+    -reload=0)
   local dictionary=tests/fuzz/dictionaries/${file##*.}.dict
   if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
   echo "$reader: $seconds s ..."

@@ -86,6 +86,7 @@ std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& argument
   }
   const auto keyframes = load_keyframes<Dim>(arguments.keyframes, rest);
   std::vector<double> times;
+  times.reserve(keyframes.size());
   for (const auto& keyframe : keyframes) times.push_back(keyframe.time);
   return shown_poses(keyframes, times);
 }

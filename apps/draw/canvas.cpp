@@ -132,8 +132,9 @@ FilledLayer Canvas::filled_areas() const {
       Color sum;
       int covered = 0;
       for (int k = 0; k < block * block; ++k) {
-        const auto row = static_cast<std::size_t>(y * block + k / block);
-        const Color& sample = samples_[row * width_ + x * block + k % block];
+        const auto row = static_cast<std::size_t>(y) * block + k / block;
+        const auto column = static_cast<std::size_t>(x) * block + k % block;
+        const Color& sample = samples_[row * width_ + column];
         if (sample.r < 0) continue;
         sum = {sum.r + sample.r, sum.g + sample.g, sum.b + sample.b};
         ++covered;

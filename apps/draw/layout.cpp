@@ -23,7 +23,7 @@ PointList<2> PixelMap::operator()(const PointList<2>& points) const {
 
 Box bounding_box(const PointList<2>& points) {
   if (points.cols() == 0) throw InputError("there is nothing to draw: the cage has no points");
-  const Box box{points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
+  Box box{points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
   const double extent = box.size().maxCoeff();
   if (!points.allFinite() || !std::isfinite(extent) || extent <= 0) {
     throw InputError("the cage cannot be drawn: its points coincide or are not finite");
@@ -77,8 +77,9 @@ SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions
   SheetLayout sheet{
       options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)), {}, 18 * unit};
   for (int k = 0; k < count; ++k) {
-    const Vector<2> corner(margin + (k % columns) * (width + margin),
-                           label + (k / columns) * row_height);
+    const int row = k / columns;
+    const int column = k % columns;
+    const Vector<2> corner(margin + column * (width + margin), label + row * row_height);
     sheet.frames.push_back({corner, corner + Vector<2>(width, height)});
   }
   return sheet;

@@ -62,6 +62,7 @@ std::vector<std::pair<Index, Index>> outline_of(const CellList<2>& triangles) {
 void paint_outline(Canvas& canvas, const PixelMap& map, const PointList<2>& points,
                    const std::vector<std::pair<Index, Index>>& outline, double unit) {
   std::vector<Segment> segments;
+  segments.reserve(outline.size());
   for (const auto& [a, b] : outline) {
     segments.push_back({map(Vector<2>(points.col(a))), map(Vector<2>(points.col(b)))});
   }

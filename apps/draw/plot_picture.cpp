@@ -63,9 +63,9 @@ Axis linear_axis(double low, double high) {
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   const double step = rough <= 2 * power ? 2 * power : rough <= 5 * power ? 5 * power : 10 * power;
   Axis axis{low, high, {}, false};
-  for (double k = std::ceil(low / step); k * step <= high * (1 + 1e-12); ++k) {
-    axis.ticks.push_back(k * step);
-  }
+  const double first = std::ceil(low / step);
+  const auto steps = static_cast<int>(std::floor(high * (1 + 1e-12) / step) - first);
+  for (int k = 0; k <= steps; ++k) axis.ticks.push_back((first + k) * step);
   return axis;
 }
 
@@ -74,7 +74,8 @@ Axis decade_axis(double low, double high) {
   if (!(axis.high > axis.low)) axis.high = axis.low + 1;
   constexpr double kTicks = 7;
   const double step = std::max(1.0, std::ceil((axis.high - axis.low) / kTicks));
-  for (double tick = axis.low; tick <= axis.high; tick += step) axis.ticks.push_back(tick);
+  const auto steps = static_cast<int>((axis.high - axis.low) / step);
+  for (int k = 0; k <= steps; ++k) axis.ticks.push_back(axis.low + k * step);
   return axis;
 }
 

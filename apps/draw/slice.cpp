@@ -53,9 +53,13 @@ double doubled_area(const CutPoint& a, const CutPoint& b, const CutPoint& c) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
-void append_triangle(CutPoint a, CutPoint b, CutPoint c, std::vector<CutPoint>& corners) {
-  if (doubled_area(a, b, c) < 0) std::swap(b, c);
-  corners.insert(corners.end(), {a, b, c});
+void append_triangle(const CutPoint& a, const CutPoint& b, const CutPoint& c,
+                     std::vector<CutPoint>& corners) {
+  if (doubled_area(a, b, c) < 0) {
+    corners.insert(corners.end(), {a, c, b});
+  } else {
+    corners.insert(corners.end(), {a, b, c});
+  }
 }
 
 // A tetrahedron gives a triangle if one vertex is alone on its side, else a quadrangle.

@@ -29,8 +29,9 @@ std::string names_of_options(const std::vector<OptionEntry>& options) {
 // Values of an option of a command, if the shell knows them: "command:--option") values.
 void add_values(std::ostream& script, const std::string& command, const OptionEntry& option) {
   if (option.value.empty()) return;
+  const auto prefix = command + ":";
   std::vector<std::string> patterns;
-  for (const auto& name : option.names) patterns.push_back(command + ":" + name);
+  for (const auto& name : option.names) patterns.push_back(prefix + name);
   script << "    " << joined(patterns, "|") << ") values=\"" << joined(option.choices, " ")
          << "\" ;;\n";
 }

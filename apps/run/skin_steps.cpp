@@ -27,6 +27,7 @@ constexpr double kWorthATell = 1e-5;
 template <int Dim>
 std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
   std::vector<PointList<Dim>> points;
+  points.reserve(poses.size());
   for (const auto& pose : poses) points.push_back(pose.points);
   return points;
 }

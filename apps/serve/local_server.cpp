@@ -121,7 +121,7 @@ struct LocalServer::State {
   // A page of another site can send requests here, but not under this name or from this origin.
   bool is_own(const httplib::Request& request) const {
     const auto is_here = [&](const std::string& name, const std::string& scheme) {
-      const auto value = request.get_header_value(name.c_str());
+      const auto value = request.get_header_value(name);
       const auto at_port = ":" + std::to_string(port);
       return value == scheme + kLoopback + at_port || value == scheme + "localhost" + at_port;
     };

@@ -153,11 +153,12 @@ std::array<int, 4> TetConnectivity::existing_faces(const std::array<int, 4>& ver
   std::array<int, 4> faces;
   for (int k = 0; k < 4; ++k) {
     faces[k] = face_of_.find(face_key(vertices, k));
-    if (faces[k] < 0 || face_cells_[2 * faces[k] + 1] < 0) continue;
+    if (faces[k] < 0) continue;
+    const int* const cells = &face_cells_[std::size_t{2} * faces[k]];
+    if (cells[1] < 0) continue;
     const auto key = face_key(vertices, k);
     throw InputError(
-        "cells " + std::to_string(face_cells_[2 * faces[k]]) + ", " +
-        std::to_string(face_cells_[2 * faces[k] + 1]) + " and " + std::to_string(n_cells()) +
+        "cells " + std::to_string(cells[0]) + ", " + std::to_string(cells[1]) + " and " + std::to_string(n_cells()) +
         " of the tetrahedral mesh share one face, of vertices " + std::to_string(key[0]) + ", " +
         std::to_string(key[1]) + " and " + std::to_string(key[2]));
   }

@@ -16,7 +16,7 @@ class CageCommand : public CommandLineTest {
  protected:
   Ended expect(const std::string& arguments, int status, const std::string& words) const {
     SCOPED_TRACE(arguments);
-    const auto result = run(arguments);
+    auto result = run(arguments);
     EXPECT_EQ(result.status, status) << result.errors;
     EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
     return result;

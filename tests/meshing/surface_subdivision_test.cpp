@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "flbc/errors.h"
 #include "support/code_cages.h"
 #include "support/mesh_checks.h"
 
@@ -16,6 +17,8 @@ using flbc::testing::enclosed_measure;
 using flbc::testing::join;
 using flbc::testing::lies_in_one_facet;
 using flbc::testing::sum_of_facets;
+
+constexpr std::size_t kMany = 1'000'000;
 
 double longest_edge(const Cage<3>& cage) {
   double longest = 0;
@@ -34,7 +37,7 @@ TEST(SurfaceSubdivisionTest, TheSurfaceStaysTheSameClosedSurface) {
                            box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 3, 1e-3))};
   for (const Cage<3>& cage : cages) {
     for (const double longest : {10.0, 0.5, 0.11}) {
-      const Cage<3> finer = subdivide_surface(cage, longest);
+      const Cage<3> finer = subdivide_surface(cage, longest, kMany);
       EXPECT_LE(longest_edge(finer), std::min(longest, longest_edge(cage)));
       EXPECT_EQ(PointList<3>(finer.points.leftCols(cage.size())), cage.points);
       EXPECT_TRUE(find_defects(finer).empty());
@@ -51,9 +54,17 @@ TEST(SurfaceSubdivisionTest, TheSurfaceStaysTheSameClosedSurface) {
 
 TEST(SurfaceSubdivisionTest, ShortEdgesAreLeftAlone) {
   const Cage<3> cage = box_cage<3>(1);
-  const Cage<3> same = subdivide_surface(cage, 10);
+  const Cage<3> same = subdivide_surface(cage, 10, kMany);
   EXPECT_EQ(same.points, cage.points);
   EXPECT_EQ(same.facets, cage.facets);
+}
+
+// Its two long edges take turns, and each division divides a neighbour, which divides the next one.
+TEST(SurfaceSubdivisionTest, NeedlesThatWouldTakeMillionsOfPointsAreRefused) {
+  const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1e6, 1, 1));
+  EXPECT_THROW(subdivide_surface(cage, 1000, 100'000), InputError);
+  const Cage<3> finer = subdivide_surface(cage, 1e5, 100'000);
+  EXPECT_LE(finer.size(), 100'000);
 }
 
 }  // namespace

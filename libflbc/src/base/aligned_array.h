@@ -3,7 +3,6 @@
 //! One block of numbers, aligned for vector instructions and zero at first.
 #pragma once
 
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -18,11 +17,13 @@ class AlignedArray {
     constexpr std::size_t kAlignment = 64;
     if (size == 0) return;
     // Memory fresh from the system is zero already, and belongs to the thread that uses it first.
-    void* const block = std::calloc(size + kAlignment / sizeof(Scalar), sizeof(Scalar));
+    const std::size_t room = size + kAlignment / sizeof(Scalar);
+    void* const block = std::calloc(room, sizeof(Scalar));
     if (block == nullptr) throw std::bad_alloc();
-    const auto address = reinterpret_cast<std::uintptr_t>(block);
-    const auto aligned = (address + kAlignment - 1) / kAlignment * kAlignment;
-    data_ = {reinterpret_cast<Scalar*>(aligned), Free{block}};
+    void* aligned = block;
+    std::size_t bytes = room * sizeof(Scalar);
+    std::align(kAlignment, size * sizeof(Scalar), aligned, bytes);
+    data_ = {static_cast<Scalar*>(aligned), Free{block}};
   }
 
   //! Numbers that belong to someone else and stay where they are. \param data  aligned to 64 bytes

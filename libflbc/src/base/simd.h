@@ -20,8 +20,8 @@ namespace {
 //! Rows are aligned to as many numbers as they are padded to.
 template <class Scalar, int Lanes>
 struct PackOf {
-  typedef Scalar type
-      __attribute__((vector_size(Lanes * sizeof(Scalar)), aligned(kRowLanes * sizeof(Scalar))));
+  using type [[gnu::vector_size(Lanes * sizeof(Scalar)),
+               gnu::aligned(kRowLanes * sizeof(Scalar))]] = Scalar;
 };
 template <class Scalar, int Lanes>
 using PackN = typename PackOf<Scalar, Lanes>::type;

@@ -42,6 +42,7 @@ void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
                 const std::vector<Incidence>& incidences, DefectList& found) {
   const auto [a, b] = ends;
   std::vector<Index> triangles;
+  triangles.reserve(incidences.size());
   for (const Incidence& incidence : incidences) triangles.push_back(incidence.triangle);
 
   if (incidences.size() == 1) {

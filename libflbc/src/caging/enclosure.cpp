@@ -23,6 +23,7 @@ Box<Dim> box_of(const Simplex<Dim>& simplex) {
 template <int Dim>
 std::vector<Box<Dim>> boxes_of(const std::vector<Simplex<Dim>>& simplices) {
   std::vector<Box<Dim>> boxes;
+  boxes.reserve(simplices.size());
   for (const auto& simplex : simplices) boxes.push_back(box_of(simplex));
   return boxes;
 }

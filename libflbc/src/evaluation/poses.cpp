@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/poses.h"
 
+#include <array>
 #include <random>
 
 #include "flbc/bounding_box.h"
@@ -58,8 +59,8 @@ std::vector<PointList<Dim>> smooth_poses(const PointList<Dim>& control_points, i
   std::vector<PointList<Dim>> poses(count, control_points);
   for (auto& pose : poses) {
     const Square linear = random_square();
-    std::vector<Square> bends;
-    for (int axis = 0; axis < Dim; ++axis) bends.push_back(random_square());
+    std::array<Square, Dim> bends;
+    for (auto& bend : bends) bend = random_square();
     for (auto point : pose.colwise()) {
       // About 1 at the ends of the cage.
       const Vector<Dim> place = 2 * (point - center) / size;

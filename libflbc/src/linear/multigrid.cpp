@@ -61,7 +61,7 @@ Multigrid<Scalar>::Multigrid(RowMatrix matrix, std::size_t stride)
     if (levels_.size() > 1) {
       levels_.back().right_side = AlignedArray<Scalar>(matrix.rows() * stride);
     }
-    matrix = std::move(coarse);
+    matrix.swap(coarse);
   }
   coarsest_rows_ = AlignedArray<Scalar>(matrix.rows() * stride);
 }

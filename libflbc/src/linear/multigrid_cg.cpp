@@ -111,7 +111,7 @@ class ColumnSlice {
 
 }  // namespace
 
-MultigridCg::MultigridCg(RowMatrix matrix) : matrix_(std::move(matrix)), position_(matrix_.rows()) {
+MultigridCg::MultigridCg(const RowMatrix& matrix) : matrix_(matrix), position_(matrix.rows()) {
   std::iota(position_.begin(), position_.end(), 0);
 }
 

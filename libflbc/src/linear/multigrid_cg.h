@@ -15,7 +15,7 @@ namespace flbc {
 class MultigridCg {
  public:
   //! \param matrix  symmetric positive definite, both triangles
-  explicit MultigridCg(RowMatrix matrix);
+  explicit MultigridCg(const RowMatrix& matrix);
 
   //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }

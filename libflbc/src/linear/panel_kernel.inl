@@ -36,7 +36,7 @@ constexpr int kRowBlock = 4;
 template <class Scalar, int Bytes>
 struct RegisterOf {
   static constexpr int kAlignment = Bytes < 8 * int(sizeof(Scalar)) ? Bytes : 8 * sizeof(Scalar);
-  typedef Scalar type __attribute__((vector_size(Bytes), aligned(kAlignment), may_alias));
+  using type [[gnu::vector_size(Bytes), gnu::aligned(kAlignment), gnu::may_alias]] = Scalar;
 };
 
 // Count registers side by side.

@@ -23,6 +23,7 @@ std::vector<std::vector<Index>> points_in(const std::vector<CagePart<Dim>>& part
                                           const PointList<Dim>& points) {
   std::vector<std::vector<Index>> inside(parts.size());
   std::vector<CageLocator<Dim>> locators;
+  locators.reserve(parts.size());
   for (const auto& part : parts) locators.emplace_back(part.cage, 0);
   for (Index i = 0; i < points.cols(); ++i) {
     const auto found =

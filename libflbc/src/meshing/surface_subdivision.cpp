@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "base/messages.h"
+#include "flbc/errors.h"
 
 namespace flbc {
 
@@ -41,6 +45,8 @@ class Subdivision {
     triangles_ = std::move(divided);
     return true;
   }
+
+  std::size_t num_points() const { return points_.size(); }
 
   Cage<3> surface() const {
     Cage<3> result;
@@ -95,9 +101,12 @@ class Subdivision {
 
 }  // namespace
 
-Cage<3> subdivide_surface(const Cage<3>& cage, double longest) {
+Cage<3> subdivide_surface(const Cage<3>& cage, double longest, std::size_t most_points) {
   Subdivision subdivision(cage);
   while (subdivision.divide_long_edges(longest)) {
+    if (subdivision.num_points() <= most_points) continue;
+    throw InputError("the cage's surface takes more than " + std::to_string(most_points) +
+                     " points in triangles with edges up to " + format_number(longest));
   }
   return subdivision.surface();
 }

@@ -10,6 +10,8 @@ namespace flbc {
 //! neighbours are divided alike, so that the surface stays closed. The control points keep their
 //! numbers and places, and the triangles their orientation.
 //! \param longest  > 0, in the units of the cage
-Cage<3> subdivide_surface(const Cage<3>& cage, double longest);
+//! \param most_points  that are made; needles can take millions, as each division divides neighbours
+//! \throws InputError if it takes more of them
+Cage<3> subdivide_surface(const Cage<3>& cage, double longest, std::size_t most_points);
 
 }  // namespace flbc

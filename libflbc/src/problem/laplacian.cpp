@@ -84,9 +84,9 @@ DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
   const RowMatrix matrix = part(interior_, true);
   coupling_ = part(boundary_, false);
   if (solver == LinearSolver::kDirect) {
-    interior_solver_.emplace(PanelCholesky<double>(matrix));
+    interior_solver_.emplace(std::in_place_type<PanelCholesky<double>>, matrix);
   } else {
-    interior_solver_.emplace(MultigridCg(matrix));
+    interior_solver_.emplace(std::in_place_type<MultigridCg>, matrix);
   }
 }
 

@@ -73,19 +73,19 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
     weights = (weights.array() > 0).select(weights, 0);  // -0 becomes 0
     return 0;
   }
-  work.row = weights;
+  work.row_ = weights;
   if (!newton_round(sums_of(point), kNewtonDelta, work)) {
     const auto nearest = nearest_point_in_hull(points_, point);
     if (nearest.distance > kBoundaryTolerance * size_) return nearest.distance;
-    work.row = weights;
+    work.row_ = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
       // Rounding hides the nearest weights: any feasible ones are better than none.
-      work.candidate.setZero(weights.size());
+      work.candidate_.setZero(weights.size());
       for (int k = 0; k < nearest.size; ++k)
-        work.candidate[nearest.support[k]] = nearest.weights[k];
+        work.candidate_[nearest.support[k]] = nearest.weights[k];
     }
   }
-  weights = work.candidate;
+  weights = work.candidate_;
   return 0;
 }
 
@@ -93,13 +93,13 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
 template <int Dim>
 bool WeightProjection<Dim>::newton_round(const Sums& sums, double delta, Workspace& work) const {
   // In units of the largest number the row is at most 1, however wild it was.
-  const double unit = std::max(1.0, work.row.maxCoeff());
-  work.scaled = work.row / unit;
-  const bool reached = work.newton.minimize(work.scaled, sums / unit, delta);
-  work.row = unit * work.newton.row();
-  work.candidate = work.row.cwiseMax(0);
+  const double unit = std::max(1.0, work.row_.maxCoeff());
+  work.scaled_ = work.row_ / unit;
+  const bool reached = work.newton_.minimize(work.scaled_, sums / unit, delta);
+  work.row_ = unit * work.newton_.row();
+  work.candidate_ = work.row_.cwiseMax(0);
   // In small steps the minimum may be hidden by rounding, and polishing tells.
-  return (reached || delta < kNewtonDelta) && polish(sums, work.candidate);
+  return (reached || delta < kNewtonDelta) && polish(sums, work.candidate_);
 }
 
 // One round is not enough for numbers that leave no digits for the constraints, and for supports

@@ -20,12 +20,12 @@ class WeightProjection {
 
   class Workspace {
    public:
-    explicit Workspace(const WeightProjection& projection) : newton(projection.basis_) {}
+    explicit Workspace(const WeightProjection& projection) : newton_(projection.basis_) {}
 
    private:
     friend class WeightProjection;
-    DualNewton<Dim> newton;
-    Eigen::VectorXd row, scaled, candidate;
+    DualNewton<Dim> newton_;
+    Eigen::VectorXd row_, scaled_, candidate_;
   };
 
   //! Are the weights non-negative, and sum and reproduction exact up to rounding?

@@ -154,7 +154,7 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
 }
 
 template <class Result, int Dim>
-Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun run) {
+Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun&& run) {
   Stopwatch watch;
   auto& [result, report] = run;
   Result solution{take_weights<Result>(result), {}};
@@ -181,9 +181,10 @@ Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, Meth
                                         std::function<WeightMatrix()>);                        \
   template MethodResult run_method(const LbcProblem<Dim>&, SolverOptions, SolveReport&,        \
                                    StateStorage*, WarmStart<Dim>);                             \
-  template Solution finish<Solution>(const LbcProblem<Dim>&, const SolverOptions&, MethodRun); \
+  template Solution finish<Solution>(const LbcProblem<Dim>&, const SolverOptions&,             \
+                                     MethodRun&&);                                             \
   template SparseSolution finish<SparseSolution>(const LbcProblem<Dim>&, const SolverOptions&, \
-                                                 MethodRun);
+                                                 MethodRun&&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -87,7 +87,7 @@ MethodResult run_method(const LbcProblem<Dim>& problem, SolverOptions options, S
 //! Everything after the iteration: non-negative rows, certificate, measures.
 //! \tparam Result  Solution or SparseSolution
 template <class Result, int Dim>
-Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun run);
+Result finish(const LbcProblem<Dim>& problem, const SolverOptions& options, MethodRun&& run);
 
 //! p / A from p, in the form of MeshState.
 template <class Scalar, int Dim>

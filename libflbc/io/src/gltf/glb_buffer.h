@@ -69,6 +69,7 @@ class GlbBuffer {
   //! Appends a column per element. \return the number of the accessor
   template <class Number, class Matrix>
   int add_accessor(const Matrix& columns, int target, bool has_bounds = false) {
+    // They have to lie side by side. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> numbers =
         columns.template cast<Number>();
     tinygltf::Accessor accessor;

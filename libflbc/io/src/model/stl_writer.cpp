@@ -22,6 +22,7 @@ std::vector<Triangle> triangles_of(const PolygonSoup& soup) {
   std::vector<Triangle> triangles;
   for (const auto& polygon : soup.polygons) {
     std::vector<Vector<3>> corners;
+    corners.reserve(polygon.size());
     for (const Index vertex : polygon) corners.push_back(soup.points[vertex]);
     const auto parts = cut_polygon(corners);
     for (const auto& part : parts.colwise()) {

@@ -66,6 +66,7 @@ bool intersect(const Cage<2>& cage, Index e, Index f) {
 std::vector<FacetPair> find_pairs(const Cage<2>& cage) {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Index>;
   std::vector<Box> boxes;
+  boxes.reserve(static_cast<std::size_t>(cage.facets.cols()));
   for (Index edge = 0; edge < cage.facets.cols(); ++edge) {
     boxes.emplace_back(segment(cage, edge).bbox(), edge);
   }
@@ -131,6 +132,7 @@ std::vector<FacetPair> find_pairs(const Cage<3>& cage) {
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> faces;
   CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(faces));
   std::vector<FacetPair> pairs;
+  pairs.reserve(faces.size());
   for (const auto& [a, b] : faces) {
     pairs.push_back(
         std::minmax(static_cast<Index>(std::size_t(a)), static_cast<Index>(std::size_t(b))));
@@ -182,6 +184,7 @@ std::vector<Defect> find_self_intersections(const Cage<Dim>& cage, std::size_t l
   std::sort(pairs.begin(), pairs.end());
   if (pairs.size() > limit) pairs.resize(limit);
   std::vector<Defect> defects;
+  defects.reserve(pairs.size());
   for (const FacetPair& pair : pairs) defects.push_back(describe_pair(cage, pair));
   return defects;
 }

@@ -30,6 +30,8 @@ constexpr double kCountExponent = 2.4;
 
 // The facets of a cage are kept, so the mesh's volume is the cage's up to rounding.
 constexpr double kVolumeTolerance = 1e-9;
+// Netgen would take minutes for as many, and a mesh of 5,000,000 vertices has a quarter of them.
+constexpr std::size_t kMaxSurfacePoints = 1'000'000;
 
 // A cage to be filled.
 struct Task {
@@ -75,8 +77,7 @@ void check_surface_is_kept(const Task& task, const Cage<3>& surface, const Domai
                    format_number(volume));
 }
 
-DomainMesh<3> fill_once(const Task& task, double longest, double seconds) {
-  const Cage<3> surface = subdivide_surface(task.oriented.cage, longest);
+DomainMesh<3> fill_once(const Task& task, const Cage<3>& surface, double longest, double seconds) {
   DomainMesh<3> mesh = run_netgen(surface, longest, seconds, task.time_limit);
   check_surface_is_kept(task, surface, mesh);
   return mesh;
@@ -88,8 +89,10 @@ DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest
   Stopwatch watch;
   double left = task.time_limit;
   for (std::size_t k = 0;; ++k) {
+    // Where this has too many points, shorter edges would have still more.
+    const auto surface = subdivide_surface(task.oriented.cage, longest[k], kMaxSurfacePoints);
     try {
-      return fill_once(task, longest[k], left);
+      return fill_once(task, surface, longest[k], left);
     } catch (const InputError&) {
       left -= watch.lap();
       if (k + 1 == longest.size() || left <= 0) throw;

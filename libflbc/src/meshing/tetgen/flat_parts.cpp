@@ -180,7 +180,7 @@ std::optional<Vector<3>> crossing_with_any(const std::vector<Segment>& segments,
     const Eigen::AlignedBox3d box(segment.first.cwiseMin(segment.second) - margin,
                                   segment.first.cwiseMax(segment.second) + margin);
     if (!box.intersects(edge_box)) continue;
-    if (const auto place = crossing(segment, edge)) return place;
+    if (auto place = crossing(segment, edge)) return place;
   }
   return std::nullopt;
 }

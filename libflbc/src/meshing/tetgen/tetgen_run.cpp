@@ -70,10 +70,10 @@ void tetrahedralize_and_send(const TetgenInput& input, std::string switches, con
 
   const Header header{out.numberofpoints, out.numberoftetrahedra};
   std::vector<std::int32_t> regions(std::size_t(out.numberoftetrahedra), 0);
-  for (int cell = 0; cell < out.numberoftetrahedra && out.numberoftetrahedronattributes > 0;
-       ++cell) {
-    regions[cell] = static_cast<std::int32_t>(
-        std::lround(out.tetrahedronattributelist[cell * out.numberoftetrahedronattributes]));
+  const auto attributes = static_cast<std::size_t>(out.numberoftetrahedronattributes);
+  for (std::size_t cell = 0; cell < regions.size() && attributes > 0; ++cell) {
+    regions[cell] =
+        static_cast<std::int32_t>(std::lround(out.tetrahedronattributelist[cell * attributes]));
   }
   send(&header, sizeof(header));
   send(out.pointlist, sizeof(double) * 3 * std::size_t(out.numberofpoints));

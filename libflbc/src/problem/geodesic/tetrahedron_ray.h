@@ -11,8 +11,8 @@
 
 namespace flbc::distance {
 
-typedef float Float4 __attribute__((vector_size(16)));
-typedef std::int32_t Int4 __attribute__((vector_size(16)));
+using Float4 [[gnu::vector_size(16)]] = float;
+using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 
 //! The shape of a tetrahedron, shared by all sources, in one line of the cache, because the time
 //! goes into waiting for it. Pairs of corners are in the order (0, 1), (0, 2), (0, 3) and, opposite

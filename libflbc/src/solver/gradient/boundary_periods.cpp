@@ -72,6 +72,7 @@ std::vector<Period<Dim>> boundary_periods(const LbcProblem<Dim>& problem, Linear
   }
   const auto psi = DirichletProblem<Dim>(problem.mesh, problem.boundary, solver).solve(indicator);
   std::vector<Period<Dim>> periods;
+  periods.reserve(static_cast<std::size_t>(count - 1));
   for (Index p = 0; p < count - 1; ++p) periods.push_back(make_period(problem, psi.row(p)));
   return periods;
 }

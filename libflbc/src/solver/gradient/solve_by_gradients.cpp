@@ -11,6 +11,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/certificate.h"
 #include "flbc/quality.h"
+#include "mesh/cell_geometry.h"
 #include "solver/gradient/gradient_admm.h"
 #include "solver/gradient/weight_recovery.h"
 #include "solver/iterative_method.h"

@@ -27,6 +27,7 @@ std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return farthest[a] > farthest[b]; });
   std::vector<Index> chosen;
+  chosen.reserve(static_cast<std::size_t>(count));
   for (Index k = 0; k < count; ++k) chosen.push_back(order[k * (n - 1) / std::max(1, count - 1)]);
   return chosen;
 }

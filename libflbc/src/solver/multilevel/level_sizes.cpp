@@ -36,8 +36,10 @@ std::vector<Index> level_sizes(Index finest, Index control_points, Method method
     coarsest = limits.coarsest;
   }
   std::vector<Index> sizes;
-  for (double size = finest / factor; size >= coarsest; size /= factor) {
+  double size = finest / factor;
+  while (size >= coarsest) {
     sizes.push_back(static_cast<Index>(size));
+    size /= factor;
   }
   // Who asks for coarser meshes gets one.
   const bool is_asked_for = levels.coarsest > 0 && levels.factor == 0;

@@ -43,7 +43,8 @@ inline void store_half(Half* to, PackN<float, Lanes> value) {
 // rounds, without floats that are not normal.
 template <class Integer, int Lanes>
 struct IntegersOf {
-  typedef Integer type __attribute__((vector_size(Lanes * sizeof(Integer)), aligned(16), may_alias));
+  using type [[gnu::vector_size(Lanes * sizeof(Integer)), gnu::aligned(16), gnu::may_alias]] =
+      Integer;
 };
 constexpr std::uint32_t kExponentShift = 112u << 23;
 template <int Lanes>

@@ -26,7 +26,11 @@ inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const
     const Scalar* numbers = source + start;
     const std::int32_t count = lists.counts[column];
     // Control points of a list differ, which the compiler cannot know.
+#ifdef __clang__
+#pragma clang loop vectorize(assume_safety)
+#else
 #pragma GCC ivdep
+#endif
     for (std::int32_t j = 0; j < count; ++j) work[items[j]] += value * numbers[j];
   }
 }

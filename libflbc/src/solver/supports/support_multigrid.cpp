@@ -22,7 +22,7 @@ Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
 }  // namespace
 
 template <class Scalar, int Dim>
-SupportMultigrid<Scalar, Dim>::SupportMultigrid(RowMatrix matrix, SweepOrder order,
+SupportMultigrid<Scalar, Dim>::SupportMultigrid(RowMatrix matrix, const SweepOrder& order,
                                                 const PackedLists& lists,
                                                 const AlignedArray<Scalar>& basis,
                                                 const PointList<Dim>& control_points,
@@ -33,7 +33,7 @@ SupportMultigrid<Scalar, Dim>::SupportMultigrid(RowMatrix matrix, SweepOrder ord
       lists_(lists),
       basis_(basis) {
   LevelData level;
-  level.order = std::move(order);
+  level.order = order;
   for (;;) {
     const PackedLists& fine = levels_.empty() ? lists_ : level.own_lists;
     level.matrix =
@@ -68,7 +68,7 @@ typename SupportMultigrid<Scalar, Dim>::LevelData SupportMultigrid<Scalar, Dim>:
   level.restriction = MatrixArrays<Scalar>(restriction);
   next.right_side = AlignedArray<Scalar>(next.own_lists.size());
   level.rest = AlignedArray<Scalar>(lists.size());
-  matrix = std::move(coarse);
+  matrix.swap(coarse);
   return next;
 }
 

@@ -30,7 +30,7 @@ class SupportMultigrid {
   //! \param order  of the unknowns in the rows
   //! \param lists  of the rows, of which there may be more than unknowns; kept by reference
   //! \param basis  of the rows (see row_bases()); kept by reference
-  SupportMultigrid(RowMatrix matrix, SweepOrder order, const PackedLists& lists,
+  SupportMultigrid(RowMatrix matrix, const SweepOrder& order, const PackedLists& lists,
                    const AlignedArray<Scalar>& basis, const PointList<Dim>& control_points,
                    const Kernel<Scalar, Dim>& kernel);
 

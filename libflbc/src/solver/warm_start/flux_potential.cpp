@@ -57,7 +57,7 @@ void complete_normals(const LbcProblem<3>& problem, Eigen::MatrixXd& potential) 
       const Index f = topology.cell_facets(k, s);
       const Vector<3> normal = area_normal(problem, f).normalized();
       matrix += Eigen::Matrix3d::Identity() - normal * normal.transpose();
-      sum += potential.middleCols<3>(3 * f);
+      sum += potential.middleCols<3>(Eigen::Index{3} * f);
     }
     // The four normals of a cell span space: the matrix is far from singular.
     const Vectors<3> constant = sum * matrix.inverse();
@@ -68,7 +68,7 @@ void complete_normals(const LbcProblem<3>& problem, Eigen::MatrixXd& potential) 
     }
   }
   for (Index f = 0; f < topology.num_facets(); ++f) {
-    potential.middleCols<3>(3 * f) +=
+    potential.middleCols<3>(Eigen::Index{3} * f) +=
         normal_parts.col(f) * area_normal(problem, f).normalized().transpose();
   }
 }
@@ -79,7 +79,7 @@ template <int Dim>
 Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<Dim>& multipliers) {
   constexpr int kSize = MeshState<Dim>::kPotentialSize;
   const Index num_facets = problem.topology.num_facets();
-  Eigen::MatrixXd potential(problem.num_control_points(), kSize * num_facets);
+  Eigen::MatrixXd potential(problem.num_control_points(), Eigen::Index{kSize} * num_facets);
 #pragma omp parallel for schedule(static)
   for (Index f = 0; f < num_facets; ++f) {
     if constexpr (Dim == 2) {
@@ -87,7 +87,8 @@ Eigen::MatrixXd flux_potential(const LbcProblem<Dim>& problem, const VectorsAt<D
       potential.col(f) = multipliers(f) * edge / edge.squaredNorm();
     } else {
       const Vector<3> normal = area_normal(problem, f);
-      potential.middleCols<3>(3 * f) = cross_rows(-normal / normal.squaredNorm(), multipliers(f));
+      potential.middleCols<3>(Eigen::Index{3} * f) =
+          cross_rows(-normal / normal.squaredNorm(), multipliers(f));
     }
   }
   if constexpr (Dim == 3) complete_normals(problem, potential);

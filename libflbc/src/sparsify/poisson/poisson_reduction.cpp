@@ -70,7 +70,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   const StageScope scope(user_options.progress);
   SparsifyOptions options = user_options;
   options.progress = {};  // told by the scope
-  const auto plain = [&] {
+  auto plain = [&] {
     const StagePart part(0, kPlain);
     return sparsify(control_points, points, weights, options);  // checks the input, too
   }();

@@ -37,7 +37,7 @@ class InfluencesView {
 
   //! Copies the numbers. \throws InputError if the numbers of pairs differ
   InfluencesView& operator=(const InfluencesView& view) {
-    assign(view);
+    if (this != &view) assign(view);
     return *this;
   }
   template <class Other>

@@ -32,7 +32,7 @@ class RowsView {
 
   //! Copies the numbers. \throws InputError if the views differ in shape
   RowsView& operator=(const RowsView& rows) {
-    assign(rows);
+    if (this != &rows) assign(rows);
     return *this;
   }
   template <class Other>
