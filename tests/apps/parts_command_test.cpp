@@ -32,10 +32,10 @@ std::string text_of(const Cage<Dim>& cage) {
 template <class Dimension>
 class PartsCommand : public CommandLineTest {
  protected:
-  static constexpr int Dim = Dimension::value;
+  static constexpr int kDim = Dimension::value;
   // Of the whole, of the small and of the large part, by area or volume.
-  static constexpr int kVertices = Dim == 2 ? 1000 : 1800;
-  static constexpr int kOfSmall = kVertices / (1 + (1 << Dim));
+  static constexpr int kVertices = kDim == 2 ? 1000 : 1800;
+  static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
   Ended expect(const std::string& arguments, int status, const std::string& words = "") const {
     SCOPED_TRACE(arguments);
@@ -47,23 +47,23 @@ class PartsCommand : public CommandLineTest {
   nlohmann::json report(const std::string& name) const {
     return nlohmann::json::parse(slurp(path(name)));
   }
-  static Cage<Dim> small() { return box_cage<Dim>(0.5); }
-  static Cage<Dim> large() {
-    return box_cage<Dim>(Vector<Dim>::Constant(2), Vector<Dim>::Constant(4));
+  static Cage<kDim> small() { return box_cage<kDim>(0.5); }
+  static Cage<kDim> large() {
+    return box_cage<kDim>(Vector<kDim>::Constant(2), Vector<kDim>::Constant(4));
   }
   std::string both() const { return file("both.obj", text_of(join(small(), large()))); }
-  std::string domain() const { return path(Dim == 2 ? "domain.obj" : "domain.mesh"); }
+  std::string domain() const { return path(kDim == 2 ? "domain.obj" : "domain.mesh"); }
   std::string vertices(int count = kVertices) const {
     return " --vertices " + std::to_string(count) + ' ';
   }
   // Two small boxes, one in each part, moved by so much along the first axis.
   std::string model(double shift = 0) const {
-    auto low = box_cage<Dim>(0.3), high = large();
+    auto low = box_cage<kDim>(0.3), high = large();
     high.points = (0.5 * high.points.array() + 1.5).matrix();
     auto boxes = join(low, high);
     boxes.points.row(0).array() += shift;
     std::string text = text_of(boxes);
-    if (Dim == 2) text += "f 1 2 4 3\nf 5 6 8 7\n";
+    if (kDim == 2) text += "f 1 2 4 3\nf 5 6 8 7\n";
     return file("model.obj", text);
   }
 };

@@ -208,14 +208,14 @@ TYPED_TEST(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConvexEdges)
   // A straight line from inside through a facet and round the box's edges and corners.
   const Vector<kDim> center = cage.points.rowwise().mean();
   const double size = bounding_box_diagonal<kDim>(cage.points);
-  Vector<kDim> from = center, along = Vector<kDim>::Zero();
+  Vector<kDim> along = Vector<kDim>::Zero();
   along[0] = 1;
   along[1] = 0.61;
   constexpr int kPoints = 400;
   PointList<kDim> points(kDim, 2 * kPoints);
   for (int k = 0; k < kPoints; ++k) {
     const double angle = 0.02 * k;
-    Vector<kDim> place = from + size * k / kPoints * along;
+    Vector<kDim> place = center + size * k / kPoints * along;
     if (k >= kPoints / 2) {  // round the box
       place = center;
       place[0] += size * std::cos(angle);

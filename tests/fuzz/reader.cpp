@@ -41,10 +41,11 @@ std::string Folder::path(const std::string& name) const {
   return path_ + "/" + name;
 }
 
-// Millions of times: without streams.
+// Millions of times: without streams, and the file keeps its room.
 void put_file(const std::string& path, const char* bytes, std::size_t size) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const bool done = file >= 0 && write(file, bytes, size) == static_cast<ssize_t>(size);
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+  const bool done = file >= 0 && write(file, bytes, size) == static_cast<ssize_t>(size) &&
+                    ftruncate(file, static_cast<off_t>(size)) == 0;
   if (file >= 0) close(file);
   if (!done) throw std::runtime_error("cannot write " + path);
 }

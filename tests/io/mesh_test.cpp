@@ -445,7 +445,7 @@ TEST_F(MeshFile, MalformedGmsh) {
        {"$MeshFormat\n", ":1: ", "the file ends before its version"},
        {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: ", "version \"4\" is not supported"},
        {"$MeshFormat\n1.0 0 8\n$EndMeshFormat\n", ":2: ", "version \"1.0\" is not supported"},
-       {"$MeshFormat\n2.2 1 8\n\x01\0\0\n", ":2: ", "binary"},
+       {std::string("$MeshFormat\n2.2 1 8\n\x01\0\0\n", 24), ":2: ", "binary"},
        {"$MeshFormat\n2.2 0 8\n", ":2: ", "the file ends before \"$EndMeshFormat\""},
        {format, ":3: ", "no nodes"},
        {format + nodes, ":10: ", "no tetrahedra"},

@@ -215,7 +215,7 @@ TEST(TetProperty, MovesKeepTheData) {
   TetMesh moved(std::move(mesh));
   EXPECT_EQ(moved.property(handle).data(), data);
   expect_filled(moved, counts);
-  // The rest can be used again.
+  // The rest can be used again. NOLINTNEXTLINE(bugprone-use-after-move)
   EXPECT_EQ(mesh.n_vertices() + mesh.n_edges() + mesh.n_faces() + mesh.n_cells(), 0u);
   EXPECT_FALSE(TetCProp<int>::exists(mesh, "number"));
   for (int k = 0; k < 4; ++k)

@@ -200,7 +200,7 @@ TYPED_TEST(EditingTest, RefusesFoldsAndStaysAsItWas) {
     DomainMesh<kDim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights,
                           coordinates.mesh().cells};
     EXPECT_LE(signed_measure(mesh, cell), 0) << text;
-    EXPECT_NE(text.find("("), std::string::npos) << text;
+    EXPECT_NE(text.find('('), std::string::npos) << text;
   }
   EXPECT_TRUE(coordinates.mesh().points == points);
   EXPECT_TRUE(coordinates.cage().points == with_one_moved(sample.cage, 0.01));

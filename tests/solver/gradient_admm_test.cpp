@@ -203,8 +203,9 @@ std::vector<double> state_of(const LbcProblem<Dim>& problem,
                              gradient::GradientAdmm<Scalar, Dim>& admm) {
   std::vector<double> state;
   const auto append = [&](const auto& matrix) {
-    const Eigen::MatrixXd numbers = matrix.template cast<double>();
-    state.insert(state.end(), numbers.data(), numbers.data() + numbers.size());
+    for (const auto& column : matrix.colwise()) {
+      state.insert(state.end(), column.begin(), column.end());
+    }
   };
   const auto flux = admm.flux();
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {

@@ -203,7 +203,8 @@ void expect_refused(const Action& action, const std::string& words) {
 TYPED_TEST(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
   constexpr int kDim = TypeParam::value;
   const auto pair = std::move(pairs<kDim>().front());
-  const auto& [alone, control_points, vertices, whole] = pair;
+  const auto& alone = pair.alone;
+  const auto& whole = pair.whole;
   // A mesh of one part only.
   expect_refused<kDim>([&] { solve(whole.cage, alone[0].mesh); }, "control point 1");
   // A cage of one part only.

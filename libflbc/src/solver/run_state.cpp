@@ -2,6 +2,7 @@
 #include "solver/run_state.h"
 
 #include <chrono>
+#include <cstring>
 #include <utility>
 
 #include "flbc/errors.h"
@@ -20,7 +21,9 @@ std::uint64_t origin_of(const SolverOptions& options, const Cage<Dim>& cage,
   ContentHash hash;
   hash.add(lines.data(), lines.size());
   const Index sizes[] = {Dim, cage.size(), mesh.num_vertices(), mesh.num_cells()};
-  hash.add(reinterpret_cast<const char*>(sizes), sizeof sizes);
+  char bytes[sizeof sizes];
+  std::memcpy(bytes, sizes, sizeof sizes);
+  hash.add(bytes, sizeof bytes);
   hash.add(cage.points);
   hash.add(cage.facets);
   hash.add(mesh.points);

@@ -48,7 +48,7 @@ class TextWriter {
   }
 
  private:
-  static constexpr std::size_t kFlushSize = std::size_t{1} << 20;
+  static constexpr std::size_t kFlushSize = std::size_t{1} << 16;
   static constexpr std::size_t kMargin = 256;
 
   template <class Number>
