@@ -372,6 +372,9 @@ INSTANTIATE_TEST_SUITE_P(Solver, Advice, ::testing::ValuesIn(kSolver));
 
 // Pieces of texts that only look like advice, and of advice that no command of this build gives.
 const std::vector<std::string> kNoAdvice{
+#ifdef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
+    "out of memory; try fewer --vertices",
+#endif
     // help and facts
     "mesh (see flbc solve --save-domain)", "as three.js, see the largest", "wait for data",
     "make this model's vertices mesh vertices", "make the model's vertices mesh vertices",
