@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,14 @@ Mask read_mask(const std::string& path) {
   }
   if (image.width > kMostPixels || image.height > kMostPixels) {
     throw InputError(path + ": the picture has more than 16384 pixels along an axis");
+  }
+  // What deflate compresses, at least a bit a pixel, is at most this many times as long.
+  constexpr std::size_t kMostRatio = 1032;
+  const auto bytes = std::size_t(image.width) * image.height / 8;
+  if (bytes / kMostRatio > content.size()) {
+    throw InputError(path + ": the file is too short for a picture of " +
+                     std::to_string(image.width) + " by " + std::to_string(image.height) +
+                     " pixels");
   }
   image.format = PNG_FORMAT_RGBA;
   std::vector<png_byte> colours(PNG_IMAGE_SIZE(image));

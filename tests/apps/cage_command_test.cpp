@@ -97,6 +97,13 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o " + path("none.obj"), 2,
          "full.png: no pixel is transparent");
   expect("cage " + file("no.png", "text") + " -o " + path("none.obj"), 2, "no.png: ");
+  // A header that says it has 16384 by 16384 pixels, which would take a gibibyte, and no data.
+  const std::string lie(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\100\0\0\0\100\0\010\006\0\0\0\251\310\020\204"
+      "\0\0\0\0IDAT\065\257\006\036",
+      45);
+  expect("cage " + file("header.png", lie) + " -o " + path("none.obj"), 2,
+         "header.png: the file is too short for a picture of 16384 by 16384 pixels");
 }
 
 TEST_F(CageCommand, RefusesWithReason) {
