@@ -35,9 +35,35 @@ struct Reader {
   ~Reader() { png_image_free(&image); }
 };
 
+// A PNG without the chunks that say nothing about which pixels are to be seen: libpng takes the
+// memory that a text or a profile of colours says it needs, were it gigabytes.
+std::string without_remarks(const std::string& path, const std::string& png) {
+  constexpr std::size_t kSignature = 8, kHead = 8, kCheck = 4;
+  const auto* bytes = reinterpret_cast<png_const_bytep>(png.data());
+  if (png.size() < kSignature || png_sig_cmp(bytes, 0, kSignature) != 0) {
+    throw InputError(path + ": not a PNG file");
+  }
+  std::string kept = png.substr(0, kSignature);
+  std::size_t begin = kSignature;
+  std::string type;
+  while (begin < png.size() && type != "IEND") {
+    const bool has_head = png.size() - begin >= kHead;
+    type = has_head ? png.substr(begin + 4, 4) : "";
+    const std::size_t length = has_head ? png_get_uint_32(bytes + begin) : 0;
+    if (!has_head || png.size() - begin - kHead < length + kCheck) {
+      throw InputError(path + ": the file ends within the chunk at byte " + std::to_string(begin));
+    }
+    const std::size_t size = kHead + length + kCheck;
+    const bool is_critical = (static_cast<unsigned char>(type[0]) & 32U) == 0;
+    if (is_critical || type == "tRNS") kept.append(png, begin, size);
+    begin += size;
+  }
+  return kept;
+}
+
 Mask read_mask(const std::string& path) {
   constexpr png_uint_32 kMostPixels = 16384;  // along an axis
-  const std::string content = io::read_file(path);
+  const std::string content = without_remarks(path, io::read_file(path));
   Reader reader;
   auto& image = reader.image;
   if (png_image_begin_read_from_memory(&image, content.data(), content.size()) == 0) {
@@ -86,8 +112,14 @@ ModelFacets<2> load_silhouette(const std::string& path) {
     if (is_new) corners.emplace_back(x, y);
     return entry->second;
   };
+  constexpr std::size_t kMostEdges = 4'000'000;  // noise has more, shapes have far fewer
   std::vector<std::pair<Index, Index>> edges;
   for (Index y = 0; y <= mask.height; ++y) {
+    if (edges.size() > kMostEdges) {
+      throw InputError(path +
+                       ": more than 4,000,000 edges of pixels are between what is seen "
+                       "and what is not; noise has no silhouette");
+    }
     for (Index x = 0; x <= mask.width; ++x) {
       const bool own = mask.at(x, y);
       if (own != mask.at(x, y - 1)) edges.emplace_back(corner(x, y), corner(x + 1, y));

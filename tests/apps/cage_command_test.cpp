@@ -104,6 +104,26 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
       45);
   expect("cage " + file("header.png", lie) + " -o " + path("none.obj"), 2,
          "header.png: the file is too short for a picture of 16384 by 16384 pixels");
+  // A text that says it has 1.4 gigabytes.
+  const auto remark = file("remark.png", slurp(write("some.png", PNG_FORMAT_RGBA)).insert(
+                                             33, "\x57itiTXt\xae\x42\x60\x82"));
+  expect("cage " + remark + " -o " + path("none.obj"), 2,
+         "remark.png: the file ends within the chunk at byte 33");
+}
+
+TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
+  constexpr png_uint_32 kSize = 1500;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = image.height = kSize;
+  image.format = PNG_FORMAT_GA;
+  std::vector<png_byte> bytes(kSize * kSize * 2, 0);
+  for (std::size_t y = 0; y < kSize; ++y) {
+    for (std::size_t x = y % 2; x < kSize; x += 2) bytes[2 * (y * kSize + x) + 1] = 255;
+  }
+  const auto noise = path("noise.png");
+  ASSERT_NE(png_image_write_to_file(&image, noise.c_str(), 0, bytes.data(), 0, nullptr), 0);
+  expect("cage " + noise + " -o " + path("none.obj"), 2, "noise.png: more than 4,000,000 edges");
 }
 
 TEST_F(CageCommand, RefusesWithReason) {
