@@ -295,7 +295,6 @@ const std::vector<Row> kSolver{
 class Advice : public CommandLineTest, public ::testing::WithParamInterface<Row> {
  protected:
   void SetUp() override {
-    CommandLineTest::SetUp();
     const std::string square = "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n";
     const std::string points = "v 0.5 0.5 0\nv 0.3 0.2 0\nv 0.2 0.6 0\n";
     const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";

@@ -18,6 +18,7 @@
 #include "flbc/version.h"
 #include "solve/cache_key.h"
 #include "support/io_files.h"
+#include "support/scratch.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -52,7 +53,6 @@ class WeightsCacheOf : public FolderTest {
   using Solved = SolvedDomain<Dimension::value>;
 
   void SetUp() override {
-    FolderTest::SetUp();
     cache_ = std::make_unique<WeightsCache>(path("cache"));
     key_ = Origin<Dimension::value>().key();
     file_ = cache_->path_of(key_);
@@ -291,8 +291,8 @@ TYPED_TEST(WeightsCacheOf, EverythingThatWeightsDependOnIsInTheKey) {
 }
 
 TEST(WeightsCacheFolder, IsMadeOrNamed) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "flbc_cache_folder";
-  std::filesystem::remove_all(folder);
+  const ScratchFolder scratch;
+  const auto& folder = scratch.path();
   const auto below = (folder / "a" / "b").string();
   WeightsCache cache(below);
   EXPECT_TRUE(std::filesystem::is_directory(below));
@@ -300,7 +300,6 @@ TEST(WeightsCacheFolder, IsMadeOrNamed) {
   std::ofstream(file) << "not a folder";
   expect_error<IoError>([&] { WeightsCache cache_below(file + "/cache"); }, {file + "/cache"});
   expect_error<IoError>([&] { WeightsCache cache_of_file(file); }, {file});
-  std::filesystem::remove_all(folder);
 }
 
 // Published values (the reference vectors of the hash's authors).

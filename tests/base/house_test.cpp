@@ -165,6 +165,19 @@ TEST(House, SourcesAndFunctionsAreSmall) {
   }
 }
 
+// Tests run side by side: files of one name would be written by two of them at once.
+TEST(House, TestsWriteInFoldersOfTheirOwn) {
+  static const std::regex shared(R"(TempDir\(|temp_directory_path\(|"/tmp)");
+  // These make such folders, and this names what makes none.
+  const std::set<std::string> makers{"scratch.h", "reader.cpp", "house_test.cpp"};
+  for (const auto& file : files_in(kRoot / "tests", {".h", ".cpp"})) {
+    if (makers.count(file.filename().string()) > 0) continue;
+    for (const auto& line : lines_of(file)) {
+      EXPECT_FALSE(std::regex_search(line, shared)) << file << ": " << line;
+    }
+  }
+}
+
 // Two classes of one name in a namespace are one to the linker, which takes either's functions.
 TEST(House, ClassesAreDefinedOnce) {
   static const std::regex name_of_namespace(R"(^namespace ([a-z0-9_:]+) \{)");

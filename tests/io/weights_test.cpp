@@ -239,6 +239,8 @@ TEST_F(WeightsFile, MalformedMtx) {
        {head + "3 2 99999999999999999999\n1 1 1\n", ":2: ", "too large"},
        {head + "2000000000 2000000000 1\n1 1 1\n", ":2: ", "only 1 entries"},
        {head + "922347750 0 0\n", ":2: ", "only 0 entries"},
+       {head + "16666666 0 0\n", ":2: ", "only 0 entries"},
+       {head + "2000000 1 1\n1 1 1\n", ":2: ", "only 1 entries"},
        {array + "0 922347750\n", ":2: ", "no weights"},
        {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
        {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},

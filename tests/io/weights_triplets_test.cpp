@@ -9,14 +9,13 @@
 
 #include "flbc/errors.h"
 #include "support/io_files.h"
+#include "support/scratch.h"
 
 namespace flbc::testing {
 namespace {
 
-// A file for every test, so that tests may run side by side.
 std::string file(const std::string& content) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto path = ::testing::TempDir() + "/flbc_triplets_" + test->name() + ".txt";
+  const auto path = scratch_path("triplets.txt");
   std::ofstream(path) << content;
   return path;
 }
@@ -76,6 +75,7 @@ TEST(Triplets, TellTheirSizeByTheLargestNumbers) {
   refuse(
       "0 0 1\n0 2000000000 1\n",
       "the largest numbers ask for 1 control points and 2000000001 points, but there are only 2");
+  refuse("0 0 1\n0 2000000 1\n", "but there are only 2 weights");
   refuse("# nothing\n", "has no weights");
   refuse("0 0 1\n-1 0 1\n", ":2: ");
 }

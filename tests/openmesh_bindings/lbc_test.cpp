@@ -13,6 +13,7 @@
 #include "support/hollow_sample.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
+#include "support/scratch.h"
 
 namespace flbc::testing {
 namespace {
@@ -429,7 +430,7 @@ TEST(LbcFile, StateAndWeightsSurvive) {
     properties.keep_state = true;
     properties.persistent = true;
     openmesh::solve(mesh, sample.cage, options, properties);
-    const std::string path = ::testing::TempDir() + "lbc_state.om";
+    const std::string path = scratch_path("lbc_state.om");
     ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
     DoubleMesh loaded;
     ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));

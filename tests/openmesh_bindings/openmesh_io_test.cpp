@@ -7,6 +7,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/openmesh/mesh_io.h"
+#include "support/scratch.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -15,10 +16,6 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
-
-std::string path_of(const std::string& name) {
-  return ::testing::TempDir() + "/flbc_" + name;
-}
 
 // A box without lid, in quadrangles, with thirds as coordinates.
 Mesh open_box() {
@@ -39,7 +36,7 @@ TEST(OpenMeshIo, KeepsPolygonsAndTheirOrder) {
   const auto mesh = open_box();
   for (const std::string extension : {"ply", "om", "obj", "off"}) {
     SCOPED_TRACE(extension);
-    const auto path = path_of("box." + extension);
+    const auto path = testing::scratch_path("box." + extension);
     ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
     const auto soup = read_polygons(path);
     ASSERT_EQ(soup.points.size(), 8U);
@@ -53,7 +50,7 @@ TEST(OpenMeshIo, KeepsPolygonsAndTheirOrder) {
 }
 
 TEST(OpenMeshIo, KeepsDoublePointsOfOmFiles) {
-  const auto path = path_of("exact.om");
+  const auto path = testing::scratch_path("exact.om");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path));
   EXPECT_EQ(read_polygons(path).points[1].x(), 1 / 3.0);
 }
@@ -61,7 +58,7 @@ TEST(OpenMeshIo, KeepsDoublePointsOfOmFiles) {
 TEST(OpenMeshIo, MergesTheCornersOfStlFiles) {
   auto mesh = open_box();
   mesh.triangulate();
-  const auto path = path_of("box.stl");
+  const auto path = testing::scratch_path("box.stl");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
   const auto soup = read_polygons(path);
   EXPECT_EQ(soup.points.size(), 8U);
@@ -70,7 +67,7 @@ TEST(OpenMeshIo, MergesTheCornersOfStlFiles) {
 
 // Three triangles at one edge: no half-edge mesh could hold them, the soup must.
 TEST(OpenMeshIo, KeepsNonManifoldFacesAndPrintsNothing) {
-  const auto path = path_of("fan.ply");
+  const auto path = testing::scratch_path("fan.ply");
   std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\n"
                          "property float y\nproperty float z\nelement face 3\n"
                          "property list uchar int vertex_indices\nend_header\n"
@@ -83,7 +80,7 @@ TEST(OpenMeshIo, KeepsNonManifoldFacesAndPrintsNothing) {
 
 // Whatever is cut off or changed, reading ends, with polygons or an InputError.
 TEST(OpenMeshIo, SurvivesDamagedPlyFiles) {
-  const auto path = path_of("damaged.ply");
+  const auto path = testing::scratch_path("damaged.ply");
   using OpenMesh::IO::Options;
   for (const int flags : {0, int(Options::Binary), Options::Binary | Options::MSB}) {
     ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path, Options(flags)));
@@ -112,8 +109,8 @@ TEST(OpenMeshIo, SurvivesDamagedPlyFiles) {
 }
 
 TEST(OpenMeshIo, RefusesWhatItCannotRead) {
-  EXPECT_THROW(read_polygons(path_of("missing.ply")), IoError);
-  const auto path = path_of("garbage.ply");
+  EXPECT_THROW(read_polygons(testing::scratch_path("missing.ply")), IoError);
+  const auto path = testing::scratch_path("garbage.ply");
   std::ofstream(path) << "this is no mesh\n";
   ::testing::internal::CaptureStderr();
   EXPECT_THROW(read_polygons(path), InputError);

@@ -12,6 +12,7 @@
 #include "flbc/openmesh/lbc.h"
 #include "flbc/openmesh/sparsify.h"
 #include "support/sample_meshes.h"
+#include "support/scratch.h"
 
 namespace flbc::testing {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using openmesh::TetMesh;
 
 std::string file() {
-  return ::testing::TempDir() + "mesh.flbctet";
+  return scratch_path("mesh.flbctet");
 }
 
 template <class Action>

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -13,6 +12,7 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/openmesh/wide_property.h"
+#include "support/scratch.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::openmesh {
@@ -306,15 +306,14 @@ TYPED_TEST(WidePropertyIo, LeavesTheRestOfAFileToProgramsThatKnowOnlyOpenMesh) {
   note() = "written by the test";
   mesh.mproperty(note.getRawProperty()).set_persistent(true);
 
-  std::string folder = ::testing::TempDir() + "/flbc_wide_XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, folder + "/in.om"));
-  const std::string command = std::string(FLBC_PLAIN_OPENMESH_READER) + " " + folder + "/in.om " +
-                              folder + "/out.om 2>/dev/null >/dev/null";
+  const auto in = testing::scratch_path("in.om");
+  const auto out = testing::scratch_path("out.om");
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, in));
+  const std::string command =
+      std::string(FLBC_PLAIN_OPENMESH_READER) + " " + in + " " + out + " 2>/dev/null >/dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
   typename TypeParam::Mesh loaded;
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, folder + "/out.om"));
-  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, out));
 
   ASSERT_EQ(loaded.n_vertices(), mesh.n_vertices());
   ASSERT_EQ(loaded.n_edges(), mesh.n_edges());

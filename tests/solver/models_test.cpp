@@ -10,6 +10,7 @@
 #include "flbc/solver.h"
 #include "support/judge.h"
 #include "support/model_cages.h"
+#include "support/scratch.h"
 
 namespace flbc::testing {
 namespace {
@@ -54,7 +55,7 @@ void expect_properties(const Model& model) {
   // Local by itself: a few control points matter to a vertex, whatever their number.
   EXPECT_LT(solution.report.quality.mean_influences, 5.5);
   for (const char* extension : {"npy", "dmat", "mtx"}) {
-    const auto path = ::testing::TempDir() + "/flbc_model." + extension;
+    const auto path = scratch_path(std::string("weights.") + extension);
     io::write_weights(path, solution.weights);
     EXPECT_TRUE((io::read_weights(path).array() == solution.weights.array()).all()) << extension;
   }

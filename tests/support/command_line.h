@@ -4,7 +4,6 @@
 #pragma once
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +12,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "support/scratch.h"
 
 namespace flbc::testing {
 
@@ -32,16 +33,7 @@ inline std::string slurp(const std::filesystem::path& path) {
 //! A folder of its own for every test, so that tests may run side by side.
 class CommandLineTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = ::testing::TempDir() + "/flbc_cli_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   static std::string sample(const std::string& name) {
     return std::string(FLBC_MESHES_DIR) + "/" + name;
   }
@@ -63,7 +55,7 @@ class CommandLineTest : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  const ScratchFolder folder_;
 };
 
 }  // namespace flbc::testing

@@ -15,21 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "support/scratch.h"
+
 namespace flbc::testing {
 
 //! A test with an empty folder of its own.
 class FolderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("flbc_") + info->test_suite_name() + "_" + info->name();
-    for (char& c : name) c = c == '/' ? '_' : c;
-    folder_ = std::filesystem::path(::testing::TempDir()) / name;
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   //! Makes a file. \return its path
@@ -53,7 +45,11 @@ class FolderTest : public ::testing::Test {
     return result;
   }
 
-  std::filesystem::path folder_;
+ private:
+  const ScratchFolder scratch_;
+
+ protected:
+  const std::filesystem::path& folder_ = scratch_.path();
 };
 
 //! That `action` throws an Exception whose message has all the pieces.

@@ -13,8 +13,8 @@
 namespace flbc::io {
 
 bool is_absurd(std::int64_t num_points, std::int64_t num_controls) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 24;
-  return std::min(num_points, num_controls) == 0 && std::max(num_points, num_controls) > kMost;
+  return std::min(num_points, num_controls) == 0 &&
+         std::max(num_points, num_controls) > kHarmlessElements;
 }
 
 WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls) {

@@ -32,6 +32,10 @@ void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
 
+//! As many elements as a file may declare without having them: they take 8 MiB. In a matrix of more
+//! each row and each column has one, as weights do, which sum to 1.
+constexpr std::int64_t kHarmlessElements = std::int64_t{1} << 20;
+
 //! Whether a header declares no weights, but more points or control points than anybody has: only
 //! damage does, and no length of the file would give it away.
 bool is_absurd(std::int64_t num_points, std::int64_t num_controls);

@@ -48,12 +48,11 @@ struct Size {
   Index controls = 0;
 };
 
-// A sparse file may rightly declare far more elements than it has bytes, but then each row and each
-// column has an entry; this keeps a damaged header from claiming all memory.
+// A sparse file may rightly declare far more elements than it has bytes; this keeps a damaged header
+// from claiming all memory.
 void check_size(const TextReader& reader, const Size& size, Index num_entries) {
-  constexpr std::int64_t kHarmless = std::int64_t{1} << 24;
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
-  const bool is_large = elements > kHarmless || is_absurd(size.points, size.controls);
+  const bool is_large = elements > kHarmlessElements || is_absurd(size.points, size.controls);
   if (is_large && num_entries < std::max(size.points, size.controls)) {
     reader.fail(std::to_string(size.points) + " x " + std::to_string(size.controls) +
                 " elements are declared with only " + std::to_string(num_entries) + " entries");

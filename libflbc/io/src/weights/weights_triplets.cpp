@@ -36,11 +36,9 @@ struct TripletSize {
   Index points = 0;
 };
 
-// The size that the largest numbers ask for. A damaged number must not claim all memory: in a
-// matrix that is large, each row and each column has a weight.
+// The size that the largest numbers ask for. A damaged number must not claim all memory.
 TripletSize size_by_numbers(const std::string& path) {
   constexpr Index kMost = std::numeric_limits<Index>::max() - 1;
-  constexpr std::int64_t kHarmless = std::int64_t{1} << 24;
   TextReader reader = open(path);
   TripletSize size;
   Index num_triplets = 0;
@@ -50,7 +48,7 @@ TripletSize size_by_numbers(const std::string& path) {
   }
   if (num_triplets == 0) throw InputError(path + ": has no weights");
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
-  if (elements > kHarmless && num_triplets < std::max(size.points, size.controls)) {
+  if (elements > kHarmlessElements && num_triplets < std::max(size.points, size.controls)) {
     throw InputError(path + ": the largest numbers ask for " + std::to_string(size.controls) +
                      " control points and " + std::to_string(size.points) +
                      " points, but there are only " + std::to_string(num_triplets) + " weights");

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Folders for the files of tests. Tests run side by side, so no two of them share a name.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace flbc::testing {
+
+//! An empty folder of nobody else's, removed with all that is in it.
+class ScratchFolder {
+ public:
+  //! \throws std::runtime_error if it cannot be made
+  ScratchFolder() {
+    std::string name = ::testing::TempDir() + "/flbc_test_XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+//! The path of a file in a folder that this process has for itself.
+inline std::string scratch_path(const std::string& name) {
+  static const ScratchFolder folder;
+  return (folder.path() / name).string();
+}
+
+}  // namespace flbc::testing
