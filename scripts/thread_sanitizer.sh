@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: scripts/thread_sanitizer.sh [GOOGLETEST_OPTIONS]
-# Builds the tests of the iterations with ThreadSanitizer (preset `tsan`) and runs them with four
-# threads; options go to them, e.g. scripts/thread_sanitizer.sh --gtest_filter='*Single*'. GCC's
-# OpenMP library tells ThreadSanitizer nothing of its barriers, so that all would be a race; clang's
-# does, through the tool archer.
+# Builds the tests of the iterations, of whole solves and of whatever else runs in parallel with
+# ThreadSanitizer (preset `tsan`) and runs them with four threads; options go to them, e.g.
+# scripts/thread_sanitizer.sh --gtest_filter='*Single*'. GCC's OpenMP library tells ThreadSanitizer
+# nothing of its barriers, so that all would be a race; clang's does, through the tool archer.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -49,9 +49,16 @@ if ! "$folder/net" 2>"$folder/log" || "$folder/net" race 2>"$folder/log"; then
 fi
 
 cmake --preset tsan >/dev/null
-cmake --build --preset tsan
+tests=(solver/{compact_splitting,gradient_admm,weight_splitting}_test
+  solver/{solver,supports,coarse_to_fine,lbc_solver,solve_parts,set_up,error_estimate}_test
+  linear/{multigrid,panel_cholesky,row_matrix}_test
+  problem/{boundary_values,bounded_distances,distance_weights,interpolated_distances}_test
+  projection/non_negative_test certificate/certificate_test evaluation/check_test
+  coordinates/{deform,mean_value,placement,recovery,transfer_weights}_test
+  sparsify/{sparsify,poisson_reduction,poisson_optimality}_test)
+cmake --build --preset tsan --target "${tests[@]##*/}"
 status=0
-for name in compact_splitting gradient_admm weight_splitting; do
-  build/tsan/tests/solver/${name}_test "$@" || status=1
+for test in "${tests[@]}"; do
+  "build/tsan/tests/$test" "$@" || { status=1 && echo "$test: not without a race or a failure"; }
 done
 exit $status
