@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
@@ -26,12 +27,13 @@ enum class CoarseToFine {
 
 //! Which coarser meshes to use.
 struct CoarseLevels {
-  //! Fewest vertices of a coarse mesh, >= 1; 0 = 500 for CoarseToFine::kOn, else where it was
+  //! Fewest vertices of a coarse mesh, >= 1. By default 500 for CoarseToFine::kOn, else where it was
   //! measured to pay, which for small meshes means none at all.
-  Index coarsest = 0;
+  std::optional<Index> coarsest{};
 
-  //! Vertices of a mesh relative to the next coarser one, >= 2; 0 = as it was measured to pay.
-  double factor = 0;
+  //! Vertices of a mesh relative to the next coarser one, >= 2. By default as it was measured to
+  //! pay.
+  std::optional<double> factor{};
 
   //! Tolerance on coarse meshes relative to the one wanted, > 0.
   double looseness = 4;

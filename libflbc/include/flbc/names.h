@@ -29,7 +29,7 @@ const char* name_of(Distances distances);
 //! "auto", "breadth-first" or "least-squares".
 //! \param recovery  to be named
 const char* name_of(Recovery recovery);
-//! "auto", "half", "single" or "double".
+//! "auto", "single" or "double".
 //! \param precision  to be named
 const char* name_of(Precision precision);
 //! "auto", "on" or "off".
@@ -37,7 +37,7 @@ const char* name_of(Precision precision);
 const char* name_of(CoarseToFine choice);
 //! "auto", "on" or "off".
 //! \param choice  to be named
-const char* name_of(ActivePairs choice);
+const char* name_of(ActiveSet choice);
 //! "auto", "direct" or "multigrid".
 //! \param solver  to be named
 const char* name_of(LinearSolver solver);

@@ -16,8 +16,8 @@ namespace flbc {
 //! \param cage  n control points, in any unit of length
 //! \param mesh  of its interior, in the same unit
 //! \param method  whose penalty it is: they differ in how a penalty grows with lengths
-//! \param penalty  as published, > 0; 0 = by method, and stays 0
-//! \throws OptionError if it is negative or not finite
+//! \param penalty  as published, > 0
+//! \throws OptionError unless it is positive and finite
 template <int Dim>
 double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
                          double penalty);

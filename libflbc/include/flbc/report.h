@@ -43,11 +43,11 @@ struct DistanceReport {
   double phi_error = 0;
 };
 
-//! Supports that an iteration worked on.
-struct ActivePairsReport {
-  double density = 1;  //!< their pairs relative to all pairs of interior vertices and control
-                       //!< points; 1 if it worked on all
-  int growths = 0;  //!< how often they were extended, as weights had reached their ends
+//! The active set that an iteration worked on.
+struct ActiveSetReport {
+  double density = 1;  //!< its pairs relative to all pairs of interior vertices and control points;
+                       //!< 1 if it worked on all
+  int growths = 0;     //!< how often it was extended because weights had reached its ends
 };
 
 //! A coarser mesh that was solved for a start (coarse_to_fine.h).
@@ -81,7 +81,7 @@ struct SolveReport {
   Certificate certificate{};                 //!< if asked for or the criterion, in the same units
   double state_scalars_per_cell = 0;         //!< state of the iteration, per cell and control point
   DistanceReport distances{};                //!< behind phi, if solve() set the problem up
-  ActivePairsReport active_pairs{};          //!< of Method::kValue
+  ActiveSetReport active_set{};              //!< of Method::kValue
   StageSeconds seconds{};                    //!< wall-clock times
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without coarse-to-fine start

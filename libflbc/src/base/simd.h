@@ -12,7 +12,7 @@
 #include <immintrin.h>
 #endif
 
-#include "flbc/padded_rows.h"
+#include "base/padded_rows.h"
 
 namespace flbc {
 namespace {

@@ -10,7 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/aligned_array.h"
-#include "flbc/padded_rows.h"
+#include "base/padded_rows.h"
 #include "flbc/types.h"
 #include "linear/panel_kernel.h"
 

@@ -3,93 +3,92 @@
 
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "base/stopwatch.h"
-#include "solver/iterative_method.h"
-#include "solver/run_state.h"
-#include "solver/warm_start/transfer.h"
+#include "solver/methods/active_set/active_lists.h"
+#include "solver/plan/choices.h"
+#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {
 
-// The levels, and the solution of the finest one solved so far.
+// The levels, and the duals of the finest one solved so far.
 template <int Dim>
 class Cascade {
  public:
   Cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-          const SolverOptions& options)
-      : problem_(problem), levels_(std::move(levels)), options_(options) {}
+          const SolverOptions& options, const Reporter& reporter)
+      : problem_(problem), levels_(std::move(levels)), options_(options), reporter_(reporter) {}
 
   //! Solves the coarse levels, coarsest first.
   void climb() {
     while (num_solved_ < levels_.size() && !stopped_) solve_level(levels_[num_solved_]);
   }
 
-  MethodRun solve_finest(StateStorage* storage, MeshState<Dim>* final_state) {
+  Weights solve_finest(MethodRun<Dim>& run, SolveReport& report) {
     Stopwatch watch;
-    std::vector<LevelReport> reports;
-    for (std::size_t k = 0; k < num_solved_; ++k) reports.push_back(levels_[k].report);
-    auto options = offering_levels(options_, reports);
+    auto options = options_;
     if (stopped_) options.max_iterations = 1;  // for weights that belong to this mesh
     std::unique_ptr<Transfer<Dim>> transfer;
     if (num_solved_ > 0) {
       auto& below = levels_[num_solved_ - 1];
-      transfer = std::make_unique<Transfer<Dim>>(below.problem, state_, problem_,
+      transfer = std::make_unique<Transfer<Dim>>(below.problem, duals_, problem_,
                                                  std::move(below.finest_vertices));
     }
-    SolveReport report;
     const double placing = watch.lap();
     const auto forget_levels = [&] {
       transfer.reset();
-      state_ = {};
+      duals_ = {};
       for (auto& level : levels_) level = {{}, {}, level.report};
     };
-    auto result = run_method(problem_, options, report, storage,
-                             {transfer.get(), final_state, forget_levels});
+    auto weights =
+        run.solve(options, reporter_, report, {transfer.get(), nullptr, forget_levels});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
-    for (const auto& level : levels_) {
-      report.seconds.solve +=
-          level.report.mesh_seconds + level.report.setup_seconds + level.report.solve_seconds;
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+      const auto& level = levels_[k].report;
+      report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
+      if (k < num_solved_) report.coarse_levels.push_back(level);
     }
-    report.coarse_levels = std::move(reports);
-    return {std::move(result), std::move(report)};
+    return weights;
   }
 
  private:
   void solve_level(CoarseProblem<Dim>& level) {
     Stopwatch watch;
     auto options = options_;
-    options.tolerance *= options_.coarse_levels.looseness;
+    *options.tolerance *= options_.coarse_levels.looseness;
     const auto finer_levels = static_cast<int>(levels_.size() - num_solved_);
-    options.progress = [&](Progress progress) {
-      progress.finer_levels = finer_levels;
-      progress.write_state = {};
-      stopped_ = options_.progress && !options_.progress(progress);
-      return !stopped_;
-    };
     std::unique_ptr<Transfer<Dim>> transfer;
     if (num_solved_ > 0) {
       transfer =
-          std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, state_, level.problem);
+          std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, duals_, level.problem);
     }
     SolveReport report;
-    MeshState<Dim> state;
+    MethodRun<Dim> run(level.problem);
     const auto started = [&level] { level.cold.reset(); };
-    run_method(level.problem, options, report, nullptr,
-               {transfer.get(), &state, started, level.cold ? &*level.cold : nullptr, true});
-    state_ = std::move(state);
+    run.solve(options, reporter_.with_more_to_come(finer_levels), report,
+              {transfer.get(), level.cold ? &*level.cold : nullptr, started, true});
+    stopped_ = report.status == SolveStatus::kStopped;
+    duals_ = run.duals(handed_on(level.problem));
     level.problem.phi = {};  // finer ones have theirs
     level.report.iterations = report.iterations;
     level.report.solve_seconds = watch.lap();
     ++num_solved_;
   }
 
+  // An active set on the finer mesh reads duals only where weights are.
+  double handed_on(const LbcProblem<Dim>& problem) const {
+    return plan::active_set(plan::sizes_of(problem), options_)
+               ? active_set::threshold_for(*options_.tolerance)
+               : 0;
+  }
+
   const LbcProblem<Dim>& problem_;
   std::vector<CoarseProblem<Dim>> levels_;
   const SolverOptions& options_;
-  MeshState<Dim> state_;  // of the finest level solved so far
+  const Reporter& reporter_;
+  Duals<Dim> duals_;  // of the finest level solved so far
   std::size_t num_solved_ = 0;
   bool stopped_ = false;
 };
@@ -97,17 +96,18 @@ class Cascade {
 }  // namespace
 
 template <int Dim>
-MethodRun solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-                           const SolverOptions& options, StateStorage* storage,
-                           MeshState<Dim>* final_state) {
-  Cascade<Dim> cascade(problem, std::move(levels), options);
+Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
+                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& options,
+                         const Reporter& reporter, SolveReport& report) {
+  Cascade<Dim> cascade(problem, std::move(levels), options, reporter);
   cascade.climb();
-  return cascade.solve_finest(storage, final_state);
+  return cascade.solve_finest(run, report);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                  \
-  template MethodRun solve_in_cascade(const LbcProblem<Dim>&, std::vector<CoarseProblem<Dim>>, \
-                                      const SolverOptions&, StateStorage*, MeshState<Dim>*);
+#define FLBC_INSTANTIATE(Dim)                                                                    \
+  template Weights solve_in_cascade(const LbcProblem<Dim>&, MethodRun<Dim>&,                     \
+                                    std::vector<CoarseProblem<Dim>>, const SolverOptions&,       \
+                                    const Reporter&, SolveReport&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -5,20 +5,19 @@
 
 #include <vector>
 
-#include "solver/iterative_method.h"
+#include "solver/methods/method_run.h"
 #include "solver/multilevel/coarse_problem.h"
 
 namespace flbc {
 
 //! Solves a problem from the solution on coarser meshes, each from that of the one before.
-//! \param levels  coarsest first; none for a start without them
-//! \param options  resolved, of a method that inherits() holds for if there are levels
-//! \param storage  of the state on the problem's own mesh, may be null
-//! \param final_state  where a method that inherits() holds for leaves it for other meshes; may be
-//! null
+//! \param run  of the problem, not begun if there are coarser meshes
+//! \param levels  coarsest first; none for a cold start
+//! \param options  resolved, of a method that plan::inherits() holds for if there are levels
+//! \param report  of the problem's own mesh, with those of the levels
 template <int Dim>
-MethodRun solve_in_cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-                           const SolverOptions& options, StateStorage* storage = nullptr,
-                           MeshState<Dim>* final_state = nullptr);
+Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
+                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& options,
+                         const Reporter& reporter, SolveReport& report);
 
 }  // namespace flbc

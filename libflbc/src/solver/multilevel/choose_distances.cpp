@@ -9,7 +9,8 @@
 
 #include "base/parallel.h"
 #include "problem/problem_geometry.h"
-#include "solver/warm_start/transfer.h"
+#include "solver/plan/constants.h"
+#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {
@@ -17,10 +18,8 @@ namespace {
 // Some control points: from the one that is the farthest from a part of the domain, in even steps
 // to the one that is the nearest to all of it.
 std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
-  constexpr Index kOneIn = 32;
-  constexpr Index kMost = 10;
   const auto n = static_cast<Index>(distances.rows());
-  const Index count = std::min({n, 2 + n / kOneIn, kMost});
+  const Index count = std::min({n, 2 + n / plan::kCheckedOneIn, plan::kCheckedMost});
   const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), 0);
@@ -65,23 +64,17 @@ double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
   return std::sqrt(squares[0] / squares[1]);
 }
 
-// The mean squared change of weights by a relative error of phi: four times what it was on any
-// model where the error was 0.4 % and more (docs/results.md).
-double weight_error(double phi_error) {
-  constexpr double kInfluence = 3e-4;
-  return kInfluence * phi_error * phi_error;
-}
-
 }  // namespace
 
 template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                                 const SolverOptions& options, DistanceReport& report) {
-  constexpr double kPart = 0.5;  // of the tolerance
   auto distances = distances_from(coarse.problem, problem, coarse.finest_vertices);
   const auto enlarged = static_cast<float>(enlargement(coarse.problem, problem));
   const double error = check_on_sample(problem, options.phi, enlarged * coarse.reach, distances);
-  if (options.distances == Distances::kAuto && weight_error(error) > kPart * options.tolerance) {
+  const double change = plan::kWeightsOfPhi * error * error;
+  if (options.distances == Distances::kAuto &&
+      change > plan::kPartOfTolerance * *options.tolerance) {
     report = {};
     return distances_for(options.phi, problem);
   }

@@ -10,9 +10,9 @@
 #include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
-#include "solver/linear_solver_choice.h"
-#include "solver/supports/choice.h"
-#include "solver/warm_start/transfer.h"
+#include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
+#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {
@@ -21,10 +21,9 @@ namespace {
 template <int Dim>
 std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const Cage<Dim>& cage,
                                          Index wanted, Index below, Index finest) {
-  constexpr double kClearly = 1.7;
   try {
     auto mesh = mesher(cage, wanted);
-    if (kClearly * mesh.num_vertices() > finest || mesh.num_vertices() < kClearly * below)
+    if (plan::kClearlyFiner * mesh.num_vertices() > finest || mesh.num_vertices() < plan::kClearlyFiner * below)
       return {};
     normalize_and_validate(mesh);
     require_connected(mesh);
@@ -34,28 +33,30 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// The vertices of every control point's support.
+// The vertices at which every control point is active.
 template <int Dim>
 VertexItems<Index> needed_by(const LbcProblem<Dim>& geometry,
-                             const supports::SupportLists& supports) {
+                             const active_set::ActiveLists& active) {
   return items_by_vertex<Index>(geometry.num_control_points(), [&](const auto& visit) {
     for (Index v = 0; v < geometry.mesh.num_vertices(); ++v) {
-      for (const auto i : supports.of(v)) visit(i, v);
+      for (const auto i : active.of(v)) visit(i, v);
     }
   });
 }
 
-// Distances as far as the solution on supports needs them, if there is to be one.
+// Distances as far as the solution on the active set needs them, if there is to be one.
 template <int Dim>
-std::optional<DistanceMatrix> measure_on_supports(CoarseProblem<Dim>& level,
-                                                  const SolverOptions& options) {
+std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
+                                                    const SolverOptions& options) {
   const auto& geometry = level.problem;
-  if (options.phi == DistanceScheme::kConstant || !supports::serve(geometry, options)) return {};
-  auto cold = supports::cold_start(geometry, linear_solver_for(geometry, options));
-  if (!supports::pay(geometry, options, cold.supports)) return {};
+  const auto sizes = plan::sizes_of(geometry);
+  if (options.phi == DistanceScheme::kConstant || !plan::active_set(sizes, options)) return {};
+  auto cold = active_set::cold_start(geometry, plan::linear_solver(sizes, options));
+  const double density = active_set::density(geometry, cold.active);
+  if (!plan::active_set_pays(density, options)) return {};
   auto bounded =
       bounded_distances(geometry.mesh, geometry.topology, geometry.boundary.control_vertices,
-                        needed_by(geometry, cold.supports));
+                        needed_by(geometry, cold.active));
   level.cold = std::move(cold);
   level.reach = std::move(bounded.reach);
   return std::move(bounded.distances);
@@ -77,7 +78,7 @@ void set_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, Coar
   if (use.distances && below != nullptr) {
     distances = inherit_distances(*below, level);
   } else if (use.distances && use.start) {
-    distances = measure_on_supports(level, options);
+    distances = measure_on_active_set(level, options);
   }
   if (!distances) distances = distances_for(options.phi, level.problem);
   level.problem.phi = {options.phi, std::move(*distances), level.problem.mesh,

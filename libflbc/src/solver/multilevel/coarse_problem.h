@@ -11,7 +11,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
-#include "solver/supports/cold_start.h"
+#include "solver/methods/active_set/cold_start.h"
 
 namespace flbc {
 
@@ -24,7 +24,7 @@ struct CoarseProblem {
   //! Up to which distances from each control point are known, see BoundedDistances; empty if
   //! everywhere.
   Eigen::VectorXf reach{};
-  std::optional<supports::ColdStart<Dim>> cold{};  //!< that they were bounded by
+  std::optional<active_set::ColdStart<Dim>> cold{};  //!< that they were bounded by
 };
 
 //! The purposes of coarse problems.

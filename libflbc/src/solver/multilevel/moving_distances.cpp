@@ -7,7 +7,7 @@
 #include "mesh/cell_geometry.h"
 #include "problem/problem_geometry.h"
 #include "solver/multilevel/choose_distances.h"
-#include "solver/warm_start/transfer.h"
+#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {

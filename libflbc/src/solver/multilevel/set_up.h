@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/multilevel/coarse_problem.h"
+#include "solver/run/reporter.h"
 
 namespace flbc {
 
@@ -19,19 +20,6 @@ struct SetUp {
   double seconds = 0;  //!< without those that the coarse problems report
 };
 
-//! Numbers of vertices of the coarser meshes to start from; none where they do not pay or are not
-//! wanted. \param n  number of control points \param finest  number of vertices
-//! \param options  resolved
-template <int Dim>
-std::vector<Index> start_sizes(Index n, Index finest, const CoarseMesher<Dim>& mesher,
-                               const SolverOptions& options);
-
-//! \throws OptionError if options are impossible, or demand a mesher where there is none
-void require_valid(const SolverOptions& options, bool has_mesher);
-
-//! The same where the problem is yet to be set up.
-void require_valid_set_up(const SolverOptions& options, bool has_mesher);
-
 //! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
 //! options say so, and without phi where the method does not need it.
 //! \param options  resolved
@@ -43,7 +31,7 @@ void require_valid_set_up(const SolverOptions& options, bool has_mesher);
 //! \throws InputError, SolverError
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                  const CoarseMesher<Dim>& mesher,
+                  const CoarseMesher<Dim>& mesher, const Reporter& reporter,
                   std::optional<CoarseProblem<Dim>>* coarsest = nullptr,
                   const MeshTopology<Dim>* topology = nullptr);
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/options.h"
+
+#include <cmath>
+
+#include "base/messages.h"
+#include "flbc/errors.h"
+#include "solver/plan/choices.h"
+
+namespace flbc {
+namespace {
+
+void require(bool valid, const char* field, double value, const char* range) {
+  if (valid) return;
+  throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
+}
+
+void validate_gap(const SolverOptions& options, bool iterative) {
+  const double gap = options.gap.value_or(0);
+  require(std::isfinite(gap) && gap >= 0, "gap", gap, "positive, or 0 for none");
+  if (gap == 0) return;
+  if (!iterative) throw OptionError("gap needs a method that minimises, which this one does not");
+  if (resolve(options).non_negative == NonNegative::kOff) {
+    throw OptionError("gap (--gap) proves nothing of weights that may be negative; choose "
+                      "non_negative (--non-negative) constraint or project");
+  }
+}
+
+void validate(const CoarseLevels& levels) {
+  const Index coarsest = levels.coarsest.value_or(1);
+  require(coarsest >= 1, "coarse_levels.coarsest", coarsest, "at least 1 vertex");
+  const double factor = levels.factor.value_or(2);
+  require(std::isfinite(factor) && factor >= 2, "coarse_levels.factor", factor, "at least 2");
+  require(std::isfinite(levels.looseness) && levels.looseness > 0, "coarse_levels.looseness",
+          levels.looseness, "positive");
+}
+
+}  // namespace
+
+void validate(const SolverOptions& options) {
+  const auto require_positive = [](const char* field, const std::optional<double>& value) {
+    require(!value || (std::isfinite(*value) && *value > 0), field, value.value_or(0), "positive");
+  };
+  require_positive("tolerance", options.tolerance);
+  require_positive("penalty", options.penalty);
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
+  const double relaxation = options.relaxation.value_or(1);
+  require(relaxation > 0 && relaxation < 2, "relaxation", relaxation, "in (0, 2)");
+  require(options.check_interval >= 1, "check_interval", options.check_interval, "at least 1");
+  const bool splitting = options.method == Method::kAuto || options.method == Method::kValue ||
+                         options.method == Method::kLbc2014;
+  if (options.non_negative == NonNegative::kConstraint && !splitting) {
+    throw OptionError(
+        "non_negative cannot be a constraint of this method's iteration; project the weights, or "
+        "choose another method");
+  }
+  const bool iterative =
+      options.method != Method::kHarmonic && options.method != Method::kMeanValue;
+  if (options.certify && !iterative) {
+    throw OptionError("certify needs a method that minimises, which this one does not");
+  }
+  validate_gap(options, iterative);
+  const bool gradients = options.method == Method::kGradient || options.method == Method::kPaper;
+  if (options.linear_solver == LinearSolver::kNone && !gradients) {
+    throw OptionError("linear_solver none is for the methods gradient and paper only");
+  }
+  require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
+          "in [1, 1024], or 0 for all");
+  validate(options.coarse_levels);
+}
+
+}  // namespace flbc

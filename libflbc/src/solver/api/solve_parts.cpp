@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/api/solve_parts.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/messages.h"
+#include "flbc/boundary_values.h"
+#include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
+
+namespace flbc {
+namespace {
+
+// One part of the mesh with its cage.
+template <int Dim>
+struct Part {
+  MeshPart<Dim> domain;
+  Cage<Dim> cage{};
+  std::vector<Index> control_points{};  // their numbers in the whole cage
+};
+
+template <int Dim>
+[[noreturn]] void refuse_split_facet(const Cage<Dim>& cage, Index facet) {
+  throw InputError(std::string("the domain mesh has several parts, and ") +
+                   (Dim == 2 ? "edge " : "triangle ") + std::to_string(facet) +
+                   " of the cage, at " + format_point(cage.points.col(cage.facets(0, facet))) +
+                   ", runs from one to another");
+}
+
+// Gives each part the control points that are its vertices, and the facets between them.
+template <int Dim>
+void distribute(const Cage<Dim>& cage, const std::vector<Index>& part_of_control_point,
+                std::vector<Part<Dim>>& parts) {
+  std::vector<Index> number(cage.size());  // in the part
+  for (Index i = 0; i < cage.size(); ++i) {
+    auto& control_points = parts[part_of_control_point[i]].control_points;
+    number[i] = static_cast<Index>(control_points.size());
+    control_points.push_back(i);
+  }
+  std::vector<std::vector<Index>> facets(parts.size());
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    const Index p = part_of_control_point[cage.facets(0, f)];
+    for (const Index i : cage.facets.col(f)) {
+      if (part_of_control_point[i] != p) refuse_split_facet(cage, f);
+    }
+    facets[p].push_back(f);
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    auto& [domain, part, control_points] = parts[p];
+    if (control_points.empty()) {
+      throw InputError("a part of the domain mesh has no control point: the one with " +
+                       format_point(domain.mesh.points.col(0)));
+    }
+    part = {cage.points(Eigen::all, control_points), cage.facets(Eigen::all, facets[p])};
+    for (Index& corner : part.facets.reshaped()) corner = number[corner];
+  }
+}
+
+template <int Dim>
+std::vector<Part<Dim>> take_apart(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
+  // Of the whole, so that messages give the user's numbers.
+  const auto boundary = boundary_values(cage, mesh, build_topology(mesh));
+  std::vector<Part<Dim>> parts;
+  std::vector<Index> part_of_vertex(mesh.num_vertices());
+  for (auto& domain : mesh_parts(mesh)) {
+    for (const Index v : domain.vertices) part_of_vertex[v] = static_cast<Index>(parts.size());
+    parts.push_back({std::move(domain)});
+  }
+  std::vector<Index> part_of_control_point;
+  for (const Index v : boundary.control_vertices) {
+    part_of_control_point.push_back(part_of_vertex[v]);
+  }
+  distribute(cage, part_of_control_point, parts);
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return a.control_points.front() < b.control_points.front();
+  });
+  return parts;
+}
+
+Criterion common_criterion(const std::vector<SolveReport>& parts) {
+  Criterion criterion = parts.front().criterion;
+  for (const auto& part : parts) {
+    if (part.criterion == Criterion::kNone) return Criterion::kNone;
+    if (part.criterion == Criterion::kGap) criterion = Criterion::kGap;
+  }
+  return criterion;
+}
+
+// None unless all parts have one.
+Certificate sum_of_certificates(const std::vector<SolveReport>& parts) {
+  Certificate sum;
+  for (const auto& part : parts) {
+    if (!(part.certificate.objective > 0)) return {};
+    sum.objective += part.certificate.objective;
+    sum.lower_bound += part.certificate.lower_bound;
+  }
+  sum.relative_gap = (sum.objective - sum.lower_bound) / sum.objective;
+  return sum;
+}
+
+// By the number of pairs.
+double mean_density(const std::vector<SolveReport>& parts) {
+  double active = 0;
+  double all = 0;
+  for (const auto& part : parts) {
+    const double pairs = static_cast<double>(part.control_points) * part.vertices;
+    active += part.active_set.density * pairs;
+    all += pairs;
+  }
+  return active / all;
+}
+
+void add(const SolveReport& part, SolveReport& whole) {
+  whole.status = std::max(whole.status, part.status);  // the later ones are the worse
+  whole.control_points += part.control_points;
+  whole.vertices += part.vertices;
+  whole.cells += part.cells;
+  whole.primal_residual = std::max(whole.primal_residual, part.primal_residual);
+  whole.dual_residual = std::max(whole.dual_residual, part.dual_residual);
+  whole.objective += part.objective;
+  whole.distances.source = std::max(whole.distances.source, part.distances.source);
+  whole.distances.vertices += part.distances.vertices;
+  whole.distances.phi_error = std::max(whole.distances.phi_error, part.distances.phi_error);
+  whole.active_set.growths = std::max(whole.active_set.growths, part.active_set.growths);
+  whole.seconds.setup += part.seconds.setup;
+  whole.seconds.solve += part.seconds.solve;
+  whole.seconds.recover += part.seconds.recover;
+  whole.seconds.certify += part.seconds.certify;
+}
+
+SolveReport join(std::vector<SolveReport> parts) {
+  const auto& longest =
+      *std::max_element(parts.begin(), parts.end(),
+                        [](const auto& a, const auto& b) { return a.iterations < b.iterations; });
+  SolveReport whole;
+  whole.method = longest.method;
+  whole.iterations = longest.iterations;
+  whole.penalty = longest.penalty;
+  whole.published_penalty = longest.published_penalty;
+  whole.state_scalars_per_cell = longest.state_scalars_per_cell;
+  whole.coarse_levels = longest.coarse_levels;
+  for (const auto& part : parts) add(part, whole);
+  whole.criterion = common_criterion(parts);
+  whole.certificate = sum_of_certificates(parts);
+  whole.active_set.density = mean_density(parts);
+  whole.parts = std::move(parts);
+  return whole;
+}
+
+// Weights of the whole by those of its parts.
+template <int Dim>
+WeightMatrix join_dense(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
+                        Index num_control_points, Index num_vertices) {
+  WeightMatrix weights = WeightMatrix::Zero(num_control_points, num_vertices);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    weights(parts[p].control_points, parts[p].domain.vertices) = solved[p].weights;
+  }
+  return weights;
+}
+template <int Dim>
+SparseWeights join_sparse(const std::vector<Part<Dim>>& parts,
+                          const std::vector<Solution>& solved, Index num_control_points,
+                          Index num_vertices) {
+  struct Place {
+    std::size_t part;
+    Index vertex;  // of the part
+  };
+  std::vector<Place> places(num_vertices);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& vertices = parts[p].domain.vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      places[vertices[k]] = {p, static_cast<Index>(k)};
+  }
+  return SparseWeights::of(num_control_points, num_vertices, [&](Index v) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(num_control_points);
+    const auto& [part, vertex] = places[v];
+    solved[part].sparse_weights.visit(vertex, [&, part = part](Index i, double weight) {
+      all[parts[part].control_points[i]] = weight;
+    });
+    return all;
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sparse,
+                     const Reporter& reporter, const SolvePart<Dim>& solve_part) {
+  const auto parts = take_apart(cage, mesh);
+  const auto unknowns = [](const Part<Dim>& part) {
+    return static_cast<double>(part.cage.size()) * part.domain.mesh.num_vertices();
+  };
+  double all = 0, before = 0;
+  for (const auto& part : parts) all += unknowns(part);
+
+  std::vector<Solution> solved;
+  std::vector<SolveReport> reports;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double share = unknowns(parts[p]) / all;
+    const auto to_come = static_cast<int>(parts.size() - p) - 1;
+    solved.push_back(solve_part(parts[p].cage, parts[p].domain.mesh,
+                                reporter.with_more_to_come(to_come).of_part(before, share)));
+    reports.push_back(std::move(solved[p].report));
+    before += share;
+  }
+  Solution whole;
+  whole.report = join(std::move(reports));
+  if (sparse) {
+    whole.sparse_weights = join_sparse(parts, solved, cage.size(), mesh.num_vertices());
+    whole.report.quality = measure_quality(cage.points, mesh.points, whole.sparse_weights);
+  } else {
+    whole.weights = join_dense(parts, solved, cage.size(), mesh.num_vertices());
+    whole.report.quality = measure_quality(cage.points, mesh.points, whole.weights);
+  }
+  return whole;
+}
+
+template Solution solve_parts(const Cage<2>&, const DomainMesh<2>&, bool, const Reporter&,
+                              const SolvePart<2>&);
+template Solution solve_parts(const Cage<3>&, const DomainMesh<3>&, bool, const Reporter&,
+                              const SolvePart<3>&);
+
+}  // namespace flbc

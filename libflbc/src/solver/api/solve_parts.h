@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Cages whose interior has several connected parts.
+#pragma once
+
+#include <functional>
+
+#include "flbc/solver.h"
+#include "solver/run/reporter.h"
+
+namespace flbc {
+
+//! Solves one connected part.
+template <int Dim>
+using SolvePart =
+    std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&)>;
+
+//! Solves every part of the mesh with the control points that are its vertices.
+//! \param sparse  whether `solve_part` returns sparse weights
+//! \throws InputError if the parts of mesh and cage are not the same
+template <int Dim>
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sparse,
+                     const Reporter& reporter, const SolvePart<Dim>& solve_part);
+
+}  // namespace flbc

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/messages.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "flbc/bounding_box.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/mesh_parts.h"
+#include "mesh/cell_geometry.h"
+#include "problem/problem_geometry.h"
+#include "solver/api/finish.h"
+#include "solver/api/solve_parts.h"
+#include "solver/multilevel/cascade.h"
+#include "solver/multilevel/moving_distances.h"
+#include "solver/multilevel/set_up.h"
+#include "solver/plan/choices.h"
+
+namespace flbc {
+namespace {
+
+void require_valid(const SolverOptions& options, bool has_mesher) {
+  validate(options);
+  if (options.coarse_to_fine == CoarseToFine::kOn && !has_mesher) {
+    throw OptionError("coarse_to_fine cannot be on without a mesher for the coarser meshes");
+  }
+}
+
+// The same where the problem is yet to be set up.
+void require_valid_setup(const SolverOptions& options, bool has_mesher) {
+  require_valid(options, has_mesher);
+  if (options.distances == Distances::kInterpolated && !has_mesher) {
+    throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
+  }
+}
+
+// A problem set up for a method that does not minimize has no phi.
+template <int Dim>
+void require_phi(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  if (!plan::minimizes(options.method) || problem.phi.cols() == problem.mesh.num_cells()) return;
+  throw InputError(
+      "the problem has no weight functions phi for the cells of its mesh; make_problem() "
+      "computes them");
+}
+
+template <int Dim>
+int num_threads(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  return threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices());
+}
+
+//! \param options  resolved
+template <int Dim>
+std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
+                                              const CoarseMesher<Dim>& mesher,
+                                              const SolverOptions& options) {
+  if (!mesher) return {};
+  const auto sizes = plan::coarse_sizes(plan::sizes_of(problem), options);
+  return make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
+}
+
+//! \param options  resolved
+template <int Dim>
+Solution solve_once(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
+                    const SolverOptions& options, const Reporter& reporter) {
+  MethodRun<Dim> run(problem);
+  SolveReport report;
+  auto weights = solve_in_cascade(problem, run, std::move(coarse), options, reporter, report);
+  return finish(problem, run, std::move(weights), options, reporter, std::move(report));
+}
+
+//! \param topology  null if not known
+template <int Dim>
+Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                    const SolverOptions& given, const CoarseMesher<Dim>& mesher,
+                    const Observer& observer, const MeshTopology<Dim>* topology) {
+  require_valid_setup(given, bool(mesher));
+  const auto options = resolve(given);
+  const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
+                                   const Reporter& reporter, const MeshTopology<Dim>* facets) {
+    const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
+    auto ready = set_up<Dim>(part, domain, options, mesher, reporter, nullptr, facets);
+    auto solution = solve_once(ready.problem, std::move(ready.coarse), options, reporter);
+    solution.report.seconds.setup = ready.seconds;
+    solution.report.distances = ready.distances;
+    return solution;
+  };
+  const Reporter reporter(observer);
+  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter, topology);
+  return solve_parts<Dim>(cage, mesh, options.sparse, reporter,
+                          [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
+                              const Reporter& of_part) {
+                            return solve_connected(part, domain, of_part, nullptr);
+                          });
+}
+
+void validate(const Budget& budget) {
+  if (budget.iterations < 0) {
+    throw OptionError("iterations must be at least 1, or 0 for no limit of the budget's own, not " +
+                      std::to_string(budget.iterations));
+  }
+  if (!(budget.seconds >= 0)) {
+    throw OptionError("seconds must be positive, or 0 for no limit, not " +
+                      format_number(budget.seconds));
+  }
+}
+
+// Ends a solve in time.
+class Deadline {
+ public:
+  explicit Deadline(double seconds) : seconds_(seconds) {}
+
+  // The observer that also looks at the time, in every iteration.
+  Observer watch_over(const Observer& observer, SolverOptions& options) {
+    if (seconds_ == 0) return observer;
+    const int interval = std::exchange(options.check_interval, 1);
+    auto watching = observer;
+    watching.progress = [this, interval, &observer](const Progress& progress) {
+      if (observer.progress && progress.iteration % interval == 0 &&
+          !observer.progress(progress)) {
+        return false;
+      }
+      elapsed_ += watch_.lap();
+      has_passed_ = elapsed_ >= seconds_;
+      return !has_passed_;
+    };
+    return watching;
+  }
+
+  bool has_passed() const { return has_passed_; }
+
+ private:
+  double seconds_;
+  Stopwatch watch_;
+  double elapsed_ = 0;
+  bool has_passed_ = false;
+};
+
+// \throws InputError if a cell turned over, or has as good as no measure left
+template <int Dim>
+void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
+  constexpr double kLeast = 1e-9;  // of the cell's measure before
+  const double enlargement =
+      std::pow(bounding_box_diagonal(after.points) / bounding_box_diagonal(before.points), Dim);
+  for (Index s = 0; s < after.num_cells(); ++s) {
+    if (signed_measure(after, s) > kLeast * enlargement * signed_measure(before, s)) continue;
+    throw InputError("cell " + std::to_string(s) + " of the domain mesh, at " +
+                     format_point(centroid(before.points, before.cells, s)) +
+                     ", would turn over; move the control points less far, or mesh the cage anew");
+  }
+}
+
+template <int Dim>
+void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_points) {
+  if (control_points.cols() == cage.size()) return;
+  throw InputError(std::to_string(control_points.cols()) +
+                   " control points were given for a cage that has " + std::to_string(cage.size()));
+}
+
+// Whether the state that one solve leaves is a start for the other.
+bool share_state(const SolverOptions& a, const SolverOptions& b) {
+  return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
+         a.linear_solver == b.linear_solver && a.penalty == b.penalty &&
+         a.active_set == b.active_set;
+}
+
+}  // namespace
+
+template <int Dim>
+Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
+               const MesherArgument<Dim>& mesher, const Observer& observer) {
+  require_valid(given, bool(mesher));
+  const auto options = resolve(given);
+  require_phi(problem, options);
+  const ThreadScope threads(num_threads(problem, options));
+  return solve_once(problem, coarse_starts<Dim>(problem, mesher, options), options,
+                    Reporter(observer));
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
+               const MesherArgument<Dim>& mesher, const Observer& observer) {
+  return solve_cage<Dim>(cage, mesh, options, mesher, observer, nullptr);
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+               const MeshTopology<Dim>& topology, const SolverOptions& options,
+               const MesherArgument<Dim>& mesher, const Observer& observer) {
+  return solve_cage<Dim>(cage, mesh, options, mesher, observer, &topology);
+}
+
+template <int Dim>
+class Solver<Dim>::State {
+ public:
+  State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+        const CoarseMesher<Dim>& mesher)
+      : options_(options), mesher_(mesher), shape_(std::make_unique<Shape>()) {
+    const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
+    normalize_and_validate(mesh);
+    std::optional<CoarseProblem<Dim>> coarsest;
+    const Observer nobody;
+    auto ready =
+        set_up(cage, mesh, resolve(options), mesher, Reporter(nobody), &coarsest);
+    if (coarsest) moving_distances_.emplace(std::move(*coarsest), ready.problem);
+    coarse_ = std::move(ready.coarse);
+    *shape_ = {std::move(cage), std::move(mesh), std::move(ready.problem), ready.distances,
+               ready.seconds, {}};
+    restart_run();
+  }
+
+  void solve(const Budget& budget, const Observer& observer) {
+    try {
+      complete();
+      solve_on(*shape_, nullptr, budget, observer);
+    } catch (...) {
+      restart();
+      throw;
+    }
+  }
+
+  void move(const PointList<Dim>& control_points, const Budget& budget, const Observer& observer) {
+    if (solution_.weights.size() == 0) solve({}, observer);
+    if (anchor_weights_.size() == 0) anchor();
+    Stopwatch watch;
+    auto options = resolve(options_);
+    const ThreadScope threads(num_threads(shape_->problem, options));
+    auto shape = moved(control_points, options);
+    shape->setup_seconds = watch.lap();
+    if (plan::inherits(options.method) && shape_->run->has_duals()) {
+      const auto duals = shape_->run->duals();
+      const auto transfer =
+          Transfer<Dim>::between_shapes(shape_->problem, duals, shape->problem);
+      solve_on(*shape, &transfer, left(budget, shape->setup_seconds), observer);
+    } else {
+      solve_on(*shape, nullptr, left(budget, shape->setup_seconds), observer);
+    }
+    shape_ = std::move(shape);
+    coarse_.clear();
+  }
+
+  void anchor() {
+    anchor_mesh_ = shape_->mesh;
+    anchor_weights_ = solution_.weights;
+    if (moving_distances_) moving_distances_->anchor(shape_->mesh, anchor_weights_);
+  }
+
+  void set_options(const SolverOptions& options) {
+    require_valid(options, bool(mesher_));
+    if (options.phi != options_.phi) {
+      throw OptionError("phi cannot be changed once the problem is set up; make another Solver");
+    }
+    if (!share_state(resolve(options), resolve(options_))) restart();
+    coarse_.clear();  // made for the options before
+    options_ = options;
+  }
+
+  void restart() {
+    restart_run();
+    coarse_.clear();
+  }
+
+  const SolverOptions& options() const { return options_; }
+  const Cage<Dim>& cage() const { return shape_->cage; }
+  const DomainMesh<Dim>& mesh() const { return shape_->mesh; }
+  const LbcProblem<Dim>& problem() const { return shape_->problem; }
+  const Solution& solution() const { return solution_; }
+
+ private:
+  // All that belongs to one shape of the cage; the run refers to the problem.
+  struct Shape {
+    Cage<Dim> cage{};  // as the caller gave it
+    DomainMesh<Dim> mesh{};
+    LbcProblem<Dim> problem{};
+    DistanceReport distances{};  // behind its phi
+    double setup_seconds = 0;    // until a report has them
+    std::optional<MethodRun<Dim>> run{};
+  };
+
+  void restart_run() { shape_->run.emplace(shape_->problem); }
+
+  static Budget left(Budget budget, double spent) {
+    // At least one iteration is made.
+    constexpr double kNone = 1e-9;
+    if (budget.seconds > 0) budget.seconds = std::max(budget.seconds - spent, kNone);
+    return budget;
+  }
+
+  // Phi, once a method needs it.
+  void complete() {
+    auto& problem = shape_->problem;
+    const auto options = resolve(options_);
+    if (problem.phi.size() > 0 || !plan::minimizes(options.method)) return;
+    const ThreadScope threads(num_threads(problem, options));
+    Stopwatch watch;
+    problem.phi = {options.phi, distances_for(options.phi, problem), problem.mesh,
+                   problem.num_control_points()};
+    shape_->setup_seconds += watch.lap();
+  }
+
+  // The mesh where the control points take it, not solved yet.
+  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
+                               const SolverOptions& options) {
+    require_points_for(shape_->cage, control_points);
+    auto shape = std::make_unique<Shape>();
+    shape->cage = {control_points, shape_->cage.facets};
+    validate(shape->cage);
+    shape->mesh = {deform<Dim>(anchor_weights_, control_points), shape_->mesh.cells};
+    refuse_folds(anchor_mesh_, shape->mesh);
+    auto& problem = shape->problem;
+    problem = make_geometry(shape->cage, shape->mesh, shape_->problem.topology,
+                            shape_->problem.boundary);
+    shape->run.emplace(problem);
+    if (!plan::minimizes(options.method)) return shape;
+    shape->distances = shape_->distances;
+    auto distances = moving_distances_ ? (*moving_distances_)(problem, options, shape->distances)
+                                       : distances_for(options.phi, problem);
+    problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
+    return shape;
+  }
+
+  // From the start, or from where the shape's run is. The solution is as it was if it throws.
+  void solve_on(Shape& shape, const Transfer<Dim>* start, const Budget& budget,
+                const Observer& observer) {
+    auto options = resolve(options_);
+    options.sparse = false;
+    if (budget.iterations > 0) {
+      options.max_iterations = std::min(options.max_iterations, budget.iterations);
+    }
+    Deadline deadline(budget.seconds);
+    const Observer watching = deadline.watch_over(observer, options);
+    const Reporter reporter(watching);
+    const ThreadScope threads(num_threads(shape.problem, options));
+    SolveReport report;
+    Weights weights;
+    if (start != nullptr || shape.run->has_begun() || &shape != shape_.get()) {
+      weights = shape.run->solve(options, reporter, report, {start});
+    } else {
+      auto coarse = std::exchange(coarse_, {});
+      if (coarse.empty()) coarse = coarse_starts(shape.problem, mesher_, options);
+      weights = solve_in_cascade(shape.problem, *shape.run, std::move(coarse), options, reporter,
+                                 report);
+    }
+    if (deadline.has_passed()) report.status = SolveStatus::kIterationLimit;
+    solution_ = finish(shape.problem, *shape.run, std::move(weights), options, reporter,
+                       std::move(report));
+    solution_.report.seconds.setup = std::exchange(shape.setup_seconds, 0);
+    solution_.report.distances = shape.distances;
+  }
+
+  SolverOptions options_;
+  CoarseMesher<Dim> mesher_;
+  std::vector<CoarseProblem<Dim>> coarse_;  // for the first solve
+  std::unique_ptr<Shape> shape_;
+  Solution solution_{};
+  std::optional<MovingDistances<Dim>> moving_distances_;
+  DomainMesh<Dim> anchor_mesh_;
+  WeightMatrix anchor_weights_;
+};
+
+template <int Dim>
+Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+                    const MesherArgument<Dim>& mesher) {
+  require_valid_setup(options, bool(mesher));
+  state_ = std::make_unique<State>(std::move(cage), std::move(mesh), options, mesher);
+}
+
+template <int Dim>
+Solver<Dim>::~Solver() = default;
+template <int Dim>
+Solver<Dim>::Solver(Solver&&) noexcept = default;
+template <int Dim>
+Solver<Dim>& Solver<Dim>::operator=(Solver&&) noexcept = default;
+
+template <int Dim>
+const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observer) {
+  validate(budget);
+  state_->solve(budget, observer);
+  return solution();
+}
+
+template <int Dim>
+const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Budget& budget,
+                                  const Observer& observer) {
+  validate(budget);
+  state_->move(control_points, budget, observer);
+  return solution();
+}
+
+template <int Dim>
+void Solver<Dim>::anchor() {
+  state_->anchor();
+}
+
+template <int Dim>
+void Solver<Dim>::set_options(const SolverOptions& options) {
+  state_->set_options(options);
+}
+
+template <int Dim>
+void Solver<Dim>::restart() {
+  state_->restart();
+}
+
+template <int Dim>
+const SolverOptions& Solver<Dim>::options() const {
+  return state_->options();
+}
+
+template <int Dim>
+const Cage<Dim>& Solver<Dim>::cage() const {
+  return state_->cage();
+}
+
+template <int Dim>
+const DomainMesh<Dim>& Solver<Dim>::mesh() const {
+  return state_->mesh();
+}
+
+template <int Dim>
+const LbcProblem<Dim>& Solver<Dim>::problem() const {
+  return state_->problem();
+}
+
+template <int Dim>
+const Solution& Solver<Dim>::solution() const {
+  return state_->solution();
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                  \
+  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&,                        \
+                          const MesherArgument<Dim>&, const Observer&);                        \
+  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&, \
+                               const MesherArgument<Dim>&, const Observer&);                   \
+  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&,                       \
+                               const MeshTopology<Dim>&, const SolverOptions&,                 \
+                               const MesherArgument<Dim>&, const Observer&);                   \
+  template class Solver<Dim>;
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc

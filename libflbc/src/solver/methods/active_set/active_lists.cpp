@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/active_set/active_lists.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "projection/nearest_point_in_hull.h"
+#include "solver/plan/constants.h"
+
+namespace flbc::active_set {
+namespace {
+
+using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+// Of every vertex, the control points that matter at it or next to it. n x V
+//! \param matters_at  of a vertex, n flags
+template <int Dim, class MattersAt>
+Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const MattersAt& matters_at) {
+  Flags matters(num_control_points, mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < mesh.num_vertices(); ++v) matters.col(v) = matters_at(v);
+  Flags near = matters;
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    Eigen::Array<bool, Eigen::Dynamic, 1> any = matters.col(mesh.cells(0, s)).array();
+    for (int k = 1; k <= Dim; ++k) any = any || matters.col(mesh.cells(k, s)).array();
+    for (const Index v : mesh.cells.col(s)) {
+      near.col(v).array() = near.col(v).array() || any;
+    }
+  }
+  return near;
+}
+
+// Weights on a facet have to be taken over by the vertices next to it.
+template <int Dim>
+void add_boundary(const LbcProblem<Dim>& problem, Flags& flags) {
+  const auto& boundary = problem.boundary;
+  const auto add = [&](Index b, Index v) {
+    for (int k = 0; k < Dim; ++k) {
+      if (boundary.values(k, b) != 0) flags(boundary.control_points(k, b), v) = true;
+    }
+  };
+  for (Index b = 0; b < static_cast<Index>(boundary.vertices.size()); ++b) {
+    flags.col(boundary.vertices[b]).setConstant(false);
+    add(b, boundary.vertices[b]);
+  }
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    for (const Index v : problem.mesh.cells.col(s)) {
+      const Index b = boundary.boundary_index[v];
+      if (b < 0) continue;
+      for (const Index u : problem.mesh.cells.col(s)) {
+        if (boundary.is_interior(u)) add(b, u);
+      }
+    }
+  }
+}
+
+// Whether a vertex lies in the convex hull of its control points, so that it has weights.
+template <int Dim>
+bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
+  const double tolerance = 1e-9 * problem.cage.points.cwiseAbs().maxCoeff();
+  PointList<Dim> points(Dim, flags.col(v).count());
+  Index count = 0;
+  for (Index i = 0; i < flags.rows(); ++i) {
+    if (flags(i, v)) points.col(count++) = problem.cage.points.col(i);
+  }
+  if (count == 0) return false;
+  const Vector<Dim> point = problem.mesh.points.col(v);
+  return nearest_point_in_hull<Dim>(points, point).distance <= tolerance;
+}
+
+// Adds what every vertex has to have. \param weights  feasible ones of an interior vertex
+template <int Dim>
+ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
+  add_boundary(problem, flags);
+#pragma omp parallel for schedule(dynamic, 64)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (!problem.boundary.is_interior(v) || is_feasible(problem, v, flags)) continue;
+    flags.col(v).array() = flags.col(v).array() || weights(v).array() > 0;
+  }
+  return lists_from(flags);
+}
+
+template <int Dim>
+Flags flags_of_lists(const LbcProblem<Dim>& problem, const ActiveLists& supports) {
+  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    for (const ControlPoint i : supports.of(v)) flags(i, v) = true;
+  }
+  return flags;
+}
+
+// Interior vertices that share a cell with one, ascending.
+template <int Dim>
+std::vector<Index> interior_neighbours(const LbcProblem<Dim>& problem, const VertexCells& around,
+                                       Index v) {
+  std::vector<Index> neighbours;
+  for (const Index s : around.cells_of(v)) {
+    for (const Index u : problem.mesh.cells.col(s)) {
+      if (u != v && problem.boundary.is_interior(u)) neighbours.push_back(u);
+    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  return neighbours;
+}
+
+// Calls action(place) for the places of a list whose control points another one lacks, in order.
+template <class Action>
+void for_missing(const ActiveLists::Range& list, const ActiveLists::Range& other,
+                 const Action& action) {
+  const ControlPoint* theirs = other.first;
+  for (const ControlPoint* item = list.first; item != list.last; ++item) {
+    while (theirs != other.last && *theirs < *item) ++theirs;
+    if (theirs == other.last || *theirs != *item) action(static_cast<Index>(item - list.first));
+  }
+}
+
+}  // namespace
+
+double threshold_for(double tolerance) {
+  return std::clamp(plan::kActiveErrors * std::sqrt(tolerance), plan::kActiveLeast,
+                    plan::kActiveMost);
+}
+
+ActiveLists lists_from(const Flags& is_in) {
+  return items_by_vertex<ControlPoint>(static_cast<Index>(is_in.cols()), [&](const auto& visit) {
+    for (Index v = 0; v < static_cast<Index>(is_in.cols()); ++v) {
+      for (Index i = 0; i < static_cast<Index>(is_in.rows()); ++i) {
+        if (is_in(i, v)) visit(v, static_cast<ControlPoint>(i));
+      }
+    }
+  });
+}
+
+template <int Dim>
+ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
+                           double threshold) {
+  constexpr double kNotInterpolated = 1e-12;
+  const auto& mesh = coarse.coarse_mesh();
+  const auto& weights = coarse.coarse_weights();
+  const Flags near = flags_of(mesh, problem.num_control_points(), [&](Index v) {
+    return (weights.at(v).array() > threshold).eval();
+  });
+  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    const auto& place = coarse.place_of(v);
+    for (int k = 0; k <= Dim; ++k) {
+      if (place.coordinates[k] <= kNotInterpolated) continue;
+      flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
+    }
+  }
+  return completed(
+      problem, [&](Index v) { return coarse.weights_at(v); }, std::move(flags));
+}
+
+template <int Dim>
+ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
+                         double threshold) {
+  const auto of_vertex = with_known_values(problem, weights);
+  auto flags = flags_of(problem.mesh, problem.num_control_points(),
+                        [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
+  return completed(problem, weights, std::move(flags));
+}
+
+template <int Dim>
+VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim>& start,
+                                 double threshold) {
+  return [&problem, lists = active_of(problem, start.weights, threshold),
+          flux_density = start.flux_density](Index s) {
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> all = flux_density(s);
+    Eigen::Matrix<double, Eigen::Dynamic, Dim> near =
+        Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(all.rows(), Dim);
+    for (const Index v : problem.mesh.cells.col(s)) {
+      for (const ControlPoint i : lists.of(v)) near.row(i) = all.row(i);
+    }
+    return near;
+  };
+}
+
+template <int Dim>
+ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
+                   const WeightInList& weight) {
+  Flags flags = flags_of_lists(problem, supports);
+  const VertexCells around(problem.mesh);
+  for (const Index v : problem.boundary.interior_vertices()) {
+    const auto list = supports.of(v);
+    for (const Index u : interior_neighbours(problem, around, v)) {
+      for_missing(list, supports.of(u), [&](Index place) {
+        if (weight(v, place) > threshold) flags(list.first[place], u) = true;
+      });
+    }
+  }
+  return lists_from(flags);
+}
+
+template <int Dim>
+double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& supports,
+                       const WeightInList& weight) {
+  const VertexCells around(problem.mesh);
+  const auto interior = problem.boundary.interior_vertices();
+  return parallel_sum(static_cast<Index>(interior.size()), 0.0, [&](Index begin, Index end) {
+    double sum = 0;
+    std::vector<bool> is_end;
+    for (Index k = begin; k < end; ++k) {
+      const Index v = interior[k];
+      const auto list = supports.of(v);
+      is_end.assign(list.last - list.first, false);
+      for (const Index u : interior_neighbours(problem, around, v)) {
+        for_missing(list, supports.of(u), [&](Index place) { is_end[place] = true; });
+      }
+      for (Index place = 0; place < static_cast<Index>(is_end.size()); ++place) {
+        const double w = is_end[place] ? weight(v, place) : 0;
+        sum += w * w;
+      }
+    }
+    return sum;
+  });
+}
+
+template <int Dim>
+double density(const LbcProblem<Dim>& problem, const ActiveLists& supports) {
+  const auto interior = problem.boundary.interior_vertices();
+  double pairs = 0;
+  for (const Index v : interior) pairs += supports.start[v + 1] - supports.start[v];
+  const auto all = static_cast<double>(interior.size()) * problem.num_control_points();
+  return interior.empty() ? 1 : pairs / all;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template ActiveLists active_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double); \
+  template ActiveLists active_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);    \
+  template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const Start<Dim>&,   \
+                                            double);                                         \
+  template ActiveLists grown(const LbcProblem<Dim>&, const ActiveLists&, double,           \
+                              const WeightInList&);                                          \
+  template double squared_at_ends(const LbcProblem<Dim>&, const ActiveLists&,               \
+                                  const WeightInList&);                                      \
+  template double density(const LbcProblem<Dim>&, const ActiveLists&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::active_set

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Supports: the control points that may have a weight at a vertex. Elsewhere nothing is stored.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "flbc/lbc_problem.h"
+#include "mesh/vertex_cells.h"
+#include "solver/start/start.h"
+#include "solver/start/transfer.h"
+
+namespace flbc::active_set {
+
+//! Number of a control point, of which there are at most kMostControlPoints.
+using ControlPoint = std::uint16_t;
+constexpr Index kMostControlPoints = 65000;
+
+//! The control points of every vertex, ascending.
+using ActiveLists = VertexItems<ControlPoint>;
+
+//! Weights that are not above it are as good as zero where a mean squared error is wanted.
+double threshold_for(double tolerance);
+
+//! Supports from the weights on a coarser mesh: the control points whose weights are above the
+//! threshold at a corner of the vertex's coarse cell or at a neighbour of one, and those of the
+//! boundary next to the vertex. There are non-negative weights on them at every vertex. Boundary
+//! vertices have those control points whose weights are not zero.
+template <int Dim>
+ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
+                           double threshold);
+
+//! The same from weights on the mesh itself, at the vertex or at a neighbour.
+//! \param weights  of an interior vertex, n numbers, feasible
+template <int Dim>
+ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
+                         double threshold);
+
+//! The flux densities of a start where weights above the threshold are near, zero elsewhere.
+template <int Dim>
+VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim>& start,
+                                 double threshold);
+
+//! w at one place of an interior vertex's list.
+using WeightInList = std::function<double(Index vertex, Index place)>;
+
+//! Sum of the squared weights at the ends of supports: where a neighbour may not have any.
+template <int Dim>
+double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& supports,
+                       const WeightInList& weight);
+
+//! Supports with the control points of neighbours whose weights are above the threshold.
+template <int Dim>
+ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
+                   const WeightInList& weight);
+
+//! Pairs of interior vertices and control points, relative to all there are.
+template <int Dim>
+double density(const LbcProblem<Dim>& problem, const ActiveLists& supports);
+
+//! Lists from flags, n per vertex.
+ActiveLists lists_from(const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& is_in);
+
+}  // namespace flbc::active_set

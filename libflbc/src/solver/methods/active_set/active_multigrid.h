@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The linear step of the iteration on supports.
+#pragma once
+
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "linear/matrix_arrays.h"
+#include "solver/methods/active_set/packed_lists.h"
+#include "solver/methods/active_set/sweep_order.h"
+
+namespace flbc::active_set {
+
+//! An approximate minimiser of d^T K d / 2 - b^T d over all changes d of weights that stay within
+//! the supports, sum to zero and reproduce zero at every vertex,
+//!
+//!     T = { d : d_i(v) = 0 outside the support of v, sum_i d_i(v) = 0, sum_i d_i(v) c_i = 0 }.
+//!
+//! One symmetric multigrid cycle. The constraints couple the control points, so they belong into
+//! the smoother: the block of K of a vertex is K_vv times the identity, and the exact minimiser
+//! over the vertex's own changes in T is P_v r / K_vv, where P_v projects the residual r on those.
+//! Coarse unknowns are those of smoothed aggregation; a control point is active at one only if it
+//! is at every vertex where its function is not zero. Then all corrections are in T, the cycle B^-1
+//! is a subspace correction with exact local minimisers, and B >= K on T.
+template <class Scalar, int Dim>
+class ActiveMultigrid {
+ public:
+  //! \param matrix  K, symmetric positive definite, both triangles, in the order of the unknowns
+  //! \param order  of the unknowns in the rows
+  //! \param lists  of the rows, of which there may be more than unknowns; kept by reference
+  //! \param basis  of the rows (see row_bases()); kept by reference
+  ActiveMultigrid(RowMatrix matrix, const SweepOrder& order, const PackedLists& lists,
+                   const AlignedArray<Scalar>& basis, const PointList<Dim>& control_points,
+                   const Kernel<Scalar, Dim>& kernel);
+
+  //! One cycle, in place, by all threads; the same bits for any number of them.
+  void cycle(Scalar* rows);
+
+ private:
+  struct LevelData {
+    SweepOrder order;
+    SweepArrays<Scalar> matrix;
+    MatrixArrays<Scalar> prolongation, restriction;
+    PackedLists own_lists;  // of coarse levels
+    AlignedArray<Scalar> own_basis;
+    AlignedArray<Scalar> right_side, solution, rest;
+  };
+
+  LevelData coarsen(RowMatrix& matrix, const PackedLists& lists, LevelData& level) const;
+  PackedLists coarse_lists(const PackedLists& fine, const RowMatrix& restriction) const;
+  Level<Scalar> view(std::size_t l, const Scalar* right_side);
+  template <class Body>
+  void for_blocks(const LevelData& level, std::size_t colour, const Body& body) const;
+  void descend(std::size_t l, const Scalar* right_side, Scalar* work);
+  void ascend(std::size_t l, const Scalar* right_side, Scalar* work);
+
+  const Kernel<Scalar, Dim>& kernel_;
+  const ControlPoint n_;
+  const std::size_t work_size_;
+  const PackedLists& lists_;
+  const AlignedArray<Scalar>& basis_;
+  std::vector<LevelData> levels_;
+};
+
+}  // namespace flbc::active_set

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/active_set/active_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "flbc/bounding_box.h"
+#include "mesh/cell_geometry.h"
+#include "solver/plan/constants.h"
+
+namespace flbc::active_set {
+namespace {
+
+// Squared lengths in the units in which a penalty is their ratio.
+struct Lengths2 {
+  double dual = 0;
+  double motion = 0;
+  Lengths2& operator+=(const Lengths2& other) {
+    dual += other.dual;
+    motion += other.motion;
+    return *this;
+  }
+};
+
+// Of the duals, and of how far the weights are from where they started.
+template <int Dim>
+Lengths2 moved_lengths2(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                        const VectorsAt<1>& before, const Start<Dim>& now) {
+  return parallel_sum(problem.mesh.num_cells(), Lengths2{}, [&](Index begin, Index end) {
+    Lengths2 sum;
+    for (Index s = begin; s < end; ++s) {
+      const auto geometry = cell_geometry(problem.mesh, s);
+      Eigen::Matrix<double, Eigen::Dynamic, Dim> motion =
+          Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(problem.num_control_points(), Dim);
+      for (int k = 0; k <= Dim; ++k) {
+        const Index v = problem.mesh.cells(k, s);
+        if (!problem.boundary.is_interior(v)) continue;
+        motion += (now.weights(v) - before(v)) * geometry.hat_gradients.col(k).transpose();
+      }
+      sum.dual +=
+          geometry.measure * geometry.measure / metric.cell[s] * now.flux_density(s).squaredNorm();
+      sum.motion += metric.cell[s] * motion.squaredNorm();
+    }
+    return sum;
+  });
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+ActiveSet<Scalar, Dim>::ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric,
+                                  const Settings& settings, ActiveLists active)
+    : problem_(problem),
+      metric_(std::move(metric)),
+      settings_(settings),
+      first_active_(std::move(active)) {
+}
+
+template <class Scalar, int Dim>
+void ActiveSet<Scalar, Dim>::start(const Start<Dim>& start) {
+  splitting_ = std::make_unique<Splitting>(problem_, metric_, settings_.part * settings_.penalty,
+                                           settings_.relaxation, settings_.half,
+                                           std::exchange(first_active_, {}));
+  splitting_->start(start);
+  if (settings_.balances) start_weights_ = start.weights;
+}
+
+template <class Scalar, int Dim>
+Step ActiveSet<Scalar, Dim>::iterate(int count, bool measure) {
+  Step step;
+  for (int k = 1; k <= count; ++k) step = splitting_->iterate(measure && k == count);
+  return step;
+}
+
+template <class Scalar, int Dim>
+Start<Dim> ActiveSet<Scalar, Dim>::state() const {
+  return splitting_->state().with_penalty(splitting_->penalty() / settings_.part);
+}
+
+template <class Scalar, int Dim>
+void ActiveSet<Scalar, Dim>::rebuild(double penalty, bool half, ActiveLists active) {
+  auto other = std::make_unique<Splitting>(problem_, metric_, penalty, settings_.relaxation, half,
+                                           std::move(active));
+  other->start(splitting_->state());
+  splitting_ = std::move(other);
+}
+
+template <class Scalar, int Dim>
+int ActiveSet<Scalar, Dim>::adapt(int made, double error, bool ends) {
+  int to_make = 0;
+  if (ends) {
+    if (!reaches_ends(error)) return 0;
+    to_make = grow();
+    since_ = made;
+  } else if (made == next_balance()) {
+    rebuild(balanced_penalty(made), splitting_->stores_half(), splitting_->active());
+    since_ = made;
+  } else if (made == since_ + plan::kBetweenLooks) {
+    if (reaches_ends(error)) to_make = grow();
+    since_ = made;
+  }
+  if (splitting_->stores_half() && plan::trembles(made, error)) {
+    rebuild(splitting_->penalty(), false, splitting_->active());
+    since_ = made;
+  }
+  return to_make;
+}
+
+template <class Scalar, int Dim>
+int ActiveSet<Scalar, Dim>::next_balance() const {
+  if (!start_weights_) return std::numeric_limits<int>::max();
+  return since_ < plan::kFirstBalance ? plan::kFirstBalance : plan::kLastBalance;
+}
+
+// As in CompactSplitting::adapt_penalty.
+template <class Scalar, int Dim>
+double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
+  const auto lengths2 =
+      moved_lengths2(problem_, metric_, start_weights_, splitting_->state());
+  if (made >= plan::kLastBalance) start_weights_ = nullptr;
+  if (!(lengths2.dual > 0) || !(lengths2.motion > 0)) return splitting_->penalty();
+  const double balanced = plan::kBalance * std::sqrt(lengths2.dual / lengths2.motion);
+  const double size = bounding_box_diagonal(problem_.cage.points);
+  return settings_.part * std::min(balanced, plan::largest_penalty(size));
+}
+
+// Where weights at the ends of supports are more than a small part of the error there is, or of the
+// one wanted, they would continue beyond.
+template <class Scalar, int Dim>
+bool ActiveSet<Scalar, Dim>::reaches_ends(double error) const {
+  const double all =
+      static_cast<double>(problem_.num_control_points()) * problem_.mesh.num_vertices();
+  const auto weight = [&](Index v, Index place) { return splitting_->weight(v, place); };
+  return squared_at_ends<Dim>(problem_, splitting_->active(), weight) >
+         plan::kEndsOfError * error * all;
+}
+
+template <class Scalar, int Dim>
+int ActiveSet<Scalar, Dim>::grow() {
+  ++growths_;
+  const auto weight = [&](Index v, Index place) { return splitting_->weight(v, place); };
+  rebuild(splitting_->penalty(), splitting_->stores_half(),
+          grown<Dim>(problem_, splitting_->active(), threshold_for(settings_.tolerance), weight));
+  return plan::kAfterGrowth;
+}
+
+template <class Scalar, int Dim>
+void ActiveSet<Scalar, Dim>::describe(SolveReport& report) const {
+  report.penalty = splitting_->penalty();
+  report.state_scalars_per_cell = splitting_->state_scalars_per_cell();
+  report.active_set = {density(problem_, splitting_->active()), growths_};
+}
+
+template class ActiveSet<float, 2>;
+template class ActiveSet<float, 3>;
+template class ActiveSet<double, 2>;
+template class ActiveSet<double, 3>;
+
+}  // namespace flbc::active_set

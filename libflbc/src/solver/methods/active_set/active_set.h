@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Method::kValue where only the active set is stored and computed.
+#pragma once
+
+#include <memory>
+
+#include "solver/methods/active_set/active_splitting.h"
+#include "solver/methods/active_set/cold_start.h"
+#include "solver/run/iteration.h"
+
+namespace flbc::active_set {
+
+//! What an iteration on the active set needs besides its problem.
+struct Settings {
+  double penalty = 1;     //!< of all pairs
+  double part = 1;        //!< of it that serves where fewer weights move
+  double relaxation = 1;  //!< alpha in (0, 2)
+  double tolerance = 1;   //!< mean squared error wanted
+  bool half = false;      //!< stores duals and radii in half precision at first
+  bool balances = false;  //!< adapts the penalty to how far weights move from where they started
+};
+
+//! The splitting on the pairs of vertices and control points whose weights may be positive at the
+//! optimum. It extends them where weights reach their ends.
+template <class Scalar, int Dim>
+class ActiveSet final : public Iteration<Dim> {
+ public:
+  //! \param metric  see splitting/metric.h \param active  pairs at first, with feasible weights
+  ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric, const Settings& settings,
+            ActiveLists active);
+
+  //! \param start  not cold
+  void start(const Start<Dim>& start) override;
+  Step iterate(int count, bool measure) override;
+  Weights weights() const override { return {{}, splitting_->sparse_weights()}; }
+  void read_weights(Index vertex, double* weights) const override {
+    splitting_->read_weights(vertex, weights);
+  }
+  //! The penalty is that of all pairs.
+  Start<Dim> state() const override;
+
+  //! Duals are known for active pairs alone.
+  bool is_certifiable() const override { return false; }
+  Certificate certify(const WeightMatrix&) const override { return {}; }
+
+  //! Balances the penalty, extends the set, and leaves half precision: each by a new splitting that
+  //! starts from the present one.
+  int adapt(int made, double error, bool ends) override;
+
+  void describe(SolveReport& report) const override;
+
+ private:
+  using Splitting = ActiveSplitting<Scalar, Dim>;
+
+  void rebuild(double penalty, bool half, ActiveLists active);
+  int next_balance() const;
+  double balanced_penalty(int made);
+  bool reaches_ends(double error) const;
+  int grow();
+
+  const LbcProblem<Dim>& problem_;
+  const splitting::Metric metric_;
+  const Settings settings_;
+  ActiveLists first_active_;  // until the start
+  std::unique_ptr<Splitting> splitting_;
+  VectorsAt<1> start_weights_;  // null where the penalty stays
+  int since_ = 0;               // iteration of the last change or look
+  int growths_ = 0;
+};
+
+}  // namespace flbc::active_set

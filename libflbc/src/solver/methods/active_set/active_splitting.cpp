@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/active_set/active_splitting.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/flush_denormals.h"
+#include "base/padded_rows.h"
+#include "problem/boundary_flux.h"
+#include "solver/start/flux_length.h"
+
+namespace flbc::active_set {
+namespace {
+
+// One thread's dense rows of a patch.
+template <class Scalar>
+struct PatchRows {
+  AlignedArray<Scalar> extrapolated, difference, residual, violation_sum;
+  AlignedArray<double> violation;
+  std::vector<std::uint16_t> slot_of;
+
+  PatchRows(std::size_t largest_block, std::size_t n, bool measures)
+      : extrapolated(largest_block),
+        difference(measures ? largest_block : 0),
+        residual(largest_block),
+        violation_sum(measures ? padded(n) : 0),
+        violation(measures ? padded(n) : 0),
+        slot_of(n + 1) {}
+};
+
+}  // namespace
+
+template <class Scalar, int Dim>
+ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
+                                              splitting::Metric metric, double penalty,
+                                              double relaxation, bool half, ActiveLists active)
+    : ActiveSplitting(problem, metric, penalty, relaxation, half, std::move(active),
+                      splitting::system_matrix(problem, metric)) {
+}
+
+template <class Scalar, int Dim>
+ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
+                                              splitting::Metric metric, double penalty,
+                                              double relaxation, bool half, ActiveLists active,
+                                              const RowMatrix& system)
+    : problem_(problem),
+      loops_(half ? select_kernel<compact::Kernel<Scalar, Dim>>().half
+                  : select_kernel<compact::Kernel<Scalar, Dim>>().exact),
+      list_kernel_(select_kernel<Kernel<Scalar, Dim>>()),
+      n_(problem.num_control_points()),
+      metric_(std::move(metric)),
+      unit_(compact::radius_unit(problem, metric_)),
+      penalty_(penalty),
+      relaxation_(relaxation),
+      active_(std::move(active)),
+      order_(sweep_order(system)),
+      data_(compact::make_rows_and_cells<Scalar>(problem, metric_, order_.position, unit_)),
+      lists_(lists_of_rows()),
+      bases_(row_bases<Scalar, Dim>(lists_, problem.cage.points, points_of_rows(), &targets_)),
+      patches_(make_patches(problem, metric_, unit_, data_, lists_, loops_)),
+      multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
+      a_(lists_.size()),
+      W_(num_interior_numbers()),
+      S_(metric_.vertex.size() > 0 ? num_interior_numbers() : 0),
+      residual_(num_interior_numbers()),
+      left_(patches_.num_left),
+      P_(Dim * patches_.radius.size()) {
+}
+
+template <class Scalar, int Dim>
+PackedLists ActiveSplitting<Scalar, Dim>::lists_of_rows() const {
+  PackedLists lists;
+  const auto n = static_cast<ControlPoint>(n_);
+  for (const Index v : data_.vertices) {
+    lists.append(active_.of(v).first, active_.of(v).last, n);
+  }
+  for (const Index v : problem_.boundary.vertices) {
+    lists.append(active_.of(v).first, active_.of(v).last, n);
+  }
+  return lists;
+}
+
+template <class Scalar, int Dim>
+PointList<Dim> ActiveSplitting<Scalar, Dim>::points_of_rows() const {
+  PointList<Dim> points(Dim, lists_.num_rows());
+  Index row = 0;
+  for (const Index v : data_.vertices) points.col(row++) = problem_.mesh.points.col(v);
+  for (const Index v : problem_.boundary.vertices) points.col(row++) = problem_.mesh.points.col(v);
+  return points;
+}
+
+template <class Scalar, int Dim>
+compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(
+    const Patch& patch) {
+  State state{};
+  state.stride = state.cell_stride = patch.stride;
+  state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
+  state.num_interior = static_cast<std::size_t>(patch.num_interior);
+  state.cell_dual = P_.data() + loops_.bytes * Dim * patch.first_number;
+  state.cells = patches_.cells.data() + patch.first_cell;
+  state.radius = patches_.radius.data() + loops_.bytes * patch.first_number;
+  state.sigma = static_cast<Scalar>(sigma());
+  return state;
+}
+
+// Z-steps of all cells; the divergence of each patch is left to be collected.
+// \return the squared violation of z = grad w, if measured
+template <class Scalar, int Dim>
+double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation) {
+  const auto num_patches = static_cast<Index>(patches_.patches.size());
+  const Lists lists = lists_.view();
+  std::vector<double> violations(num_patches, 0);
+#pragma omp parallel
+  {
+    const FlushDenormals flush;
+    PatchRows<Scalar> rows(patches_.largest_block, n_ + 1, measures);
+#pragma omp for schedule(static)
+    for (Index p = 0; p < num_patches; ++p) {
+      const Patch& patch = patches_.patches[p];
+      const Index* numbers = patches_.rows.data() + patch.first_row;
+      set_slots(patches_, patch, rows.slot_of);
+      auto state = patch_state(patch);
+      state.relaxation = static_cast<Scalar>(relaxation);
+      state.extrapolated = rows.extrapolated.data();
+      state.residual = rows.residual.data();
+      list_kernel_.gather(lists, numbers, patch.num_rows, rows.slot_of.data(), a_.data(),
+                          patch.stride, state.extrapolated);
+      std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
+      if (measures) {
+        const auto size = patch.num_rows * patch.stride;
+        std::fill_n(rows.difference.data(), size, Scalar(0));
+        list_kernel_.gather(lists, numbers, patch.num_interior, rows.slot_of.data(),
+                            difference_.data(), patch.stride, rows.difference.data());
+        std::fill_n(rows.violation.data(), rows.violation.size(), 0.0);
+        state.difference = rows.difference.data();
+        state.violation = rows.violation.data();
+        state.violation_sum = rows.violation_sum.data();
+        loops_.z_step_measured(state, {0, patch.stride});
+        violations[p] =
+            std::accumulate(rows.violation.data(), rows.violation.data() + patch.stride, 0.0);
+      } else {
+        loops_.z_step(state, {0, patch.stride});
+      }
+      list_kernel_.scatter(lists, numbers, patch.num_interior, rows.slot_of.data(), state.residual,
+                           patch.stride, patches_.leaves.data() + patch.first_row, left_.data());
+    }
+  }
+  return std::accumulate(violations.begin(), violations.end(), 0.0);
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::collect_divergence() {
+  const auto num_rows = static_cast<Index>(data_.vertices.size());
+#pragma omp parallel for schedule(static)
+  for (Index row = 0; row < num_rows; ++row) {
+    Scalar* residual = residual_.data() + lists_.starts[row];
+    const std::size_t length = lists_.starts[row + 1] - lists_.starts[row];
+    for (const std::size_t place : patches_.left.of(row)) {
+      for (std::size_t j = 0; j < length; ++j) residual[j] += left_[place + j];
+    }
+  }
+}
+
+template <class Scalar, int Dim>
+compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::row_state(Index row) {
+  const std::size_t start = lists_.starts[row];
+  State state{};
+  state.stride = lists_.starts[row + 1] - start;
+  state.extrapolated = a_.data() + start;
+  state.relaxed = W_.data() + start;
+  state.vertex_dual = has_vertex_dual() ? S_.data() + start : nullptr;
+  state.residual = residual_.data() + start;
+  state.vertex_metric = has_vertex_dual() ? data_.vertex_metric.data() + row : nullptr;
+  state.basis = bases_.data() + (Dim + 1) * start;
+  state.row_target = targets_.data() + static_cast<std::size_t>(row) * (Dim + 1);
+  state.sigma = static_cast<Scalar>(sigma());
+  state.relaxation = static_cast<Scalar>(relaxation_);
+  return state;
+}
+
+template <class Scalar, int Dim>
+compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
+  const auto num_rows = static_cast<Index>(data_.vertices.size());
+  std::vector<compact::RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
+#pragma omp parallel
+  {
+    const FlushDenormals flush;
+#pragma omp for schedule(static)
+    for (std::size_t block = 0; block < parts.size(); ++block) {
+      const Index begin = static_cast<Index>(block) * kRowBlock;
+      for (Index row = begin; row < std::min(num_rows, begin + kRowBlock); ++row) {
+        const auto sums = loop(row_state(row), 0, 1);
+        parts[block].change += sums.change;
+        parts[block].violation += sums.violation;
+      }
+    }
+  }
+  compact::RowSums sums;
+  for (const auto& part : parts) {
+    sums.change += part.change;
+    sums.violation += part.violation;
+  }
+  return sums;
+}
+
+template <class Scalar, int Dim>
+Step ActiveSplitting<Scalar, Dim>::iterate(bool measures) {
+  if (measures) {
+    difference_ = AlignedArray<Scalar>(W_.size());
+    for (std::size_t k = 0; k < W_.size(); ++k) {
+      difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
+    }
+  }
+  const double of_cells = pass_cells(measures, relaxation_);
+  collect_divergence();
+  multigrid_.cycle(residual_.data());
+  const auto sums = pass_rows(measures ? loops_.y_step_measured : loops_.y_step);
+  const double scale = 1 / (sigma() * sigma());
+  return {scale * sums.change, measures ? scale * (of_cells + sums.violation) : -1};
+}
+
+template <class Scalar, int Dim>
+Scalar ActiveSplitting<Scalar, Dim>::weight_at(std::size_t place) const {
+  return static_cast<Scalar>(0.5 / sigma()) * (a_[place] + W_[place]);
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
+  std::fill_n(weights, n_, 0.0);
+  const Index row = data_.row_of[vertex];
+  const std::size_t start = lists_.starts[row];
+  for (Index j = 0; j < lists_.counts[row]; ++j) {
+    weights[lists_.items[start + j]] = weight_at(start + j);
+  }
+}
+
+template <class Scalar, int Dim>
+double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
+  const std::size_t numbers = a_.size() + W_.size() + S_.size() +
+                              residual_.size() + left_.size() + bases_.size();
+  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
+  return (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
+}
+
+// a = sigma w on the lists, boundary rows included.
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
+  const auto num_interior = static_cast<Index>(data_.vertices.size());
+#pragma omp parallel for schedule(static)
+  for (Index row = 0; row < lists_.num_rows(); ++row) {
+    Eigen::VectorXd numbers;
+    if (row < num_interior) {
+      numbers = weights(data_.vertices[row]);
+    } else {
+      numbers = Eigen::VectorXd::Zero(n_);
+      problem_.boundary.scatter(row - num_interior, numbers);
+    }
+    const std::size_t start = lists_.starts[row];
+    for (Index j = 0; j < lists_.counts[row]; ++j) {
+      a_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
+    }
+  }
+  // Weights cut off have to come back elsewhere in the row.
+  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+  pass_rows(loops_.correct);
+  std::copy_n(a_.data(), W_.size(), W_.data());
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
+  const auto num_patches = static_cast<Index>(patches_.patches.size());
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> rows(Dim * (padded(static_cast<std::size_t>(n_)) + kRowLanes));
+#pragma omp for schedule(static)
+    for (Index p = 0; p < num_patches; ++p) {
+      const Patch& patch = patches_.patches[p];
+      for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
+        const Index s = patches_.cell_index[k];
+        const double scale = compact::dual_scale(problem_, metric_, unit_, s);
+        const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
+        for (std::size_t j = 0; j < patch.stride; ++j) {
+          const Index i = patches_.items[patch.first_item + j];
+          for (int d = 0; d < Dim; ++d) {
+            rows[d * patch.stride + j] =
+                i < n_ ? static_cast<Scalar>(scale * density(i, d)) : Scalar(0);
+          }
+        }
+        loops_.encode(rows.data(), P_.data(),
+                      Dim * (patch.first_number + (k - patch.first_cell) * patch.stride),
+                      Dim * patch.stride);
+      }
+    }
+  }
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
+  const std::size_t num_rows = has_vertex_dual() ? data_.vertices.size() : 0;
+#pragma omp parallel for schedule(static)
+  for (std::size_t row = 0; row < num_rows; ++row) {
+    const std::size_t start = lists_.starts[row];
+    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
+    if (vertex_dual) numbers = vertex_dual(data_.vertices[row]);
+    for (Index j = 0; j < lists_.counts[row]; ++j) {
+      S_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
+      residual_[start + j] = data_.vertex_metric[row] * S_[start + j];
+    }
+  }
+}
+
+// As in CompactSplitting: what the duals would do to the weights is taken from W instead.
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
+  set_weights(start.weights);
+  set_cell_dual(start.flux_density);
+  set_vertex_dual(start.vertex_dual_at(penalty_));
+  pass_cells(false, 0);
+  collect_divergence();
+  multigrid_.cycle(residual_.data());
+  pass_rows(loops_.correct);
+  for (std::size_t k = 0; k < W_.size(); ++k) {
+    W_[k] = 2 * W_[k] - a_[k];
+  }
+  pass_rows(loops_.w_step);
+}
+
+// A vertex's numbers for all control points, zero where it is not active.
+template <class Scalar, int Dim>
+template <class NumberAt>
+Eigen::VectorXd ActiveSplitting<Scalar, Dim>::spread(Index vertex,
+                                                              const NumberAt& number_at) const {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
+  const Index row = data_.row_of[vertex];
+  const std::size_t start = lists_.starts[row];
+  for (Index j = 0; j < lists_.counts[row]; ++j) {
+    numbers[lists_.items[start + j]] = number_at(start + j);
+  }
+  return numbers;
+}
+
+// Boundary values are known better than single precision holds them.
+template <class Scalar, int Dim>
+SparseWeights ActiveSplitting<Scalar, Dim>::sparse_weights() const {
+  std::vector<std::int64_t> starts{0};
+  std::vector<std::uint32_t> control_points;
+  std::vector<double> values;
+  const auto add = [&](Index i, double weight) {
+    if (weight == 0) return;
+    control_points.push_back(static_cast<std::uint32_t>(i));
+    values.push_back(weight);
+  };
+  Eigen::VectorXd given(n_);
+  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
+    const auto list = active_.of(v);
+    if (problem_.boundary.is_interior(v)) {
+      Index place = 0;
+      for (const ControlPoint i : list) add(i, weight(v, place++));
+    } else {
+      given.setZero();
+      problem_.boundary.scatter(problem_.boundary.boundary_index[v], given);
+      for (const ControlPoint i : list) add(i, given[i]);
+    }
+    starts.push_back(static_cast<std::int64_t>(values.size()));
+  }
+  return {n_, std::move(starts), std::move(control_points), std::move(values)};
+}
+
+template <class Scalar, int Dim>
+Start<Dim> ActiveSplitting<Scalar, Dim>::state() const {
+  Start<Dim> state;
+  state.penalty = penalty_;
+  state.weights = [this](Index v) {
+    return spread(v, [&](std::size_t place) { return weight_at(place); });
+  };
+  state.flux_density = [this](Index s) { return flux_density(s); };
+  if (has_vertex_dual()) state.vertex_dual = [this](Index v) { return vertex_dual_at(v); };
+  return state;
+}
+
+template <class Scalar, int Dim>
+Eigen::VectorXd ActiveSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
+  return spread(vertex, [&](std::size_t place) {
+    const double difference =
+        static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
+    return (S_[place] - 0.5 * difference) / sigma();
+  });
+}
+
+template <class Scalar, int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> ActiveSplitting<Scalar, Dim>::flux_density(
+    Index cell) const {
+  if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
+      Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n_, Dim);
+  const Index k = patches_.place_of_cell[cell];
+  const Patch& patch = patches_.patches[k / kPatchCells];
+  AlignedArray<Scalar> rows(Dim * patch.stride);
+  const std::size_t first = patch.first_number + (k - patch.first_cell) * patch.stride;
+  loops_.decode(P_.data(), Dim * first, rows.data(), Dim * patch.stride);
+  const double scale = 1 / compact::dual_scale(problem_, metric_, unit_, cell);
+  for (std::size_t j = 0; j < patch.stride; ++j) {
+    const Index i = patches_.items[patch.first_item + j];
+    if (i >= n_) break;
+    for (int d = 0; d < Dim; ++d) density(i, d) = scale * rows[d * patch.stride + j];
+  }
+  // Relaxed duals may be longer.
+  shorten_to(problem_.phi, cell, density);
+  return density;
+}
+
+template class ActiveSplitting<float, 2>;
+template class ActiveSplitting<float, 3>;
+template class ActiveSplitting<double, 2>;
+template class ActiveSplitting<double, 3>;
+
+}  // namespace flbc::active_set

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The compact splitting where weights are zero outside of given supports.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/sparse_weights.h"
+#include "solver/methods/splitting/compact_data.h"
+#include "solver/run/iteration.h"
+#include "solver/methods/active_set/cell_patches.h"
+#include "solver/methods/active_set/active_multigrid.h"
+
+namespace flbc::active_set {
+
+//! The iteration of compact_splitting.h for weights that vanish outside of the active set, where
+//! nothing is stored or computed. Its limit is the optimum among these, which is the optimum if the
+//! set contains the supports of the optimum. The linear step is ActiveMultigrid's; the units are
+//! those of compact_kernel.h. The set, the penalty and the precision are fixed.
+template <class Scalar, int Dim>
+class ActiveSplitting {
+ public:
+  //! \param metric  see splitting_data.h
+  //! \param penalty  rho > 0
+  //! \param relaxation  alpha in (0, 2)
+  //! \param half  whether P and the radii are stored in half precision
+  //! \param active  with weights for every vertex
+  ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
+                  double relaxation, bool half, ActiveLists active);
+
+  //! Starts from weights and duals that were found elsewhere.
+  void start(const Start<Dim>& start);
+
+  //! See CompactSplitting.
+  Step iterate(bool measure);
+
+  double penalty() const { return penalty_; }
+  bool stores_half() const { return loops_.bytes < sizeof(Scalar); }
+  const ActiveLists& active() const { return active_; }
+
+  //! w of an interior vertex, n numbers, zero where it is not active.
+  void read_weights(Index vertex, double* weights) const;
+
+  //! w at one place of an interior vertex's list of control points.
+  double weight(Index vertex, Index place) const {
+    return weight_at(lists_.starts[data_.row_of[vertex]] + place);
+  }
+
+  //! w of all V vertices.
+  SparseWeights sparse_weights() const;
+
+  //! Where other iterations can start: views of this one. Flux densities are zero where a pair is
+  //! not active.
+  Start<Dim> state() const;
+
+  //! p / A of a cell, n x Dim.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+
+  bool has_vertex_dual() const { return S_.size() > 0; }
+
+  //! q - w of an interior vertex, n numbers.
+  Eigen::VectorXd vertex_dual_at(Index vertex) const;
+
+  //! Numbers of state held per cell and control point, in units of the Scalar.
+  double state_scalars_per_cell() const;
+
+ private:
+  ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
+                  double relaxation, bool half, ActiveLists active, const RowMatrix& system);
+
+  using State = compact::Arrays<Scalar, Dim>;
+  using RowLoop = typename compact::Loops<Scalar, Dim>::RowLoop;
+
+  double sigma() const { return penalty_ * unit_; }
+  std::size_t num_interior_numbers() const { return lists_.starts[data_.vertices.size()]; }
+  Scalar weight_at(std::size_t place) const;
+  PackedLists lists_of_rows() const;
+  PointList<Dim> points_of_rows() const;
+  State patch_state(const Patch& patch);
+  State row_state(Index row);
+  double pass_cells(bool measures, double relaxation);
+  void collect_divergence();
+  compact::RowSums pass_rows(RowLoop loop);
+  template <class NumberAt>
+  Eigen::VectorXd spread(Index vertex, const NumberAt& number_at) const;
+  void set_weights(const VectorsAt<1>& weights);
+  void set_cell_dual(const VectorsAt<Dim>& flux_density);
+  void set_vertex_dual(const VectorsAt<1>& vertex_dual);
+
+  const LbcProblem<Dim>& problem_;
+  const compact::Loops<Scalar, Dim>& loops_;
+  const Kernel<Scalar, Dim>& list_kernel_;
+  const Index n_;
+  const splitting::Metric metric_;
+  const double unit_;  // u
+  const double penalty_;
+  const double relaxation_;
+  const ActiveLists active_;
+  // of the rows: interior ones in the order of the sweeps, then the boundary
+  SweepOrder order_;
+  compact::CompactData<Scalar, Dim> data_;
+  PackedLists lists_;
+  std::vector<Scalar> targets_;
+  AlignedArray<Scalar> bases_;
+  CellPatches<Scalar, Dim> patches_;
+  ActiveMultigrid<Scalar, Dim> multigrid_;
+  // state, by row and list; interior rows alone but for a
+  AlignedArray<Scalar> a_;
+  AlignedArray<Scalar> W_;
+  AlignedArray<Scalar> S_;
+  AlignedArray<Scalar> residual_;
+  AlignedArray<Scalar> difference_;
+  AlignedArray<Scalar> left_;
+  AlignedArray<unsigned char> P_;  // as the loops store numbers
+};
+
+}  // namespace flbc::active_set

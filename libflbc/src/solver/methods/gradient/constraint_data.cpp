@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/gradient/constraint_data.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "mesh/cell_geometry.h"
+#include "problem/barycentric_constraints.h"
+#include "solver/methods/gradient/gradient_kernel.h"
+
+namespace flbc::gradient {
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet) {
+  const auto point = [&](int k) {
+    return problem.mesh.points.col(problem.topology.facets(k, facet));
+  };
+  Eigen::Matrix<double, Dim, Dim - 1> tangents;
+  tangents.col(0) = (point(1) - point(0)).normalized();
+  if constexpr (Dim == 3) {
+    const Vector<3> edge = point(2) - point(0);
+    tangents.col(1) = (edge - tangents.col(0) * tangents.col(0).dot(edge)).normalized();
+  }
+  return tangents;
+}
+
+namespace {
+
+template <class Scalar, int Dim>
+void set_up_facets(const LbcProblem<Dim>& problem, std::size_t stride,
+                   ConstraintData<Scalar, Dim>& data) {
+  const Index num_facets = problem.topology.num_facets();
+  data.tangents.resize(static_cast<std::size_t>(num_facets) * (Dim - 1) * Dim);
+  data.boundary_index.assign(num_facets, -1);
+  Index num_boundary = 0;
+  for (Index f = 0; f < num_facets; ++f) {
+    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(data.tangents.data() + f * (Dim - 1) * Dim) =
+        tangent_basis(problem, f).template cast<Scalar>();
+    if (problem.topology.is_boundary(f)) data.boundary_index[f] = num_boundary++;
+  }
+  data.boundary_slope =
+      AlignedArray<Scalar>(static_cast<std::size_t>(num_boundary) * (Dim - 1) * stride);
+}
+
+// h of (9): the derivatives of the boundary values along the facet's tangents.
+template <class Scalar, int Dim>
+void set_up_boundary_slopes(const LbcProblem<Dim>& problem, std::size_t stride,
+                            ConstraintData<Scalar, Dim>& data) {
+  const Index n = problem.num_control_points();
+  const auto& facets = problem.topology.facets;
+  Eigen::MatrixXd corner_weights(n, Dim);
+  for (Index f = 0; f < problem.topology.num_facets(); ++f) {
+    if (data.boundary_index[f] < 0) continue;
+    const auto tangents = tangent_basis(problem, f);
+    corner_weights.setZero();
+    Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
+    for (int k = 0; k < Dim; ++k) {
+      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)],
+                               corner_weights.col(k));
+      if (k == 0) continue;
+      edges.col(k - 1) = tangents.transpose() * (problem.mesh.points.col(facets(k, f)) -
+                                                 problem.mesh.points.col(facets(0, f)));
+    }
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> slopes =
+        (corner_weights.template rightCols<Dim - 1>().colwise() - corner_weights.col(0)) *
+        edges.inverse();
+    for (int t = 0; t < Dim - 1; ++t) {
+      for (Index i = 0; i < n; ++i) {
+        data.boundary_slope[(static_cast<std::size_t>(data.boundary_index[f]) * (Dim - 1) + t) *
+                                stride +
+                            i] = static_cast<Scalar>(slopes(i, t));
+      }
+    }
+  }
+}
+
+template <class Scalar, int Dim>
+void set_up_interpolation(const LbcProblem<Dim>& problem, std::size_t stride,
+                          ConstraintData<Scalar, Dim>& data) {
+  const Index n = problem.num_control_points();
+  const BarycentricConstraints<Dim> constraints(problem.cage.points);
+  data.basis = AlignedArray<Scalar>((Dim + 1) * stride);
+  data.target = AlignedArray<Scalar>(2 * kLanes);
+  const Eigen::Matrix<double, Dim + 1, Dim> target = constraints.gradient_target();
+  for (int k = 0; k <= Dim; ++k) {
+    for (Index i = 0; i < n; ++i) {
+      data.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
+    }
+    for (int d = 0; d < Dim; ++d)
+      data.target[d * (Dim + 1) + k] = static_cast<Scalar>(target(k, d));
+  }
+}
+
+// phi A / mu: the ball on which the Z-step projects.
+template <class Scalar, int Dim>
+void set_up_radii(const LbcProblem<Dim>& problem, double penalty, std::size_t stride,
+                  ConstraintData<Scalar, Dim>& data) {
+  const Index n = problem.num_control_points();
+  data.radius = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_cells()) * stride);
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const double scale = cell_geometry(problem.mesh, s).measure / penalty;
+    for (Index i = 0; i < n; ++i) {
+      data.radius[s * stride + i] = static_cast<Scalar>(scale * problem.phi(i, s));
+    }
+  }
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
+                                                 std::size_t stride) {
+  ConstraintData<Scalar, Dim> data;
+  set_up_facets(problem, stride, data);
+  set_up_boundary_slopes(problem, stride, data);
+  set_up_interpolation(problem, stride, data);
+  set_up_radii(problem, penalty, stride, data);
+  return data;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                               \
+  template ConstraintData<float, Dim> make_constraint_data(const LbcProblem<Dim>&, double,  \
+                                                           std::size_t);                    \
+  template ConstraintData<double, Dim> make_constraint_data(const LbcProblem<Dim>&, double, \
+                                                            std::size_t);                   \
+  template Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>&, Index);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::gradient

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/gradient/gradient_admm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/flush_denormals.h"
+#include "base/parallel.h"
+#include "mesh/cell_geometry.h"
+
+namespace flbc::gradient {
+namespace {
+
+// Calls `body(begin, end)` for blocks of [0, count) in parallel. Every step flushes denormal
+// numbers: they are slow, and steps that differed in this would not give the same bits.
+template <class Body>
+void parallel_blocks(Index count, const Body& body) {
+  parallel_sum(count, 0, [&](Index begin, Index end) {
+    const FlushDenormals scope;
+    body(begin, end);
+    return 0;
+  });
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double penalty,
+                                        double relaxation,
+                                        const std::vector<Period<Dim>>& periods)
+    : problem_(problem),
+      kernel_(select_kernel<Kernel<Scalar, Dim>>()),
+      n_(problem.num_control_points()),
+      stride_(padded(static_cast<std::size_t>(n_))),
+      penalty_(penalty),
+      relaxation_(relaxation),
+      num_periods_(periods.size()),
+      M_(Dim + 2 + static_cast<double>(periods.size())) {
+  const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
+  const auto facets = static_cast<std::size_t>(problem.topology.num_facets());
+  gradient_ = AlignedArray<Scalar>(cells * Dim * stride_);
+  extrapolated_ = AlignedArray<Scalar>(cells * Dim * stride_);
+  tv_dual_ = AlignedArray<Scalar>(cells * Dim * stride_);
+  facet_dual_ = AlignedArray<Scalar>(facets * (Dim - 1) * stride_);
+  data_ = make_constraint_data<Scalar>(problem, penalty, stride_);
+  set_up_periods(periods);
+  sweep_ = make_sweep(problem.mesh, problem.topology, omp_get_max_threads());
+  for (const auto& part : sweep_.parts) {
+    slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
+  }
+  cell_change_.resize(cells);
+  facet_change_.resize(facets);
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::set_up_periods(const std::vector<Period<Dim>>& periods) {
+  period_dual_ = AlignedArray<Scalar>(periods.size() * stride_);
+  period_values_ = AlignedArray<double>(periods.size() * stride_);
+  for (std::size_t p = 0; p < periods.size(); ++p) {
+    for (const double number : periods[p].field.reshaped()) {
+      period_fields_.push_back(static_cast<Scalar>(number));
+    }
+    for (Index i = 0; i < n_; ++i) period_values_[p * stride_ + i] = periods[p].values[i];
+  }
+}
+
+// The period constraints' dual step. The field has norm 1, so the dual grows by the violation.
+template <class Scalar, int Dim>
+double GradientAdmm<Scalar, Dim>::update_periods() {
+  double change = 0;
+  const Index num_cells = problem_.mesh.num_cells();
+  for (std::size_t p = 0; p < num_periods_; ++p) {
+    const Scalar* fields = period_fields_.data() + p * num_cells * Dim;
+    const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(stride_));
+    const Eigen::ArrayXd sums = parallel_sum(num_cells, zero, [&](Index begin, Index end) {
+      Eigen::ArrayXd sum = zero;
+      for (Index row = begin * Dim; row < end * Dim; ++row) {
+        const Scalar* gradients = extrapolated_.data() + row * stride_;
+        for (std::size_t i = 0; i < stride_; ++i) {
+          sum[i] += static_cast<double>(fields[row]) * static_cast<double>(gradients[i]);
+        }
+      }
+      return sum;
+    });
+    for (std::size_t i = 0; i < stride_; ++i) {
+      const double step = period_values_[p * stride_ + i] - sums[i];
+      period_dual_[p * stride_ + i] += static_cast<Scalar>(relaxation_ * step);
+      change += step * step;
+    }
+  }
+  return change;
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::start_from_least_norm() {
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    for (int d = 0; d < Dim; ++d) {
+      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
+      for (std::size_t i = 0; i < stride_; ++i) {
+        Scalar value = 0;
+        for (int k = 0; k <= Dim; ++k)
+          value += data_.target[d * (Dim + 1) + k] * data_.basis[k * stride_ + i];
+        gradient_[row + i] = extrapolated_[row + i] = value;
+      }
+    }
+  }
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    const auto gradient =
+        weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights);
+    for (int d = 0; d < Dim; ++d) {
+      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
+      for (Index i = 0; i < n_; ++i) {
+        gradient_[row + i] = extrapolated_[row + i] = static_cast<Scalar>(gradient(i, d));
+      }
+    }
+  }
+}
+
+// A sweep takes the G-step of one iteration and the duals of the next one together. Periods need a
+// sum over all cells in between.
+template <class Scalar, int Dim>
+Change GradientAdmm<Scalar, Dim>::iterate(int count) {
+  const auto arrays = make_arrays();
+  if (num_periods_ > 0) {
+    Change change;
+    for (int k = 0; k < count; ++k) {
+      xyz_steps(arrays);
+      const double period_change = update_periods();
+      change = g_step(arrays);
+      change.dual = noted_change() + period_change;
+    }
+    return change;
+  }
+  xyz_steps(arrays);
+  for (int k = 1; k < count; ++k) sweep(arrays, k == count - 1);
+  Change change = g_step(arrays);
+  change.dual = noted_change();
+  return change;
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::xyz_steps(const Arrays<Scalar, Dim>& arrays) {
+  parallel_blocks(problem_.topology.num_facets(),
+                  [&](Index begin, Index end) { kernel_.xy_step(arrays, begin, end); });
+  parallel_blocks(problem_.mesh.num_cells(),
+                  [&](Index begin, Index end) { kernel_.z_step(arrays, begin, end); });
+}
+
+template <class Scalar, int Dim>
+Change GradientAdmm<Scalar, Dim>::g_step(const Arrays<Scalar, Dim>& arrays) {
+  return parallel_sum(problem_.mesh.num_cells(), Change{}, [&](Index begin, Index end) {
+    const FlushDenormals scope;
+    return kernel_.g_step(arrays, begin, end);
+  });
+}
+
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool note) {
+  const auto num_parts = static_cast<Index>(sweep_.parts.size());
+#pragma omp parallel for schedule(static, 1) if (num_parts > 1)
+  for (Index p = 0; p < num_parts; ++p) {
+    const FlushDenormals scope;
+    const auto path = sweep_.parts[p].path();
+    note ? kernel_.sweep_and_note(arrays, path) : kernel_.sweep(arrays, path, slots_[p].data());
+  }
+  parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
+    kernel_.listed_xy_step(arrays, sweep_.seams.data() + begin, end - begin, note);
+  });
+}
+
+template <class Scalar, int Dim>
+double GradientAdmm<Scalar, Dim>::noted_change() const {
+  const auto sum_of = [](const std::vector<double>& changes) {
+    return parallel_sum(static_cast<Index>(changes.size()), 0.0, [&](Index begin, Index end) {
+      return std::accumulate(changes.begin() + begin, changes.begin() + end, 0.0);
+    });
+  };
+  return sum_of(facet_change_) + sum_of(cell_change_);
+}
+
+template <class Scalar, int Dim>
+Residuals GradientAdmm<Scalar, Dim>::residuals(const Change& change) const {
+  // The paper's duals, stepped with the new G, differ from the ones kept here by G_before - G, and
+  // that difference is orthogonal to what the G-step leaves (docs/method.md): Pythagoras.
+  const double primal = relaxation_ == 1 ? change.dual - M_ * change.lead : change.dual;
+  return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
+}
+
+template <class Scalar, int Dim>
+double GradientAdmm<Scalar, Dim>::num_residual_components() const {
+  return static_cast<double>(n_) * Dim * M_ * problem_.mesh.num_cells();
+}
+
+template <class Scalar, int Dim>
+CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() const {
+  using Rows = Eigen::Map<Eigen::Array<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>>;
+  using ConstRows = Eigen::Map<const Eigen::Array<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>>;
+  using ConstRow = Eigen::Map<const Eigen::Array<Scalar, 1, Eigen::Dynamic>>;
+  const auto columns = static_cast<Eigen::Index>(stride_);
+  flux_ = AlignedArray<Scalar>(tv_dual_.size());
+#pragma omp parallel for schedule(static)
+  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+    const std::size_t block = static_cast<std::size_t>(s) * Dim * stride_;
+    Rows flux(flux_.data() + block, Dim, columns);
+    flux = ConstRows(extrapolated_.data() + block, Dim, columns) -
+           ConstRows(tv_dual_.data() + block, Dim, columns);
+    const auto length =
+        flux.square().colwise().sum().sqrt().max(std::numeric_limits<Scalar>::min());
+    const ConstRow radius(data_.radius.data() + s * stride_, columns);
+    const Eigen::Array<Scalar, 1, Eigen::Dynamic> shrink =
+        static_cast<Scalar>(penalty_) * (radius / length).min(Scalar(1));
+    flux.rowwise() *= shrink;
+  }
+  return {flux_.data(), stride_, n_};
+}
+
+template <class Scalar, int Dim>
+double GradientAdmm<Scalar, Dim>::state_scalars_per_cell() const {
+  const std::size_t numbers =
+      gradient_.size() + extrapolated_.size() + tv_dual_.size() + facet_dual_.size();
+  return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
+}
+
+template <class Scalar, int Dim>
+Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
+  Arrays<Scalar, Dim> arrays;
+  arrays.stride = stride_;
+  arrays.gradient = gradient_.data();
+  arrays.extrapolated = extrapolated_.data();
+  arrays.tv_dual = tv_dual_.data();
+  arrays.period_dual = period_dual_.data();
+  arrays.facet_dual = facet_dual_.data();
+  arrays.cell_change = cell_change_.data();
+  arrays.facet_change = facet_change_.data();
+  arrays.radius = data_.radius.data();
+  arrays.boundary_slope = data_.boundary_slope.data();
+  arrays.tangents = data_.tangents.data();
+  arrays.sides = problem_.topology.sides.data();
+  arrays.boundary_index = data_.boundary_index.data();
+  arrays.cell_facets = problem_.topology.cell_facets.data();
+  arrays.period_fields = period_fields_.data();
+  arrays.num_periods = num_periods_;
+  arrays.num_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
+  arrays.inverse_M = static_cast<Scalar>(1 / M_);
+  arrays.basis = data_.basis.data();
+  arrays.target = data_.target.data();
+  arrays.relaxation = static_cast<Scalar>(relaxation_);
+  return arrays;
+}
+
+template class GradientAdmm<float, 2>;
+template class GradientAdmm<float, 3>;
+template class GradientAdmm<double, 2>;
+template class GradientAdmm<double, 3>;
+
+}  // namespace flbc::gradient

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/method_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "flbc/harmonic.h"
+#include "flbc/mean_value.h"
+#include "mesh/cell_geometry.h"
+#include "solver/methods/active_set/active_set.h"
+#include "solver/methods/gradient/gradient_iteration.h"
+#include "solver/methods/splitting/compact_splitting.h"
+#include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
+#include "solver/run/run.h"
+
+namespace flbc {
+namespace {
+
+template <int Dim>
+Origin origin_of(const Transfer<Dim>* from) {
+  if (from == nullptr) return Origin::kCold;
+  return from->is_between_shapes() ? Origin::kNearby : Origin::kCoarserMesh;
+}
+
+template <int Dim>
+double size_of(const LbcProblem<Dim>& problem) {
+  return bounding_box_diagonal(problem.cage.points);
+}
+
+// The sum of squared measures over the sum of measures.
+template <int Dim>
+double typical_measure(const LbcProblem<Dim>& problem) {
+  const Eigen::VectorXd measures = cell_measures(problem.mesh);
+  return measures.squaredNorm() / measures.sum();
+}
+
+template <int Dim>
+splitting::Metric metric_of(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  return splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
+}
+
+template <template <class, int> class Method, int Dim, class... Arguments>
+std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Dim>& problem,
+                                        Arguments&&... arguments) {
+  if (precision == Precision::kDouble) {
+    return std::make_unique<Method<double, Dim>>(problem, std::forward<Arguments>(arguments)...);
+  }
+  return std::make_unique<Method<float, Dim>>(problem, std::forward<Arguments>(arguments)...);
+}
+
+// Method::kValue on all pairs. \param start  cold or not
+template <int Dim>
+std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
+                                           const SolverOptions& options, double penalty,
+                                           bool half) {
+  compact::Settings settings;
+  settings.penalty = penalty;
+  settings.relaxation = *options.relaxation;
+  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
+  settings.half = half && plan::half_precision(problem.mesh.num_cells(), options);
+  settings.balances = !options.penalty;
+  return make_in<compact::CompactSplitting>(options.precision, problem,
+                                            metric_of(problem, options), settings);
+}
+
+// Method::kLbc2014: the augmented Lagrangian of (2), in which a cell weighs its squared measure. A
+// penalty that is given is all there is to it, and W = w weighs as much as every other constraint.
+// Otherwise penalty and weight of W = w act on average as those of kValue.
+template <int Dim>
+std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
+                                             const SolverOptions& options) {
+  const bool chosen = !options.penalty;
+  const double measure = typical_measure(problem);
+  const auto like_value = metric_of(problem, options);
+  double vertex_weight = 0;
+  if (like_value.vertex.size() > 0) {
+    vertex_weight = chosen ? measure * like_value.vertex.mean() : 1;
+  }
+  compact::Settings settings;
+  settings.penalty = chosen ? plan::kLbc2014Penalty * size_of(problem) / measure : *options.penalty;
+  settings.relaxation = *options.relaxation;
+  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
+  // Where W = w weighs much, the factor there is takes hundreds of solves to harmonic coordinates.
+  settings.harmonic_cold = !chosen;
+  settings.paper_residuals = true;
+  return make_in<compact::CompactSplitting>(
+      options.precision, problem, splitting::squared_measure_metric(problem, vertex_weight),
+      settings);
+}
+
+template <int Dim>
+double gradient_penalty(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  if (options.penalty) return *options.penalty;
+  if (options.method == Method::kPaper) return plan::published_gradient_penalty(Dim);
+  const double length = std::pow(typical_measure(problem), 1.0 / Dim);
+  const double size = size_of(problem);
+  return plan::gradient_penalty(Dim) * size * size * std::pow(length, Dim - 1);
+}
+
+template <int Dim>
+std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
+                                              const SolverOptions& options) {
+  gradient::Settings settings;
+  settings.penalty = gradient_penalty(problem, options);
+  settings.relaxation = *options.relaxation;
+  settings.harmonic =
+      options.method == Method::kGradient && options.linear_solver != LinearSolver::kNone;
+  settings.recovery = options.gradient.recovery;
+  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
+  return make_in<gradient::GradientIteration>(options.precision, problem, settings);
+}
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOptions& options,
+                                                              Origin origin) const {
+  switch (options.method) {
+    case Method::kValue:
+      return std::make_unique<EstimatedError<Dim>>(*problem_, options, origin);
+    case Method::kGradient:
+      return std::make_unique<RecoveredError<Dim>>(*problem_, options, origin);
+    default:
+      return std::make_unique<Residuals<Dim>>(options);
+  }
+}
+
+// \return whether an active set pays
+template <int Dim>
+bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
+                                         const WarmStart<Dim>& start) {
+  const auto sizes = plan::sizes_of(*problem_);
+  if (!plan::active_set(sizes, options)) return false;
+  const bool cold = start.from == nullptr;
+  active_set::ColdStart<Dim> harmonic;
+  if (cold) {
+    harmonic = start.cold != nullptr
+                   ? *start.cold
+                   : active_set::cold_start(*problem_, plan::linear_solver(sizes, options));
+  }
+  auto active = cold ? std::move(harmonic.active)
+                     : active_set::active_from(*problem_, *start.from,
+                                               active_set::threshold_for(*options.tolerance));
+  if (!plan::active_set_pays(active_set::density(*problem_, active), options)) return false;
+  const auto from = cold ? harmonic.state() : start.from->start();
+  active_set::Settings settings;
+  settings.penalty = options.penalty ? *options.penalty
+                     : cold          ? plan::first_penalty(size_of(*problem_))
+                                     : from.penalty;
+  settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
+  settings.relaxation = *options.relaxation;
+  settings.tolerance = *options.tolerance;
+  settings.half = plan::half_precision(problem_->mesh.num_cells(), options);
+  settings.balances = cold && !options.penalty;
+  iteration_ = make_in<active_set::ActiveSet>(options.precision, *problem_,
+                                              metric_of(*problem_, options), settings,
+                                              std::move(active));
+  iteration_->start(from);
+  is_active_ = true;
+  return true;
+}
+
+template <int Dim>
+void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& start) {
+  if (begin_on_active_set(options, start)) return;
+  if (options.method == Method::kValue) {
+    const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
+    const double penalty = options.penalty   ? *options.penalty
+                           : from.is_cold() ? plan::first_penalty(size_of(*problem_))
+                                            : from.penalty;
+    iteration_ = make_value(*problem_, options, penalty, true);
+    iteration_->start(from);
+    return;
+  }
+  iteration_ = options.method == Method::kLbc2014 ? make_lbc2014(*problem_, options)
+                                                  : make_gradient(*problem_, options);
+  iteration_->start({});
+}
+
+// The penalty of the active set's state is that of all pairs.
+template <int Dim>
+void MethodRun<Dim>::continue_on_all_pairs(const SolverOptions& options) {
+  const auto from = iteration_->state();
+  auto all = make_value(*problem_, options, options.penalty.value_or(from.penalty), false);
+  all->start(from);
+  iteration_ = std::move(all);
+  is_active_ = false;
+}
+
+template <int Dim>
+Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& reporter,
+                                SolveReport& report, WarmStart<Dim> start) {
+  Stopwatch watch;
+  constexpr int kNever = std::numeric_limits<int>::max();
+  const bool begins = !iteration_;
+  const auto stop = make_stop_rule(options, origin_of(start.from));
+  GapCriterion gap(*options.gap);
+  const RunContext<Dim> context{*problem_, options, *stop, gap, reporter};
+  if (begins) begin(options, start);
+  if (start.started) start.started();
+  int last = kNever;
+  if (begins && is_active_ && start.from == nullptr) {
+    stop->not_before(plan::kUntilDualsAreThere);
+    if (start.for_finer_mesh) last = plan::kUntilDualsAreThere;
+  }
+  // Certificates need the duals of all pairs.
+  const int certified = is_active_ && *options.gap > 0 ? plan::kFirstCertified - 1 : kNever;
+  bool ended = run(*iteration_, context, report, std::min(last, certified));
+  iteration_->describe(report);
+  if (report.iterations == last) ended = true;
+  if (is_active_ && (!ended || options.certify)) {
+    continue_on_all_pairs(options);
+    stop->not_before(report.iterations + plan::kUntilDualsAreThere);
+    run(*iteration_, context, report);
+    const auto active_set = report.active_set;
+    iteration_->describe(report);
+    report.active_set = active_set;
+  }
+  report.seconds.solve = watch.lap();
+  auto weights = iteration_->weights();
+  report.seconds.recover = watch.lap();
+  return weights;
+}
+
+template <int Dim>
+Weights MethodRun<Dim>::solve(const SolverOptions& given, const Reporter& reporter,
+                              SolveReport& report, WarmStart<Dim> start) {
+  Stopwatch watch;
+  report = {};
+  report.method = given.method;
+  report.control_points = problem_->num_control_points();
+  report.vertices = problem_->mesh.num_vertices();
+  report.cells = problem_->mesh.num_cells();
+  const double unit = plan::penalty_unit(given.method, Dim, size_of(*problem_));
+  auto options = given;
+  if (options.penalty) *options.penalty *= unit;
+  require_finite(std::isfinite(options.penalty.value_or(0)), report);
+  Weights weights;
+  if (options.method == Method::kHarmonic) {
+    weights.dense = harmonic_coordinates(*problem_);
+  } else if (options.method == Method::kMeanValue) {
+    weights.dense = mean_value_coordinates(problem_->cage, problem_->mesh.points);
+  } else {
+    weights = iterate(options, reporter, report, std::move(start));
+  }
+  require_finite(weights.is_sparse() || weights.dense.allFinite(), report);
+  if (!iteration_) report.seconds.solve = watch.lap();
+  report.published_penalty = report.penalty;
+  report.penalty /= unit;
+  return weights;
+}
+
+template <int Dim>
+Duals<Dim> MethodRun<Dim>::duals(double least_weight) const {
+  auto state = iteration_->state();
+  if (least_weight > 0 && !is_active_) {
+    state.flux_density = active_set::where_weights_are(*problem_, state, least_weight);
+  }
+  return keep(*problem_, state);
+}
+
+template class MethodRun<2>;
+template class MethodRun<3>;
+
+}  // namespace flbc

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/splitting/compact_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/cell_geometry.h"
+#include "problem/boundary_flux.h"
+
+namespace flbc::compact {
+namespace {
+
+// Interior vertices in the factor's order, then the boundary.
+template <class Scalar, int Dim>
+void set_up_rows(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                 const std::vector<Index>& position, CompactData<Scalar, Dim>& data) {
+  data.vertices.resize(position.size());
+  data.row_of.resize(problem.mesh.num_vertices());
+  Index unknown = 0;
+  for (const Index v : problem.boundary.interior_vertices()) {
+    data.row_of[v] = position[unknown++];
+    data.vertices[data.row_of[v]] = v;
+  }
+  for (std::size_t b = 0; b < problem.boundary.vertices.size(); ++b) {
+    data.row_of[problem.boundary.vertices[b]] = static_cast<Index>(position.size() + b);
+  }
+  if (metric.vertex.size() == 0) return;
+  for (const Index v : data.vertices) {
+    data.vertex_metric.push_back(static_cast<Scalar>(metric.vertex[v]));
+  }
+}
+
+// Squared length of the dual p of a boundary cell.
+template <int Dim>
+double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
+  const double measure = cell_geometry(problem.mesh, s).measure;
+  return measure * measure * boundary_flux_density(problem, s).squaredNorm();
+}
+
+// Moves interior corners to the front, in their order; std::stable_partition asks for memory.
+template <std::size_t N, class Predicate>
+void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
+  auto end = corners.begin();
+  for (auto corner = corners.begin(); corner != corners.end(); ++corner) {
+    if (is_inside(*corner)) std::rotate(end++, corner, corner + 1);
+  }
+}
+
+// Cells all of whose corners lie on the boundary have nothing to say about the weights.
+template <class Scalar, int Dim>
+void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+                  CompactData<Scalar, Dim>& data) {
+  const auto num_interior = static_cast<Index>(data.vertices.size());
+  const auto row_of = [&](int k, Index s) { return data.row_of[problem.mesh.cells(k, s)]; };
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    if (is_boundary_cell(problem, s)) {
+      data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
+    } else {
+      data.cell_index.push_back(s);
+    }
+  }
+  data.cells.resize(data.cell_index.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t place = 0; place < data.cells.size(); ++place) {
+    const Index s = data.cell_index[place];
+    std::array<int, Dim + 1> corners;
+    std::iota(corners.begin(), corners.end(), 0);
+    inner_first(corners, [&](int k) { return row_of(k, s) < num_interior; });
+    const auto hats = cell_geometry(problem.mesh, s).hat_gradients;
+    const double root = std::sqrt(metric.cell[s]);
+    auto& cell = data.cells[place];
+    for (int k = 0; k <= Dim; ++k) {
+      cell.rows[k] = row_of(corners[k], s);
+      for (int d = 0; d < Dim; ++d) {
+        cell.hats[k][d] = static_cast<Scalar>(root * hats(d, corners[k]));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric) {
+  constexpr double kTypical = 8;
+  constexpr double kLargest = 1000;
+  const Eigen::ArrayXd radii2 = cell_measures(problem.mesh).array().square() / metric.cell.array();
+  return std::min(kTypical / std::sqrt(radii2.mean()), kLargest / std::sqrt(radii2.maxCoeff()));
+}
+
+template <class Scalar, int Dim>
+CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
+                                                     const splitting::Metric& metric,
+                                                     const std::vector<Index>& position,
+                                                     double unit) {
+  CompactData<Scalar, Dim> data;
+  set_up_rows(problem, metric, position, data);
+  set_up_cells(problem, metric, unit, data);
+  return data;
+}
+
+template <class Scalar, int Dim>
+CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>& problem,
+                                           const splitting::Metric& metric,
+                                           const std::vector<Index>& position, double unit,
+                                           std::size_t stride) {
+  auto data = make_rows_and_cells<Scalar>(problem, metric, position, unit);
+  data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, stride);
+  return data;
+}
+
+template <class Scalar, int Dim>
+void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+               const splitting::ColumnSlices& slices, const Loops<Scalar, Dim>& loops,
+               CompactData<Scalar, Dim>& data) {
+  const Index n = problem.num_control_points();
+  data.radius = AlignedArray<unsigned char>(data.cells.size() * slices.stride() * loops.bytes);
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> row(slices.stride());
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < data.cells.size(); ++k) {
+      const Index s = data.cell_index[k];
+      const double scale = dual_scale(problem, metric, unit, s);
+      const Eigen::VectorXd phi = problem.phi.col(s);
+      for (Index i = 0; i < n; ++i) {
+        row[i] = static_cast<Scalar>(scale * std::max(phi[i], kSmallestPhi));
+      }
+      slices.for_each(k, data.cells.size(),
+                      [&](std::size_t begin, std::size_t width, std::size_t place) {
+                        loops.encode(row.data() + begin, data.radius.data(), place, width);
+                      });
+    }
+  }
+}
+
+template double radius_unit(const LbcProblem<2>&, const splitting::Metric&);
+template double radius_unit(const LbcProblem<3>&, const splitting::Metric&);
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                         \
+  template CompactData<Scalar, Dim> make_rows_and_cells(                                      \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double);   \
+  template CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>&,                 \
+                                                      const splitting::Metric&,               \
+                                                      const std::vector<Index>&, double,      \
+                                                      std::size_t);                           \
+  template void set_radii(const LbcProblem<Dim>&, const splitting::Metric&, double,           \
+                          const splitting::ColumnSlices&, const Loops<Scalar, Dim>&,          \
+                          CompactData<Scalar, Dim>&);
+FLBC_INSTANTIATE(float, 2)
+FLBC_INSTANTIATE(float, 3)
+FLBC_INSTANTIATE(double, 2)
+FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::compact

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What stays the same during the compact splitting, as the inner loops want it.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "flbc/lbc_problem.h"
+#include "mesh/cell_geometry.h"
+#include "solver/methods/splitting/column_slices.h"
+#include "solver/methods/splitting/compact_kernel.h"
+#include "solver/methods/splitting/metric.h"
+
+namespace flbc::compact {
+
+//! Arrays of compact_kernel.h, with the shapes given there.
+template <class Scalar, int Dim>
+struct CompactData {
+  std::vector<Index> vertices;  // interior vertices in the factor's order
+  std::vector<Index> row_of;    // V: the row of a vertex; the boundary follows the interior
+  std::vector<Cell<Scalar, Dim>> cells;
+  std::vector<Index> cell_index;
+  AlignedArray<unsigned char> radius;  // as the loops store numbers
+  double boundary_dual2 = 0;          // squared radii of the cells without interior corners
+  std::vector<Scalar> vertex_metric;  // empty: w may be negative
+  splitting::RowConstraints<Scalar, Dim> constraints;
+};
+
+//! u, by which radii are of about 8, and of no more than 1000: they keep P within half precision.
+template <int Dim>
+double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric);
+
+//! P of a cell relative to its flux density p / A, u A / sqrt(m); times phi it is the radius.
+template <int Dim>
+double dual_scale(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+                  Index cell) {
+  return unit * cell_geometry(problem.mesh, cell).measure / std::sqrt(metric.cell[cell]);
+}
+
+//! A cell's phi may be as good as zero, which must not take radii into the denormal range.
+constexpr double kSmallestPhi = 1e-10;
+
+//! Rows and cells alone. \param position  the row of every unknown in the linear solver's arrays
+//! \param unit  as below
+template <class Scalar, int Dim>
+CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
+                                                     const splitting::Metric& metric,
+                                                     const std::vector<Index>& position,
+                                                     double unit);
+
+//! \param position  the row of every unknown in the linear solver's arrays
+//! \param unit  u: a radius is u phi A / sqrt(m)
+//! \return all but the radii
+template <class Scalar, int Dim>
+CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>& problem,
+                                           const splitting::Metric& metric,
+                                           const std::vector<Index>& position, double unit,
+                                           std::size_t stride);
+
+//! The radii in slices, as the loops store them.
+template <class Scalar, int Dim>
+void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+               const splitting::ColumnSlices& slices, const Loops<Scalar, Dim>& loops,
+               CompactData<Scalar, Dim>& data);
+
+}  // namespace flbc::compact

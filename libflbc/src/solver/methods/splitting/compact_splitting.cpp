@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/methods/splitting/compact_splitting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <omp.h>
+
+#include "base/flush_denormals.h"
+#include "base/padded_rows.h"
+#include "flbc/bounding_box.h"
+#include "flbc/harmonic.h"
+#include "mesh/cell_geometry.h"
+#include "problem/boundary_flux.h"
+#include "solver/plan/constants.h"
+#include "solver/start/flux_length.h"
+
+namespace flbc::compact {
+namespace {
+
+constexpr Index kRowBlock = 256;
+
+}  // namespace
+
+template <class Scalar, int Dim>
+CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
+                                                splitting::Metric metric, const Settings& settings,
+                                                const Kernel<Scalar, Dim>& kernel)
+    : problem_(problem),
+      kernel_(kernel),
+      loops_(settings.half ? &kernel.half : &kernel.exact),
+      settings_(settings),
+      n_(problem.num_control_points()),
+      stride_(padded(static_cast<std::size_t>(n_))),
+      slices_(stride_, omp_get_max_threads()),
+      metric_(std::move(metric)),
+      unit_(radius_unit(problem, metric_)),
+      penalty_(settings.penalty),
+      solver_(splitting::system_matrix(problem, metric_), stride_, settings.linear_solver),
+      data_(make_compact_data<Scalar>(problem, metric_, solver_.position(), unit_, stride_)) {
+  set_radii(problem, metric_, unit_, slices_, *loops_, data_);
+  const std::size_t interior = data_.vertices.size();
+  a_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_);
+  W_ = AlignedArray<Scalar>(interior * stride_);
+  if (metric_.vertex.size() > 0) S_ = AlignedArray<Scalar>(interior * stride_);
+  P_ = AlignedArray<unsigned char>(data_.cells.size() * Dim * stride_ * loops_->bytes);
+  residual_ = AlignedArray<Scalar>(interior * stride_);
+}
+
+template <class Scalar, int Dim>
+Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
+  State arrays;
+  arrays.stride = stride_;
+  arrays.cell_stride = stride_;
+  arrays.num_cells = data_.cells.size();
+  arrays.num_interior = data_.vertices.size();
+  arrays.extrapolated = a_.data();
+  arrays.relaxed = W_.data();
+  arrays.vertex_dual = S_.data();
+  arrays.cell_dual = P_.data();
+  arrays.residual = residual_.data();
+  arrays.violation = violation_.data();
+  arrays.violation_sum = violation_sum_.data();
+  arrays.cells = data_.cells.data();
+  arrays.cell_index = data_.cell_index.data();
+  arrays.radius = data_.radius.data();
+  arrays.vertex_metric = data_.vertex_metric.data();
+  arrays.basis = data_.constraints.basis.data();
+  arrays.row_target = data_.constraints.target.data();
+  arrays.difference = difference_.data();
+  arrays.sigma = static_cast<Scalar>(sigma());
+  arrays.relaxation = static_cast<Scalar>(settings_.relaxation);
+  return arrays;
+}
+
+template <class Scalar, int Dim>
+Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::in_slice(State state, Slice slice) const {
+  const std::size_t bytes = loops_->bytes;
+  state.cell_stride = slices_.stride_of(slice);
+  state.cell_dual = static_cast<unsigned char*>(state.cell_dual) +
+                    bytes * slices_.offset_of(slice, state.num_cells * Dim);
+  state.radius = static_cast<const unsigned char*>(state.radius) +
+                 bytes * slices_.offset_of(slice, state.num_cells);
+  return state;
+}
+
+// Calls `body` for each slice of control points; to be called by all threads of a team.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::for_slices(
+    const State& state, const std::function<void(const State&, Columns)>& body) const {
+  const FlushDenormals flush;
+#pragma omp for schedule(static, 1)
+  for (std::size_t k = 0; k < slices_.size(); ++k) {
+    body(in_slice(state, slices_[k]), Columns{slices_[k].begin, slices_[k].end});
+  }
+}
+
+// One pass: each thread takes its slice of control points through the cells and the linear system,
+// then its share of the rows. Without a loop over cells there is no solve either.
+template <class Scalar, int Dim>
+RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells, RowLoop rows) {
+  const auto num_rows = static_cast<Index>(data_.vertices.size());
+  std::vector<RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
+#pragma omp parallel
+  {
+    const FlushDenormals flush;
+    if (cells != nullptr) {
+      for_slices(state, [&](const State& slice, Columns columns) {
+        cells(slice, columns);
+        solver_.solve_slice(residual_.data(), stride_, columns.begin, columns.end);
+      });
+    }
+#pragma omp for schedule(static)
+    for (std::size_t block = 0; block < parts.size(); ++block) {
+      const Index begin = static_cast<Index>(block) * kRowBlock;
+      parts[block] = rows(state, begin, std::min(num_rows, begin + kRowBlock));
+    }
+  }
+  RowSums sums;
+  for (const RowSums& part : parts) {
+    sums.change += part.change;
+    sums.violation += part.violation;
+  }
+  return sums;
+}
+
+template <class Scalar, int Dim>
+Step CompactSplitting<Scalar, Dim>::iterate(int count, bool measure) {
+  Step step;
+  for (int k = 1; k <= count; ++k) {
+    ++made_;
+    const bool balances =
+        balances_ && std::find(std::begin(plan::kBalancedAfter), std::end(plan::kBalancedAfter),
+                               made_) != std::end(plan::kBalancedAfter);
+    step = balances ? iterate_and_adapt(plan::kBalance,
+                                        plan::largest_penalty(
+                                            bounding_box_diagonal(problem_.cage.points)))
+                    : iterate_once(measure && k == count);
+  }
+  return step;
+}
+
+// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step.
+template <class Scalar, int Dim>
+Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure) {
+  const double scale = 1 / (sigma() * sigma());
+  if (!measure) return {scale * pass(arrays(), loops_->z_step, loops_->y_step).change};
+  set_difference();
+  violation_ = AlignedArray<double>(stride_);
+  violation_sum_ = AlignedArray<Scalar>(stride_);
+  const auto before = settings_.paper_residuals ? rows_of_weights() : AlignedArray<Scalar>();
+  const RowSums sums = pass(arrays(), loops_->z_step_measured, loops_->y_step_measured);
+  const double of_cells = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
+  Step step{scale * sums.change, scale * (of_cells + sums.violation)};
+  if (settings_.paper_residuals) add_paper_residuals(before, step);
+  return step;
+}
+
+// r_p is the violation of the constraints, r_d = rho times the change of the gradients and the
+// weights in an iteration, both in the metric.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::add_paper_residuals(const AlignedArray<Scalar>& before,
+                                                        Step& step) {
+  auto moved = rows_of_weights();
+  double of_rows = 0;
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    for (std::size_t i = 0; i < stride_; ++i) {
+      Scalar& delta = moved[row * stride_ + i];
+      delta -= before[row * stride_ + i];
+      if (S_.size() == 0) continue;
+      of_rows += static_cast<double>(data_.vertex_metric[row]) * static_cast<double>(delta) *
+                 static_cast<double>(delta);
+    }
+  }
+  AlignedArray<double> dual(stride_);
+  AlignedArray<double> motion(stride_);
+#pragma omp parallel
+  for_slices(arrays(), [&](const State& slice, Columns columns) {
+    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
+  });
+  const double of_cells = std::accumulate(motion.data(), motion.data() + n_, 0.0);
+  const double cells = static_cast<double>(problem_.mesh.num_cells()) * Dim;
+  const double rows = S_.size() > 0 ? static_cast<double>(data_.vertices.size()) : 0;
+  const double components = (cells + rows) * n_;
+  step.primal = std::sqrt(step.violation) / components;
+  step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / components;
+}
+
+// The w_step that y_step does in advance has to wait for the new penalty.
+template <class Scalar, int Dim>
+Step CompactSplitting<Scalar, Dim>::iterate_and_adapt(double ratio, double largest) {
+  auto state = arrays();
+  state.vertex_dual = nullptr;
+  const Step step{pass(state, loops_->z_step, loops_->y_step).change / (sigma() * sigma())};
+  adapt_penalty(ratio, largest);
+  pass(arrays(), nullptr, loops_->w_step);
+  return step;
+}
+
+// w - W, which is (a - W) / 2.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_difference() {
+  if (difference_.size() == 0) difference_ = AlignedArray<Scalar>(a_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
+}
+
+// w, zero on the boundary.
+template <class Scalar, int Dim>
+AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::rows_of_weights() const {
+  AlignedArray<Scalar> rows(a_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) rows[k] = Scalar(0.5) * (a_[k] + W_[k]);
+  return rows;
+}
+
+// In the units of the arrays the duals do not change, and w changes with sigma: w / f. The step
+// w - W belongs to the duals.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) {
+  if (start_.size() == 0) return;
+  set_difference();
+  AlignedArray<Scalar> moved(a_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
+  AlignedArray<double> dual(stride_);
+  AlignedArray<double> motion(stride_);
+#pragma omp parallel
+  for_slices(arrays(), [&](const State& slice, Columns columns) {
+    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
+  });
+  const double dual2 = std::accumulate(dual.data(), dual.data() + n_, 0.0) + data_.boundary_dual2;
+  const double motion2 = std::accumulate(motion.data(), motion.data() + n_, 0.0);
+  if (!(dual2 > 0) || !(motion2 > 0)) return;
+  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
+  penalty_ /= factor;
+  const auto shrink = static_cast<Scalar>(1 / factor);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) {
+    const Scalar w = shrink * (a_[k] - difference_[k]);
+    W_[k] = w - difference_[k];
+    a_[k] = w + difference_[k];
+    start_[k] *= shrink;
+  }
+  set_boundary_rows();
+}
+
+// ---- starts ----------------------------------------------------------------------------------------
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
+  made_ = 0;
+  balances_ = settings_.balances && start.is_cold();
+  if (!start.is_cold()) {
+    start_from_duals(start);
+  } else if (settings_.harmonic_cold) {
+    start_from_weights(harmonic_coordinates(problem_));
+  } else {
+    start_from_harmonic(plan::kHarmonicSteps);
+  }
+}
+
+// a and W, both sigma w.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    const Eigen::VectorXd at_vertex = weights(data_.vertices[row]);
+    for (Index i = 0; i < n_; ++i) {
+      a_[row * stride_ + i] = W_[row * stride_ + i] = static_cast<Scalar>(sigma() * at_vertex[i]);
+    }
+  }
+  set_boundary_rows();
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_boundary_rows() {
+  Eigen::VectorXd row(n_);
+  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
+    row.setZero();
+    problem_.boundary.scatter(static_cast<Index>(b), row);
+    Scalar* weights = a_.data() + (data_.vertices.size() + b) * stride_;
+    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(sigma() * row[i]);
+  }
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
+  set_weights([&](Index v) -> Eigen::VectorXd { return weights.col(v); });
+  begin_from_weights();
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
+  std::fill_n(a_.data(), a_.size(), Scalar(0));
+  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+  set_boundary_rows();
+  const double numbers = static_cast<double>(data_.vertices.size()) * n_ * sigma() * sigma();
+  for (int step = 0; step < steps; ++step) {
+    const auto sums = pass(arrays(), loops_->harmonic_residual, loops_->correct);
+    if (sums.change <= plan::kHarmonicChange * numbers) break;
+  }
+  begin_from_weights();
+}
+
+// From w in the rows of a: W = w, S = 0, P = grad w.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::begin_from_weights() {
+  std::copy_n(a_.data(), W_.size(), W_.data());
+  std::fill_n(S_.data(), S_.size(), Scalar(0));
+#pragma omp parallel
+  for_slices(arrays(), loops_->start_cell_dual);
+  pass(arrays(), nullptr, loops_->w_step);
+  start_ = AlignedArray<Scalar>(W_.size());
+  std::copy_n(a_.data(), start_.size(), start_.data());
+}
+
+// Every iteration leaves w and W such that w = W + the solution, projected. Duals from elsewhere
+// would move the weights. So what they would do is taken from W instead, for the price of one solve.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::start_from_duals(const Start<Dim>& start) {
+  set_weights(start.weights);
+  set_cell_dual(start.flux_density);
+  set_vertex_dual(start.vertex_dual_at(penalty_));
+  auto state = arrays();
+  state.relaxation = 0;  // the residual alone
+  pass(state, loops_->z_step, loops_->correct);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
+  pass(arrays(), nullptr, loops_->w_step);
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> row(stride_);
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < data_.cells.size(); ++k) {
+      const Index s = data_.cell_index[k];
+      const double scale = dual_scale(problem_, metric_, unit_, s);
+      const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
+      for (int d = 0; d < Dim; ++d) {
+        for (Index i = 0; i < n_; ++i) row[i] = static_cast<Scalar>(scale * density(i, d));
+        slices_.for_each(k * Dim + d, data_.cells.size() * Dim,
+                         [&](std::size_t begin, std::size_t width, std::size_t place) {
+                           loops_->encode(row.data() + begin, P_.data(), place, width);
+                         });
+      }
+    }
+  }
+}
+
+// S, and the vertices' part of the right-hand side, which an iteration leaves for the next one.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
+  std::fill_n(S_.data(), S_.size(), Scalar(0));
+  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+  if (S_.size() == 0 || !vertex_dual) return;
+#pragma omp parallel for schedule(static)
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    const Eigen::VectorXd at_vertex = vertex_dual(data_.vertices[row]);
+    for (Index i = 0; i < n_; ++i) {
+      const std::size_t place = row * stride_ + i;
+      S_[place] = static_cast<Scalar>(sigma() * at_vertex[i]);
+      residual_[place] = data_.vertex_metric[row] * S_[place];
+    }
+  }
+}
+
+// ---- precision -------------------------------------------------------------------------------------
+
+template <class Scalar, int Dim>
+int CompactSplitting<Scalar, Dim>::adapt(int made, double error, bool) {
+  if (stores_half() && plan::trembles(made, error)) store_in_single();
+  return 0;
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::store_in_single() {
+  const std::size_t size = data_.cells.size() * Dim * stride_;
+  AlignedArray<unsigned char> exact(size * sizeof(Scalar));
+  loops_->decode(P_.data(), 0, reinterpret_cast<Scalar*>(exact.data()), size);
+  P_ = std::move(exact);
+  loops_ = &kernel_.exact;
+  set_radii(problem_, metric_, unit_, slices_, *loops_, data_);
+}
+
+// ---- results ---------------------------------------------------------------------------------------
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
+  const auto half = static_cast<Scalar>(0.5 / sigma());
+  const auto row = static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
+  for (Index i = 0; i < n_; ++i) weights[i] = half * (a_[row + i] + W_[row + i]);
+}
+
+template <class Scalar, int Dim>
+WeightMatrix CompactSplitting<Scalar, Dim>::all_weights() const {
+  WeightMatrix weights(n_, problem_.mesh.num_vertices());
+#pragma omp parallel for schedule(static)
+  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+    read_weights(data_.vertices[row], weights.col(data_.vertices[row]).data());
+  }
+  // Boundary values are known better than single precision holds them.
+  problem_.boundary.impose_on(weights);
+  return weights;
+}
+
+template <class Scalar, int Dim>
+Start<Dim> CompactSplitting<Scalar, Dim>::state() const {
+  Start<Dim> state;
+  state.penalty = penalty_;
+  state.weights = [this](Index v) {
+    Eigen::VectorXd weights(n_);
+    read_weights(v, weights.data());
+    return weights;
+  };
+  state.flux_density = [this](Index s) { return flux_density(s); };
+  if (S_.size() > 0) state.vertex_dual = [this](Index v) { return vertex_dual_at(v); };
+  return state;
+}
+
+template <class Scalar, int Dim>
+Eigen::VectorXd CompactSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
+  Eigen::VectorXd dual(n_);
+  const auto row = static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
+  for (Index i = 0; i < n_; ++i) {
+    const double difference =
+        static_cast<double>(a_[row + i]) - static_cast<double>(W_[row + i]);
+    dual[i] = (S_[row + i] - 0.5 * difference) / sigma();
+  }
+  return dual;
+}
+
+template <class Scalar, int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Dim>::flux_density(
+    Index cell) const {
+  if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
+  const auto& cells = data_.cell_index;
+  const auto k = static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), cell) -
+                                          cells.begin());
+  const double scale = 1 / dual_scale(problem_, metric_, unit_, cell);
+  AlignedArray<Scalar> row(stride_);
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> density(n_, Dim);
+  for (int d = 0; d < Dim; ++d) {
+    slices_.for_each(k * Dim + d, cells.size() * Dim,
+                     [&](std::size_t begin, std::size_t width, std::size_t place) {
+                       loops_->decode(P_.data(), place, row.data() + begin, width);
+                     });
+    for (Index i = 0; i < n_; ++i) density(i, d) = scale * row[i];
+  }
+  shorten_to(problem_.phi, cell, density);
+  return density;
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::with_flux(
+    const std::function<void(const CellFieldView<Scalar, Dim>&)>& use) const {
+  const auto num_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
+  AlignedArray<Scalar> flux(num_cells * Dim * stride_);
+  std::vector<Scalar> scale(num_cells);
+  for (std::size_t s = 0; s < num_cells; ++s) {
+    const auto cell = static_cast<Index>(s);
+    scale[s] = static_cast<Scalar>(std::sqrt(metric_.cell[cell]) / unit_);
+    if (!is_boundary_cell(problem_, cell)) continue;
+    const Eigen::Matrix<double, Eigen::Dynamic, Dim> given =
+        cell_geometry(problem_.mesh, cell).measure * boundary_flux_density(problem_, cell);
+    for (int d = 0; d < Dim; ++d) {
+      for (Index i = 0; i < n_; ++i) {
+        flux[(s * Dim + d) * stride_ + i] = static_cast<Scalar>(given(i, d));
+      }
+    }
+  }
+  const State state = const_cast<CompactSplitting*>(this)->arrays();  // which the loop only reads
+#pragma omp parallel
+  for_slices(state, [&](const State& slice, Columns columns) {
+    loops_->flux(slice, columns, scale.data(), flux.data());
+  });
+  use({flux.data(), stride_, n_});
+}
+
+template <class Scalar, int Dim>
+Certificate CompactSplitting<Scalar, Dim>::certify(const WeightMatrix& weights) const {
+  Certificate certificate;
+  with_flux([&](const auto& flux) { certificate = flbc::certify(problem_, flux, weights); });
+  return certificate;
+}
+
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::describe(SolveReport& report) const {
+  const auto vertex_numbers =
+      static_cast<double>(a_.size() + W_.size() + S_.size() + residual_.size());
+  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
+  report.state_scalars_per_cell = (vertex_numbers + cell_numbers) /
+                                  static_cast<double>(stride_) / problem_.mesh.num_cells();
+  report.penalty = penalty_;
+}
+
+template class CompactSplitting<float, 2>;
+template class CompactSplitting<float, 3>;
+template class CompactSplitting<double, 2>;
+template class CompactSplitting<double, 3>;
+
+}  // namespace flbc::compact

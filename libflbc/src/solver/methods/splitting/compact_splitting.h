@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Splitting on the weights: Method::kValue, and with another metric and start Method::kLbc2014.
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "base/aligned_array.h"
+#include "base/kernel_dispatch.h"
+#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/linear_solver.h"
+#include "linear/spd_solver.h"
+#include "solver/methods/splitting/column_slices.h"
+#include "solver/methods/splitting/compact_data.h"
+#include "solver/methods/splitting/compact_kernel.h"
+#include "solver/methods/splitting/metric.h"
+#include "solver/run/iteration.h"
+
+namespace flbc::compact {
+
+//! What a splitting needs besides its problem.
+struct Settings {
+  double penalty = 1;     //!< rho > 0
+  double relaxation = 1;  //!< alpha in (0, 2)
+  LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
+  bool half = false;           //!< stores P and the radii in half precision; for float only
+  bool balances = false;       //!< adapts the penalty in the first iterations after a cold start
+  bool harmonic_cold = false;  //!< a cold start computes harmonic coordinates to the end, instead of
+                               //!< minimizing sum m |grad w|^2 roughly by the factor there is
+  bool paper_residuals = false;  //!< measures r_p and r_d of the 2014 solver
+};
+
+//! The ADMM on problem (2) of the paper, which keeps weights and gradients as unknowns and solves a
+//! global linear system in each iteration, as over-relaxed Douglas-Rachford splitting. It minimizes
+//! sum phi A |z| over w with z = grad w, and u = w, u >= 0 if the metric has vertex weights.
+//! tests/support/textbook_lbc2014.h has the same iteration with W, Z, Y, M, H and all duals, and
+//! the same iterates. Put
+//!
+//!     y = grad W - P,  q = W + S        (y = z + its scaled dual, q = u + its scaled dual)
+//!
+//! where W is on vertices like w, with the same values on the boundary. Then, with a = 2 w - W,
+//!
+//!     z_step:  P += alpha (clip(P + grad a) - P), clip to radius phi A / (rho m)
+//!     w_step:  S += alpha (max(0, S - a) - S)
+//!     solve:   (sum m grad^T grad + k) delta = k S - Div m P
+//!     y_step:  W += alpha (w - W), w = W + delta, rows projected on { sum w = 1, sum w c = x }
+//!
+//! The projection replaces the null-space parametrization W = Y M + H of (2): the system matrix
+//! acts on columns, M on rows, so Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, and M^T M = I
+//! - Q Q^T.
+//!
+//! A cell keeps nothing but P, which is a few radii long at most, so that half precision holds it.
+//! Cells without interior corners are left out: they say nothing about the weights. With an
+//! approximate solver in place of the exact one this is a preconditioned primal-dual iteration with
+//! the same limit.
+//!
+//! In the units of compact_kernel.h vertex arrays hold sigma = rho u times these numbers, P is
+//! sigma sqrt(m) times as large, and the penalty appears in sigma alone.
+//! \tparam Scalar  of the arithmetic
+template <class Scalar, int Dim>
+class CompactSplitting final : public Iteration<Dim> {
+ public:
+  //! \param metric  see metric.h
+  //! \param kernel  the loops to use; the best ones for this processor unless a test asks for
+  //! others
+  CompactSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric,
+                   const Settings& settings,
+                   const Kernel<Scalar, Dim>& kernel = select_kernel<Kernel<Scalar, Dim>>());
+
+  //! Cold: from (nearly) harmonic coordinates.
+  void start(const Start<Dim>& start) override;
+
+  //! Starts from weights n x V, with y = 0 and q = w: duals zero where the weights are harmonic.
+  void start_from_weights(const WeightMatrix& weights);
+
+  //! Starts from (nearly) minimal sum m |grad w|^2, by at most `steps` Richardson steps with the
+  //! factor there is.
+  void start_from_harmonic(int steps);
+
+  //! Step::change is of the last iteration. Measured, Step::violation is what the constraints
+  //! lacked: z = grad w before the iteration, u = w after it, because the w_step of the next
+  //! iteration is done in advance.
+  Step iterate(int count, bool measure) override;
+
+  //! An iteration, after which the penalty is balanced against how far the weights have moved since
+  //! the start, and duals are kept: rho becomes ratio rho |grad w - y| / |grad (w - w_start)|,
+  //! `largest` at most. Not after a start from duals.
+  Step iterate_and_adapt(double ratio, double largest = std::numeric_limits<double>::infinity());
+
+  //! Stores duals in single precision from now on, where half precision would make them tremble.
+  int adapt(int made, double error, bool ends) override;
+  void store_in_single();
+  bool stores_half() const { return loops_ == &kernel_.half; }
+
+  double penalty() const { return penalty_; }
+
+  Weights weights() const override { return {all_weights(), {}}; }
+
+  //! n x V.
+  WeightMatrix all_weights() const;
+
+  void read_weights(Index vertex, double* weights) const override;
+
+  //! Flux densities of cells between boundary vertices are zero.
+  Start<Dim> state() const override;
+
+  //! q - w of an interior vertex, n numbers.
+  Eigen::VectorXd vertex_dual_at(Index vertex) const;
+
+  //! p / A of a cell as it is at present, n x Dim, at most phi long; zero between boundary
+  //! vertices.
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+
+  Certificate certify(const WeightMatrix& weights) const override;
+
+  //! Calls use(p) with p = rho m clip(2 grad w - y): the dual of the total variation, |p_s^i| <=
+  //! phi A up to rounding.
+  void with_flux(const std::function<void(const CellFieldView<Scalar, Dim>&)>& use) const;
+
+  void describe(SolveReport& report) const override;
+
+ private:
+  using State = Arrays<Scalar, Dim>;
+  using SliceLoop = void (*)(const State&, Columns);
+  using RowLoop = RowSums (*)(const State&, std::int32_t, std::int32_t);
+
+  double sigma() const { return penalty_ * unit_; }
+  State arrays();
+  State in_slice(State state, Slice slice) const;
+  void set_weights(const VectorsAt<1>& weights);
+  void set_boundary_rows();
+  void begin_from_weights();
+  void start_from_duals(const Start<Dim>& start);
+  void set_cell_dual(const VectorsAt<Dim>& flux_density);
+  void set_vertex_dual(const VectorsAt<1>& vertex_dual);
+  void for_slices(const State& state,
+                  const std::function<void(const State&, Columns)>& body) const;
+  RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
+  Step iterate_once(bool measure);
+  void add_paper_residuals(const AlignedArray<Scalar>& before, Step& step);
+  void adapt_penalty(double ratio, double largest);
+  void set_difference();
+  AlignedArray<Scalar> rows_of_weights() const;
+
+  const LbcProblem<Dim>& problem_;
+  const Kernel<Scalar, Dim>& kernel_;
+  const Loops<Scalar, Dim>* loops_;
+  const Settings settings_;
+  const Index n_;
+  const std::size_t stride_;
+  const splitting::ColumnSlices slices_;  // one a thread; P and radii are in their order
+  const splitting::Metric metric_;
+  const double unit_;  // u
+  double penalty_;     // rho
+  SpdSolver<Scalar> solver_;
+  CompactData<Scalar, Dim> data_;
+  int made_ = 0;  // iterations since the start
+  bool balances_ = false;
+  // state, by rows: interior vertices in the order of the solver, then the boundary
+  AlignedArray<Scalar> a_;
+  AlignedArray<Scalar> W_;
+  AlignedArray<Scalar> S_;
+  AlignedArray<unsigned char> P_;  // by cells with interior corners
+  AlignedArray<Scalar> residual_;
+  // what is needed now and then
+  AlignedArray<Scalar> start_;
+  AlignedArray<Scalar> difference_;
+  AlignedArray<double> violation_;
+  AlignedArray<Scalar> violation_sum_;
+};
+
+}  // namespace flbc::compact

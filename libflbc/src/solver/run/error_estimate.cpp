@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/run/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "solver/plan/constants.h"
+
+namespace flbc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double square(double x) {
+  return x * x;
+}
+
+}  // namespace
+
+WeightHistory::WeightHistory(const std::vector<Index>& vertices, Index n, bool in_double)
+    : n_(static_cast<std::size_t>(n)), in_double_(in_double) {
+  const std::size_t every = std::max<std::size_t>(1, vertices.size() / plan::kFewestSampled);
+  for (std::size_t k = 0; k < vertices.size(); k += every) sample_.push_back(vertices[k]);
+}
+
+template <class Scalar>
+double WeightHistory::compare(std::vector<Scalar>& kept, const ReadRow& read) const {
+  const auto count = static_cast<Index>(sample_.size());
+  const bool full = !kept.empty();
+  kept.resize(sample_.size() * n_);
+  const double sum = parallel_sum(count, 0.0, [&](Index begin, Index end) {
+    double part = 0;
+    std::vector<double> row(n_);
+    for (Index k = begin; k < end; ++k) {
+      read(sample_[k], row.data());
+      double of_row = 0;
+      for (std::size_t i = 0; i < n_; ++i) {
+        Scalar& before = kept[k * n_ + i];
+        const double difference = row[i] - static_cast<double>(before);
+        of_row += difference * difference;
+        before = static_cast<Scalar>(row[i]);
+      }
+      part += of_row;
+    }
+    return part;
+  });
+  return full ? sum / std::max<Index>(1, count) : -1;
+}
+
+double WeightHistory::operator()(int iteration, const ReadRow& read) {
+  if (iteration % kStep != 0) return -1;
+  const auto turn = static_cast<std::size_t>(iteration / kStep) % doubles_.size();
+  return in_double_ ? compare(doubles_[turn], read) : compare(floats_[turn], read);
+}
+
+// Sum of the differences to come, in lengths of the last one, if they go on to shrink at this rate
+// per iteration.
+double ErrorEstimate::spans_left(double rate) const {
+  return rate > 0 ? 1 / std::expm1(rate * span_) : kInfinity;
+}
+
+// Decay of the differences' length per iteration, by regression over iterations first .. last.
+// Infinite with less than two of them.
+double ErrorEstimate::rate(double first, double last) const {
+  double count = 0, mean_k = 0, mean_y = 0;
+  const auto counts = [&](const Entry& entry) {
+    return entry.iteration >= first && entry.iteration <= last;
+  };
+  for (const auto& entry : entries_) {
+    if (!counts(entry)) continue;
+    ++count;
+    mean_k += entry.iteration;
+    mean_y += entry.log_difference;
+  }
+  if (count < 2) return kInfinity;
+  mean_k /= count;
+  mean_y /= count;
+  double covariance = 0, variance = 0;
+  for (const auto& entry : entries_) {
+    if (!counts(entry)) continue;
+    covariance += (entry.iteration - mean_k) * (entry.log_difference - mean_y);
+    variance += (entry.iteration - mean_k) * (entry.iteration - mean_k);
+  }
+  return -0.5 * covariance / variance;
+}
+
+// The remaining error, squared, relative to the last squared difference.
+double ErrorEstimate::rest() const {
+  using namespace plan::error_estimate;
+  const double now = entries_.back().iteration;
+  const double window = std::max<double>(span_, kPart * now);
+  const double present = rate(now - window, now);
+  if (present == kInfinity) return kLeast;
+  const double farthest = square(kFarthest * now / span_);
+  double rate_to_come = present;
+  const double before = rate(now - 2 * window, now - window);
+  if (present > 0 && present < before && before < kInfinity) {
+    rate_to_come *= std::sqrt(std::max(present / before, kFall));
+  }
+  const double by_rate = std::clamp(early(dim_).safety * square(spans_left(rate_to_come)),
+                                    kLeast, std::max(kMost, farthest));
+  // Elsewhere iterations since the start do not say how far a run is.
+  if (origin_ != Origin::kCold) return by_rate;
+  // Differences that shrink as k^-p have the rate p / k, here in the middle of the window, and
+  // leave as much as if it were (p - 1) / k from now on.
+  const double power_rate = present - 1 / (now - window / 2);
+  return std::max(by_rate, std::min(kPowerSafety * square(spans_left(power_rate)), farthest));
+}
+
+// Whether an estimate that would end the run is right, by the residual.
+double ErrorEstimate::confirmed(int iteration, double residual) {
+  using namespace plan::error_estimate;
+  if (residual >= 0) {
+    const double fading = origin_ == Origin::kCold ? kPerIteration * iteration : 0;
+    hidden_ = std::max(kPoincare, fading) * residual;
+    next_measured_ = iteration + iteration / kInterval;
+  }
+  const bool ends = shown_ <= tolerance_ && iteration >= kFirstMeasured;
+  wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
+  if (!ends) return shown_;
+  return std::max(shown_, hidden_ < 0 ? plan::kUnknownError * tolerance_ : hidden_);
+}
+
+// A lower bound by the power of the iterations that the error shrinks as at first, which rates do
+// not see; and by changes alone, for runs that speed up again.
+double ErrorEstimate::least(int iteration, double change) const {
+  const auto early = plan::error_estimate::early(dim_);
+  const bool counts = origin_ != Origin::kNearby && iteration <= early.iterations;
+  return std::max(plan::error_estimate::kOfChange, counts ? early.part * square(iteration) : 0) * change;
+}
+
+double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {
+  constexpr double kTiny = 1e-300;
+  if (!std::isfinite(change)) return change;
+  if (!std::isfinite(residual)) return residual;
+  if (difference >= 0) {
+    entries_.push_back({iteration, std::log(std::max(difference, kTiny))});
+    shown_ = std::max(rest() * difference, least(iteration, change));
+  } else if (entries_.empty()) {
+    shown_ = (origin_ == Origin::kCold ? 1 : 2) * plan::error_estimate::kOfChange * change;
+  }
+  return confirmed(iteration, residual);
+}
+
+}  // namespace flbc

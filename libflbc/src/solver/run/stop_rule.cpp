@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/run/stop_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "flbc/bounding_box.h"
+#include "flbc/quality.h"
+#include "mesh/cell_geometry.h"
+#include "solver/plan/constants.h"
+
+namespace flbc {
+namespace {
+
+template <int Dim>
+double squared_size(const LbcProblem<Dim>& problem) {
+  const double size = bounding_box_diagonal(problem.cage.points);
+  return size * size;
+}
+
+template <int Dim>
+WeightHistory::ReadRow rows_of(const Iteration<Dim>& iteration) {
+  return [&](Index vertex, double* weights) { iteration.read_weights(vertex, weights); };
+}
+
+}  // namespace
+
+template <int Dim>
+EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                                    Origin origin)
+    : options_(options),
+      num_control_points_(problem.num_control_points()),
+      num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
+                   problem.num_control_points()),
+      residual_scale_(squared_size(problem) /
+                      (problem.num_control_points() * cell_measures(problem.mesh).sum())),
+      estimate_(origin, Dim, *options.tolerance),
+      history_(problem.boundary.interior_vertices(), problem.num_control_points(),
+               options.precision == Precision::kDouble) {
+}
+
+template <int Dim>
+void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
+  if (std::exchange(begun_, true)) return;
+  history_(0, rows_of(iteration));
+}
+
+template <int Dim>
+bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
+                                SolveReport& report) {
+  const double difference = history_(report.iterations, rows_of(iteration)) / num_control_points_;
+  report.primal_residual = estimate_(report.iterations, step.change / num_weights_, difference,
+                                     step.violation * residual_scale_) /
+                           *options_.tolerance;
+  return this->looks(options_, report, plan::kFewestIterations);
+}
+
+template <int Dim>
+RecoveredError<Dim>::RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options,
+                                    Origin origin)
+    : problem_(problem),
+      options_(options),
+      interval_((plan::kRecoveryInterval + options.check_interval - 1) / options.check_interval *
+                options.check_interval),
+      residual_scale_(squared_size(problem) /
+                      (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
+                       problem.mesh.num_cells())),
+      estimate_(origin, Dim, *options.tolerance, interval_) {
+}
+
+template <int Dim>
+void RecoveredError<Dim>::begin(const Iteration<Dim>& iteration) {
+  weights_ = iteration.weights().dense;
+}
+
+template <int Dim>
+bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
+                                SolveReport& report) {
+  if (!std::isfinite(step.change) || !std::isfinite(step.violation)) {
+    report.primal_residual = step.change + step.violation;
+    return true;
+  }
+  if (report.iterations < interval_) report.primal_residual = 1 / *options_.tolerance;
+  if (report.iterations % interval_ != 0) return true;
+  auto weights = iteration.weights().dense;
+  const double difference = squared_error(problem_, weights, weights_);
+  weights_ = std::move(weights);
+  // Single iterations are not measured, and the residual counts on its own.
+  constexpr double kNone = 0;
+  const double shown = estimate_(report.iterations, kNone, difference, kNone);
+  const double residual = residual_scale_ * step.violation;
+  errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
+  // Differences go up and down with the state that circles its limit, and after a warm start the
+  // first ones are small: the largest of some counts.
+  if (errors_.size() > plan::kRecoveriesJudged) errors_.erase(errors_.begin());
+  const double largest = *std::max_element(errors_.begin(), errors_.end()) / *options_.tolerance;
+  report.primal_residual = errors_.size() < plan::kRecoveriesJudged
+                               ? std::max(largest, plan::kUnknownError)
+                               : largest;
+  return true;
+}
+
+template <int Dim>
+bool Residuals<Dim>::judge(const Step& step, const Iteration<Dim>&, SolveReport& report) {
+  constexpr double kDualToPrimal = 10;  // section 5 of the paper: N 1e-7 and N 1e-6
+  report.primal_residual = step.primal / *options_.tolerance;
+  report.dual_residual = step.dual / (kDualToPrimal * *options_.tolerance);
+  return true;
+}
+
+template class EstimatedError<2>;
+template class EstimatedError<3>;
+template class RecoveredError<2>;
+template class RecoveredError<3>;
+template class Residuals<2>;
+template class Residuals<3>;
+
+}  // namespace flbc

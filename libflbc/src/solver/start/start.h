@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Where an iteration starts: weights and duals, one vertex or cell at a time, wherever they come
+//! from.
+#pragma once
+
+#include <utility>
+
+#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
+
+namespace flbc {
+
+//! Views of weights and duals, in the lengths of the problem that starts. Whatever the functions
+//! refer to must outlive them. Without `weights` the start is cold: an iteration then begins with
+//! its own weights, which are harmonic coordinates or the least-norm solution.
+template <int Dim>
+struct Start {
+  double penalty = 0;             //!< that the vertex duals belong to
+  VectorsAt<1> weights{};         //!< of an interior vertex, n numbers
+  VectorsAt<Dim> flux_density{};  //!< p / A of a cell, n x Dim, at most phi long
+  VectorsAt<1> vertex_dual{};     //!< q - w of an interior vertex, n numbers; null for none
+
+  bool is_cold() const { return !weights; }
+
+  //! q - w for another penalty: the multiplier stays.
+  VectorsAt<1> vertex_dual_at(double other) const {
+    if (!vertex_dual) return {};
+    return [dual = vertex_dual, factor = penalty / other](Index vertex) -> Eigen::VectorXd {
+      return factor * dual(vertex);
+    };
+  }
+
+  //! The same start for an iteration with another penalty.
+  Start with_penalty(double other) && {
+    vertex_dual = vertex_dual_at(other);
+    penalty = other;
+    return std::move(*this);
+  }
+};
+
+//! Weights of any vertex, with the known ones on the boundary, from those of interior vertices.
+template <int Dim>
+VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weights) {
+  return [&problem, weights = std::move(weights)](Index v) -> Eigen::VectorXd {
+    if (problem.boundary.is_interior(v)) return weights(v);
+    Eigen::VectorXd known = Eigen::VectorXd::Zero(problem.num_control_points());
+    problem.boundary.scatter(problem.boundary.boundary_index[v], known);
+    return known;
+  };
+}
+
+}  // namespace flbc

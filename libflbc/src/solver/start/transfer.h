@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! From the duals on one mesh to the start on another mesh of the same cage, or on the same mesh
+//! after it has moved.
+#pragma once
+
+#include <vector>
+
+#include "flbc/cell_locator.h"
+#include "flbc/lbc_problem.h"
+#include "solver/start/duals.h"
+
+namespace flbc {
+
+//! Fine length / coarse length.
+template <int Dim>
+double enlargement(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine);
+
+//! Points of the fine mesh's space in the coarse mesh's space.
+template <int Dim>
+PointList<Dim> points_in_coarse(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine,
+                                const PointList<Dim>& fine_points);
+
+//! The coarse cells that contain the points. A point that rounding puts outside belongs to the
+//! nearest cell.
+template <int Dim>
+std::vector<Location<Dim>> places_in_coarse(const LbcProblem<Dim>& coarse,
+                                            const LbcProblem<Dim>& fine,
+                                            const PointList<Dim>& fine_points);
+
+//! Evaluates the duals of a coarse mesh where the fine mesh needs them, in the lengths of the fine
+//! problem. The meshes need not be nested, nor their problems scaled alike. Keeps references to all
+//! three arguments.
+template <int Dim>
+class Transfer {
+ public:
+  //! \param vertices  places of the fine vertices in the coarse mesh, if they are known
+  Transfer(const LbcProblem<Dim>& coarse, const Duals<Dim>& duals, const LbcProblem<Dim>& fine,
+           std::vector<Location<Dim>> vertices = {});
+
+  //! Between two shapes of one mesh, where every cell is its own place. Flux densities stay as they
+  //! are: turning and stretching them with their cells saves no iterations.
+  static Transfer between_shapes(const LbcProblem<Dim>& before, const Duals<Dim>& duals,
+                                 const LbcProblem<Dim>& after);
+
+  //! Whether it was made by between_shapes().
+  bool is_between_shapes() const { return between_shapes_; }
+
+  //! The start on the fine mesh, which refers to this object. Its penalty acts there as the coarse
+  //! one's did; its flux density is that of the coarse cell which contains the middle of the fine
+  //! one, shortened to phi.
+  Start<Dim> start() const;
+
+  //! Interpolated weights at an interior vertex of the fine mesh, n numbers.
+  Eigen::VectorXd weights_at(Index vertex) const;
+
+  //! The place of a fine vertex in the coarse mesh.
+  const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
+
+  const DomainMesh<Dim>& coarse_mesh() const { return coarse_.mesh; }
+  const SparseWeights& coarse_weights() const { return duals_.weights; }
+
+ private:
+  struct Unlocated {};
+  Transfer(Unlocated, const LbcProblem<Dim>& coarse, const Duals<Dim>& duals,
+           const LbcProblem<Dim>& fine);
+
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+
+  const LbcProblem<Dim>& coarse_;
+  const Duals<Dim>& duals_;
+  const LbcProblem<Dim>& fine_;
+  double enlargement_;
+  bool between_shapes_ = false;
+  std::vector<Location<Dim>> vertices_;
+  std::vector<Index> cells_;  // the coarse ones that contain the middles of the fine ones
+};
+
+}  // namespace flbc
