@@ -13,7 +13,7 @@
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 #include "sparsify/support_projection.h"
 #include "sparsify/support_selection.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flbc/types.h"
-#include "projection/weight_projection.h"
+#include "polytope/weight_projection.h"
 
 namespace flbc {
 

@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "flbc/errors.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc::supports {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "flbc/types.h"
-#include "projection/dual_newton.h"
+#include "polytope/dual_newton.h"
 
 namespace flbc {
 
@@ -47,7 +47,7 @@ class WeightProjection {
   void correct(const Sums& residual, bool careful, Eigen::VectorXd& weights) const;
 
   PointList<Dim> points_;
-  double size_;
+  double scale_;
   Vector<Dim> center_;
   Eigen::Matrix<double, Dim, Dim> axes_;   // principal axes of the control points, as columns
   Vector<Dim> lengths_;                    // their extent along each

@@ -16,7 +16,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 

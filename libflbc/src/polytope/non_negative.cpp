@@ -11,8 +11,8 @@
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
-#include "projection/nearest_point_in_hull.h"
-#include "projection/weight_projection.h"
+#include "polytope/nearest_point_in_hull.h"
+#include "polytope/weight_projection.h"
 
 namespace flbc {
 namespace {

@@ -44,7 +44,7 @@ class VertexLinearProgram {
   double rigorous_bound(const Eigen::VectorXd& costs) const;
 
   const PointList<Dim>& points_;
-  double size_;
+  double scale_;
   Eigen::Matrix<double, Eigen::Dynamic, kRows> columns_;  // of the program: [1, (c - x) / size]
   Eigen::Matrix<double, Eigen::Dynamic, kRows> rest_;     // of the columns, beside a basis
   Eigen::VectorXd reduced_costs_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "projection/dual_newton.h"
+#include "polytope/dual_newton.h"
 
 #include <cmath>
 #include <limits>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "certificate/vertex_linear_program.h"
+#include "polytope/vertex_linear_program.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
+#include "polytope/scaling.h"
 
 namespace flbc {
 namespace {
@@ -25,7 +24,7 @@ constexpr double kInfeasible = 1e-9;
 template <int Dim>
 VertexLinearProgram<Dim>::VertexLinearProgram(const PointList<Dim>& control_points)
     : points_(control_points),
-      size_(std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
+      scale_(scale_of<Dim>(control_points)),
       columns_(control_points.cols(), kRows) {
   columns_.col(0).setOnes();
 }
@@ -33,14 +32,11 @@ VertexLinearProgram<Dim>::VertexLinearProgram(const PointList<Dim>& control_poin
 template <int Dim>
 double VertexLinearProgram<Dim>::lower_bound(const Vector<Dim>& point, const Eigen::VectorXd& costs,
                                              const Eigen::VectorXd& start) {
-  columns_.template rightCols<Dim>() = (points_.colwise() - point).transpose() / size_;
+  columns_.template rightCols<Dim>() = scaled_offsets<Dim>(points_, point, scale_).transpose();
   best_multipliers_.setZero();
   bool started = start_from(start, costs);
   if (!started) {
-    const auto nearest = nearest_point_in_hull(points_, point);
-    Eigen::VectorXd feasible = Eigen::VectorXd::Zero(costs.size());
-    for (int k = 0; k < nearest.size; ++k) feasible[nearest.support[k]] = nearest.weights[k];
-    started = start_from(feasible, costs);
+    started = start_from(vertex_of(nearest_point_in_hull(points_, point), costs.size()), costs);
   }
   if (started) iterate(costs);
   return rigorous_bound(costs);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flbc/types.h"
-#include "sparsify/equality_qp.h"
+#include "polytope/equality_qp.h"
 
 namespace flbc {
 

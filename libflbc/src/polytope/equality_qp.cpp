@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sparsify/equality_qp.h"
+#include "polytope/equality_qp.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "flbc/bounding_box.h"
+#include "polytope/scaling.h"
 
 namespace flbc {
 namespace {
@@ -19,8 +18,7 @@ template <int Dim>
 EqualityQp<Dim>::EqualityQp(Metric metric, const PointList<Dim>& control_points)
     : metric_(metric),
       control_points_(control_points),
-      size_(
-          std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
+      scale_(scale_of<Dim>(control_points)),
       constraints_(Dim + 1, control_points.cols()),
       pull_(control_points.cols()) {
   constraints_.row(0).setOnes();
@@ -28,7 +26,7 @@ EqualityQp<Dim>::EqualityQp(Metric metric, const PointList<Dim>& control_points)
 
 template <int Dim>
 Eigen::VectorXd& EqualityQp<Dim>::aim_at(const Vector<Dim>& point) {
-  constraints_.template bottomRows<Dim>() = (control_points_.colwise() - point) / size_;
+  constraints_.template bottomRows<Dim>() = scaled_offsets<Dim>(control_points_, point, scale_);
   minimized_ = false;
   return pull_;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sparsify/active_set_qp.h"
+#include "polytope/active_set_qp.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {

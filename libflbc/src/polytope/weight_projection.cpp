@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "projection/weight_projection.h"
+#include "polytope/weight_projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "flbc/boundary_tolerance.h"
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
 #include "linear/dense.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
+#include "polytope/scaling.h"
 
 namespace flbc {
 namespace {
@@ -26,10 +25,9 @@ constexpr double kNewtonDelta = 1e-12;
 template <int Dim>
 WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
     : points_(control_points),
-      size_(
-          std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min())),
+      scale_(scale_of<Dim>(control_points)),
       center_(control_points.rowwise().mean()) {
-  const PointList<Dim> offsets = (points_.colwise() - center_) / size_;
+  const PointList<Dim> offsets = scaled_offsets<Dim>(points_, center_, scale_);
   axes_ = dense::principal_axes<Dim>(offsets * offsets.transpose());
   const PointList<Dim> turned = axes_.transpose() * offsets;
   lengths_ = turned.rowwise().norm();
@@ -47,7 +45,7 @@ typename WeightProjection<Dim>::Sums WeightProjection<Dim>::sums_of(
   Sums sums;
   sums[0] = basis_(0, 0);
   sums.template tail<Dim>() =
-      (axes_.transpose() * ((point - center_) / size_)).cwiseQuotient(lengths_);
+      (axes_.transpose() * ((point - center_) / scale_)).cwiseQuotient(lengths_);
   return sums;
 }
 
@@ -76,13 +74,11 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
   work.row_ = weights;
   if (!newton_round(sums_of(point), kNewtonDelta, work)) {
     const auto nearest = nearest_point_in_hull(points_, point);
-    if (nearest.distance > kBoundaryTolerance * size_) return nearest.distance;
+    if (nearest.distance > kBoundaryTolerance * scale_) return nearest.distance;
     work.row_ = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
       // Rounding hides the nearest weights: any feasible ones are better than none.
-      work.candidate_.setZero(weights.size());
-      for (int k = 0; k < nearest.size; ++k)
-        work.candidate_[nearest.support[k]] = nearest.weights[k];
+      work.candidate_ = vertex_of(nearest, weights.size());
     }
   }
   weights = work.candidate_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 #include <algorithm>
 #include <limits>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flbc/types.h"
-#include "sparsify/metric.h"
+#include "polytope/metric.h"
 
 namespace flbc {
 
@@ -68,7 +68,7 @@ class EqualityQp {
 
   Metric metric_;
   const PointList<Dim>& control_points_;
-  double size_;
+  double scale_;
   Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> constraints_;  // A^T
   Eigen::VectorXd pull_;                                        // H t
 
