@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 
 #include <cmath>
 #include <limits>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "flbc/cage.h"
-#include "flbc/edge_error.h"
 #include "flbc/errors.h"
-#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
+#include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"

@@ -15,7 +15,7 @@
 #include "caging/symmetry.h"
 #include "caging/wrap.h"
 #include "flbc/errors.h"
-#include "flbc/self_intersections.h"
+#include "flbc/meshing.h"
 
 namespace flbc {
 

@@ -10,7 +10,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/errors.h"
-#include "flbc/self_intersections.h"
+#include "flbc/meshing.h"
 
 namespace flbc {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flbc/cage.h"
+#include "flbc/types.h"
 
 namespace flbc {
 
@@ -48,5 +49,18 @@ constexpr double kThin = 1e-3;
 //! \return their indices, ascending
 template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! A connected part of a cage's interior: an outer loop or shell with the holes or cavities in it.
+template <int Dim>
+struct CagePart {
+  Cage<Dim> cage;                     //!< control points and facets in the order of the whole cage
+  std::vector<Index> control_points;  //!< per control point: its number there, ascending
+};
+
+//! Takes a cage apart. A loop or shell in a hole of another one is a part of its own.
+//! \param cage  has passed validate() and does not intersect itself
+//! \return at least one, in the order of their first control points
+template <int Dim>
+std::vector<CagePart<Dim>> cage_parts(const Cage<Dim>& cage);
 
 }  // namespace flbc

@@ -54,7 +54,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {}
 //! One call from cage and mesh to coordinates. With a mesher, distances may come from a coarser
 //! mesh (SolverOptions::distances); where none can be made they are exact.
 //!
-//! Where the cage's interior has several parts (cage_parts.h, mesh_in_parts.h), each is solved by
+//! Where the cage's interior has several parts (cage_parts(), mesh_in_parts()), each is solved by
 //! itself, to the same bits as alone: a point has weights for the control points of its own part,
 //! and exactly 0 for all others. Penalties refer to the size of the part, and
 //! Progress::finer_levels counts the parts that are still to come.

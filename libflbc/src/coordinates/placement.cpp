@@ -8,7 +8,6 @@
 
 #include "base/messages.h"
 #include "coordinates/affine_fit.h"
-#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"

@@ -3,7 +3,6 @@
 //! Harmonic coordinates and least-squares recovery by a Poisson problem that is kept.
 #pragma once
 
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "problem/laplacian.h"
 

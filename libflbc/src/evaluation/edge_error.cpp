@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/edge_error.h"
+#include "flbc/sparsify_error.h"
 
 #include <algorithm>
 #include <cmath>

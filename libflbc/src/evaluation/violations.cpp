@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/messages.h"
-#include "flbc/violations.h"
+#include "flbc/check.h"
 
 namespace flbc {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "flbc/boundary_tolerance.h"
+#include "flbc/bounding_box.h"
 #include "linear/dense.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/scaling.h"

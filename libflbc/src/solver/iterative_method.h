@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "base/stage_progress.h"
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "flbc/report.h"

@@ -9,8 +9,8 @@
 
 #include "flbc/byte_archive.h"
 #include "flbc/cage.h"
+#include "flbc/distance_weights.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/geodesic_distances.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
 

@@ -7,8 +7,8 @@
 
 #include "base/messages.h"
 #include "flbc/boundary_values.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
 #include "solver/run_state.h"
 
 namespace flbc {

@@ -5,8 +5,8 @@
 
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
 #include "problem/problem_geometry.h"
 #include "solver/iterative_method.h"
 #include "solver/multilevel/choose_distances.h"

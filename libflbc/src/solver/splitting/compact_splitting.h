@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "base/aligned_array.h"
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"

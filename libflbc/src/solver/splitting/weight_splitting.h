@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "base/aligned_array.h"
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/solver_state.h"
 #include "linear/spd_solver.h"

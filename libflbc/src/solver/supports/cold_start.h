@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/linear_solver.h"
+#include "flbc/types.h"
 #include "solver/supports/support_lists.h"
 #include "solver/warm_start/dual_start.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
 #include "solver/warm_start/transfer.h"
 
 namespace flbc {

@@ -3,7 +3,6 @@
 //! The facet duals of the gradient ADMM as a potential of the flux.
 #pragma once
 
-#include "flbc/cell_field.h"
 #include "flbc/cell_locator.h"
 #include "flbc/lbc_problem.h"
 #include "solver/warm_start/mesh_state.h"
