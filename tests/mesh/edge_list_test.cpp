@@ -200,7 +200,8 @@ TYPED_TEST(EdgeListTest, EdgeErrorIsRelativeToTheEdges) {
   EXPECT_EQ(unit.max, 0);
   EXPECT_NEAR(unit.rms, std::sqrt(mean / 4), 1e-13);
 
-  EXPECT_THROW(edge_error<Dim>(points, edges, poses, before, after.leftCols(2)), InputError);
+  EXPECT_THROW(edge_error<Dim>(points, edges, poses, before, WeightMatrix(after.leftCols(2))),
+               InputError);
   EXPECT_THROW(edge_error<Dim>(points.leftCols(2), edges, poses, before, after), InputError);
   EXPECT_THROW(edge_error<Dim>(points, {{{0, 3}}, {}}, poses, before, after), InputError);
   EXPECT_THROW(edge_error<Dim>(points, edges, {poses[0].leftCols(2)}, before, after), InputError);

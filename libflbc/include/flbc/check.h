@@ -81,7 +81,7 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 //! \param cage  has passed validate()
 //! \param domain  mesh of the cage's interior, valid
 //! \param weights  n x V
-//! \throws InputError if sizes do not belong together or the mesh is none of the cage's interior
+//! \throws InputError if sizes do not belong together or the mesh does not fill the interior of the cage
 //!     (see boundary_values), SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,

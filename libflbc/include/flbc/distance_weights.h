@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances inside the domain, and the weight functions phi_i of the problem (1) of the paper. They
-//! make variation of w_i cost more the farther it is from its control point, which keeps w_i local.
+//! Distances inside the domain, and the weight functions phi_i of the problem (1) of the paper.
+//! They make variation of w_i cost more the farther it is from its control point, which keeps w_i
+//! local.
 #pragma once
 
 #include <utility>
@@ -82,8 +83,8 @@ class WeightFunctions {
  private:
   double from_distances(Eigen::Index i, Eigen::Index s) const;
 
-  Eigen::MatrixXd values_;    // n x F, if given
-  DistanceMatrix distances_;  // n x V, else
+  Eigen::MatrixXd values_;                                      // n x F, if given
+  DistanceMatrix distances_;                                    // n x V, else
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;

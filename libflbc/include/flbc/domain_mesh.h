@@ -63,7 +63,7 @@ std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num
 template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 
-//! Turns cells with negative measure round, and checks the mesh.
+//! Reverses cells with negative measure, and checks the mesh.
 //! \param mesh  any
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
 //! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
@@ -84,13 +84,13 @@ struct MeshPart {
 template <int Dim>
 Index count_parts(const DomainMesh<Dim>& mesh);
 
-//! Takes a mesh apart. Vertices and cells of a part keep their order.
+//! Splits a mesh into its parts. Vertices and cells of a part keep their order.
 //! \param mesh  has passed normalize_and_validate()
 //! \return in the order of their first vertices
 template <int Dim>
 std::vector<MeshPart<Dim>> mesh_parts(const DomainMesh<Dim>& mesh);
 
-//! Puts parts together again, the cells of one after those of the other.
+//! Joins parts; the cells of one follow those of the other.
 //! \param parts  whose lists of vertices hold each number from 0 to V - 1 once
 template <int Dim>
 DomainMesh<Dim> join_parts(const std::vector<MeshPart<Dim>>& parts);
@@ -114,7 +114,7 @@ struct EdgeList {
 //! Checks edges.
 //! \param edges  any
 //! \param num_points  P
-//! \throws InputError if an edge has an end that is none of `num_points` points, or a weight that
+//! \throws InputError if an end of an edge is not in [0, P), or a weight that
 //! is not positive and finite, or if there is not one weight per edge
 void validate(const EdgeList& edges, Eigen::Index num_points);
 
@@ -125,9 +125,9 @@ void validate(const EdgeList& edges, Eigen::Index num_points);
 //! an approximation of the integral of |grad f|^2: each cell gives each of its edges an equal share
 //! of its area or volume, times its dimension, and k_ab is what an edge got in all, divided by its
 //! squared length. On regular cells these are the weights of linear finite elements (cotangents),
-//! but they are positive on all others, too, which minimising edge by edge needs.
+//! but they are positive on all others, too, which minimizing edge by edge needs.
 //! \param mesh  any cells and points
-//! \throws InputError if a vertex of a cell is none of the points
+//! \throws InputError if a vertex of a cell is not one of the points
 template <int Dim>
 EdgeList edges_of_cells(const DomainMesh<Dim>& mesh);
 
@@ -136,7 +136,7 @@ EdgeList edges_of_cells(const DomainMesh<Dim>& mesh);
 //! \param points  Dim x P
 //! \param polygons  the vertices of each in order, the first not repeated
 //! \param polylines  the vertices of each in order; closed if the last is the first
-//! \throws InputError if a vertex of a polygon or polyline is none of the points
+//! \throws InputError if a vertex of a polygon or polyline is not one of the points
 template <int Dim>
 EdgeList edges_of_polygons(const PointList<Dim>& points,
                            const std::vector<std::vector<Index>>& polygons,

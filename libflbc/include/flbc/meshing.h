@@ -25,12 +25,11 @@ struct MeshingOptions {
   //! this order, with their coordinates unchanged.
   PointList<Dim> embedded_points{};
 
-  //! Longest time in seconds for one run of a mesher, with all its further tries where it fails,
-  //! after which it is stopped.
+  //! Time limit in seconds for one run of a mesher, including its retries.
   double time_limit = 60;
 
-  //! Whether to take the first mesh of about so many vertices, within a factor of three where the
-  //! cage allows: one run of the mesher, enough for coarse meshes to start from (coarse_to_fine.h).
+  //! Accepts the first mesh with about this many vertices, within a factor of three where the cage
+  //! allows. One run of the mesher is enough for coarse meshes (coarse_to_fine.h).
   bool roughly = false;
 };
 
@@ -41,8 +40,8 @@ struct EmbeddablePoints {
   std::vector<Index> number;  //!< of each point given among them; -1 = on the cage or outside
 };
 
-//! Leaves out points that a mesher could not tell from the cage, from a control point or from each
-//! other (closer than 1e-8 of the cage's size), and points outside.
+//! Leaves out points that a mesher cannot distinguish from the cage, a control point or each other
+//! (closer than 1e-8 of the cage's size), and points outside.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, finite, in the units of the cage
 template <int Dim>
@@ -56,22 +55,22 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
 //! \throws InputError if the cage is defective, OptionError if the options cannot be met
 DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options = {});
 
-//! Quality tetrahedralisation by TetGen, run in a process of its own. Component `tetgen`.
+//! Quality tetrahedralization by TetGen, run in its own process. Component `tetgen`.
 //! Vertices 0 .. n-1 of the mesh are the control points.
 //! \param cage  any
-//! \param options  number of vertices, points to embed, limit of time
+//! \param options  number of vertices, points to embed, time limit
 //! \return a valid mesh, in the units of the cage
 //! \throws InputError if the cage is defective or TetGen fails on it, OptionError if the options
 //! cannot be met
 DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options = {});
 
-//! Tetrahedralisation by Netgen, run in a process of its own. Component `netgen`; Netgen's library
+//! Tetrahedralization by Netgen, run in its own process. Component `netgen`; Netgen's library
 //! is loaded at run time. Vertices 0 .. n-1 of the mesh are the control points, and its boundary
 //! consists of the cage's facets, divided at the middles of edges. Cells in thin walls are flat,
-//! where tetrahedralize() would fill them with ever smaller ones. The number of vertices may be off by
-//! a third where the facets of the cage are all alike.
+//! where tetrahedralize() would fill them with ever smaller ones. The number of vertices may be off
+//! by a third where the facets of the cage are all alike.
 //! \param cage  any
-//! \param options  number of vertices and limit of time; points cannot be embedded
+//! \param options  number of vertices and time limit; points cannot be embedded
 //! \return a valid mesh, in the units of the cage
 //! \throws InputError if the cage is defective or Netgen fails on it, or its library is not there;
 //! OptionError if the options cannot be met
@@ -82,12 +81,12 @@ template <int Dim>
 using PartMesher =
     std::function<DomainMesh<Dim>(const Cage<Dim>& cage, const MeshingOptions<Dim>& options)>;
 
-//! Meshes each part of a cage's interior by itself and joins the meshes.
+//! Meshes each part of the interior of a cage on its own and joins the meshes.
 //! \param cage  n control points, has passed validate() and does not intersect itself
 //! \param options  for the whole: vertices are shared among the parts by their areas or volumes, at
 //! least one for each, points to embed go to the part in which they are
 //! \param mesher  called for each part with its own control points first, then its embedded points;
-//! with cage and options as they are if there is but one part
+//! with cage and options unchanged if there is one part
 //! \return control points, embedded points, then the other vertices part by part
 //! \throws InputError if a point to embed is in no part; what the mesher throws, an InputError of a
 //! part with the part's number and first control point before it

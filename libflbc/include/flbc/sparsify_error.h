@@ -20,9 +20,6 @@ struct Influences {
 
 //! Counts weights other than 0.
 //! \param weights  n x P
-Influences count_influences(const WeightMatrix& weights);
-
-//! The same for weights without their zeros.
 Influences count_influences(const SparseWeights& weights);
 
 //! Root of the mean square, and largest.
@@ -35,9 +32,6 @@ struct ErrorNorms {
 //! \param before  n x P
 //! \param after  n x P
 //! \throws InputError if sizes differ
-ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
-
-//! The same for weights without their zeros.
 ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after);
 
 //! The norms of the distances between points deformed with either weights, over all points and
@@ -47,11 +41,6 @@ ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after)
 //! \param after  n x P
 //! \return lengths in the units of the poses
 //! \throws InputError if sizes do not fit
-template <int Dim>
-ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                             const WeightMatrix& after);
-
-//! The same for weights without their zeros.
 template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                              const SparseWeights& after);
@@ -66,12 +55,6 @@ ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const Spa
 //! \param after  n x P
 //! \return relative to the lengths of edges
 //! \throws InputError if sizes do not fit
-template <int Dim>
-ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
-                      const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                      const WeightMatrix& after);
-
-//! The same for weights without their zeros.
 template <int Dim>
 ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
                       const std::vector<PointList<Dim>>& poses, const SparseWeights& before,

@@ -43,8 +43,8 @@ enum class LinearSolver {
   kDirect,     //!< one factorisation, exact solves
   kMultigrid,  //!< time and memory grow as the mesh: a cycle of algebraic multigrid per iteration;
                //!< for kGradient conjugate gradients with such cycles
-  kNone        //!< kGradient and kPaper only: no global system. The start is the least-norm solution
-               //!< of the local constraints, the recovery breadth-first, as in the paper
+  kNone  //!< kGradient and kPaper only: no global system. The start is the least-norm solution
+         //!< of the local constraints, the recovery breadth-first, as in the paper
 };
 
 }  // namespace flbc

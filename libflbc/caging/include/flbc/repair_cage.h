@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From a defective cage to a sound one. Implemented by the optional component `cgal`.
+//! Repairs defective cages. Implemented by the optional component `caging`.
 #pragma once
 
 #include <string>
@@ -14,19 +14,19 @@ namespace flbc {
 template <int Dim>
 struct RepairedCage {
   Cage<Dim> cage;                    //!< passes validate() and does not intersect itself
-  std::vector<std::string> changes;  //!< a sentence each, with the numbers there were
-  std::vector<Index> new_numbers;    //!< of the control points; -1: has gone
-  bool keeps_numbers = true;         //!< all control points have the numbers they had
-  bool is_wrapped = false;           //!< the facets are all new, and control points have the
-                                     //!< numbers of those that came to lie nearest to them
+  std::vector<std::string> changes;  //!< one sentence each, with the original numbers
+  std::vector<Index> new_numbers;    //!< of the control points; -1: removed
+  bool keeps_numbers = true;         //!< all control points keep their numbers
+  bool is_wrapped = false;           //!< all facets are new, and each control point has the
+                                     //!< number of the nearest original one
 };
 
-//! Merges control points that coincide, drops facets that are degenerate or there twice and flaps
-//! that hang on others, orients the facets alike, closes holes, and drops control points of no
-//! facet. A cage that is defective still, because it intersects itself or is not manifold, is
-//! wrapped closely: see cage_from_model().
+//! Merges control points that coincide, drops degenerate and duplicate facets and flaps
+//! that hang on others, orients the facets alike, closes holes, and drops unreferenced
+//! control points. If the cage still intersects itself or is not manifold, it is wrapped closely:
+//! see cage_from_model().
 //! \param cage  numbers of control points in range
-//! \throws InputError if nothing helps: the message says what is wrong with the cage
+//! \throws InputError if nothing helps; the message names the defect
 template <int Dim>
 RepairedCage<Dim> repair_cage(const Cage<Dim>& cage);
 
