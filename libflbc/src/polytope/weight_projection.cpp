@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "flbc/bounding_box.h"
 #include "linear/dense.h"
@@ -83,6 +82,18 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
   }
   weights = work.candidate_;
   return 0;
+}
+
+template <int Dim>
+bool WeightProjection<Dim>::project(const Vector<Dim>& point, const std::vector<Index>& support,
+                                    const Eigen::VectorXd& given, Eigen::VectorXd& weights) const {
+  const WeightProjection<Dim> on_support(points_(Eigen::all, support));
+  Workspace work(on_support);
+  Eigen::VectorXd few = given(support);
+  if (on_support.project(point, few, work) > 0) return false;
+  weights.setZero(given.size());
+  weights(support) = few;
+  return is_feasible(point, weights);
 }
 
 // Replaces the row by one with the same projection, nearer to it. \return true if done

@@ -3,6 +3,8 @@
 //! The projection of one row of weights on {w >= 0, sum w = 1, sum w c = x}.
 #pragma once
 
+#include <vector>
+
 #include "flbc/types.h"
 #include "polytope/dual_newton.h"
 
@@ -35,6 +37,14 @@ class WeightProjection {
   //! the control points by at most 1e-9 of their size counts as the nearest one of the hull.
   //! \return 0, or the distance from the hull of a point farther away, whose weights stay
   double project(const Vector<Dim>& point, Eigen::VectorXd& weights, Workspace& work) const;
+
+  //! The feasible weights on a support that are nearest to those given.
+  //! \param support  each control point once
+  //! \param given  n
+  //! \param weights  replaced, n
+  //! \return false if there are no such weights, or if rounding hides them
+  bool project(const Vector<Dim>& point, const std::vector<Index>& support,
+               const Eigen::VectorXd& given, Eigen::VectorXd& weights) const;
 
  private:
   friend class Workspace;
