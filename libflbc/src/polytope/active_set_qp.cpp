@@ -12,7 +12,7 @@ namespace {
 // Feasibility tolerance on partition of unity and reproduction.
 constexpr double kFeasible = 1e-8;
 // Weights up to this count as 0.
-constexpr double kZero = 1e-12;
+constexpr double kNegligible = 1e-12;
 // Slopes that rounding explains.
 constexpr double kFlat = 1e-10;
 
@@ -68,7 +68,7 @@ bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support)
   for (;;) {
     weights_ = free_.weights();
     const auto lowest = std::min_element(weights_.begin(), weights_.end());
-    if (*lowest > kZero) return is_feasible();
+    if (*lowest > kNegligible) return is_feasible();
     const auto position = static_cast<std::size_t>(lowest - weights_.begin());
     left_.push_back(members_[position]);
     erase_at(members_, position);
@@ -139,8 +139,8 @@ std::size_t ActiveSetQp<Dim>::step_to_free_minimum() {
   double step = 1;
   std::size_t first = members_.size();
   for (std::size_t k = 0; k < members_.size(); ++k) {
-    if (wanted[k] > kZero) continue;
-    const double reach = weights_[k] / std::max(weights_[k] - wanted[k], kZero);
+    if (wanted[k] > kNegligible) continue;
+    const double reach = weights_[k] / std::max(weights_[k] - wanted[k], kNegligible);
     if (reach < step) {
       step = reach;
       first = k;
@@ -189,7 +189,7 @@ bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
   weights.support.clear();
   weights.values.clear();
   for (std::size_t k = 0; k < members_.size(); ++k) {
-    if (weights_[k] <= kZero) continue;
+    if (weights_[k] <= kNegligible) continue;
     weights.support.push_back(members_[k]);
     weights.values.push_back(weights_[k]);
   }

@@ -38,7 +38,6 @@ class CellComplex {
   bool is_used(Index vertex) const;
 
   const Corners& corners(Index cell) const { return cells_[cell]; }
-  std::array<Vector<3>, 4> corner_points(Index cell) const;
 
   Index add_vertex(const Vector<3>& point);
   void remove_cell(Index cell) { is_alive_[cell] = false; }
@@ -76,11 +75,6 @@ CellComplex::CellComplex(const DomainMesh<3>& mesh)
 bool CellComplex::is_used(Index vertex) const {
   const std::vector<Index>& cells = cells_at_[vertex];
   return std::any_of(cells.begin(), cells.end(), [&](Index cell) { return is_alive(cell); });
-}
-
-std::array<Vector<3>, 4> CellComplex::corner_points(Index cell) const {
-  const Corners& c = cells_[cell];
-  return {points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]};
 }
 
 Index CellComplex::add_vertex(const Vector<3>& point) {
