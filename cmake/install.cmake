@@ -23,6 +23,7 @@ function(flbc_install_component component package)
 endfunction()
 flbc_install_component(core core flbc flbc_io)
 flbc_install_component(cgal meshers flbc_cgal)
+flbc_install_component(caging meshers flbc_caging)
 flbc_install_component(tetgen meshers flbc_tetgen)
 flbc_install_component(netgen meshers flbc_netgen)
 flbc_install_component(openmesh openmesh flbc_openmesh flbc_gltf)
@@ -38,7 +39,7 @@ if(TARGET flbc_app)
 endif()
 
 # ---- headers -------------------------------------------------------------------------------------
-install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc
+install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc libflbc/caging/include/flbc
   $<TARGET_PROPERTY:flbc,BINARY_DIR>/include/flbc
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core_dev FILES_MATCHING PATTERN "*.h")
 if(TARGET flbc_openmesh)

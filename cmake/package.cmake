@@ -108,7 +108,7 @@ endif()
 
 # Where dpkg-shlibdeps finds the libraries of packages that are being made.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS)
-foreach(target flbc flbc_io flbc_cgal flbc_tetgen flbc_netgen flbc_openmesh)
+foreach(target flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
   if(BUILD_SHARED_LIBS AND TARGET ${target})
     get_target_property(folder ${target} BINARY_DIR)
     list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${folder})

@@ -2,7 +2,7 @@
 include_guard(DIRECTORY)
 include(${CMAKE_CURRENT_LIST_DIR}/version.cmake)
 
-option(FLBC_WITH_CGAL "2D meshing and self-intersection checks with CGAL (GPL-3)" ON)
+option(FLBC_WITH_CGAL "2D meshing, self-intersection checks and automatic cages with CGAL (GPL-3)" ON)
 option(FLBC_WITH_TETGEN "3D meshing with TetGen (AGPL-3)" ON)
 option(FLBC_WITH_CHOLMOD "Factor with CHOLMOD (LGPL-2.1 / GPL-2) instead of Eigen" ON)
 

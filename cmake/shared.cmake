@@ -11,7 +11,7 @@ if(FLBC_BUILD_TESTS)
 endif()
 include(GNUInstallDirs)
 
-set(shared_libraries flbc flbc_io flbc_cgal flbc_tetgen flbc_netgen flbc_openmesh)
+set(shared_libraries flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
 # Inner headers of the core that libraries beside it call.
 set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
@@ -51,7 +51,7 @@ function(flbc_list_exports namespace headers)
 endfunction()
 
 set(exports)
-file(GLOB core libflbc/include/flbc/*.h)
+file(GLOB core libflbc/include/flbc/*.h libflbc/caging/include/flbc/*.h)
 foreach(name IN LISTS shared_inside)
   list(APPEND core ${PROJECT_SOURCE_DIR}/libflbc/src/${name}.h)
 endforeach()

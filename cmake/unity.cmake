@@ -1,9 +1,9 @@
-# A room is compiled as one unit or a few: Eigen's templates are then instantiated once a room. Off,
-# a change to one file compiles that file alone (-DFLBC_UNITY_BUILD=OFF, the preset `debug`).
+# Each source folder is compiled as one unit or a few, so that Eigen's templates are instantiated once
+# per folder. With -DFLBC_UNITY_BUILD=OFF (preset `debug`) a change to one file compiles only that file.
 include_guard(DIRECTORY)
-option(FLBC_UNITY_BUILD "Compile the files of a room together" ON)
+option(FLBC_UNITY_BUILD "Compile the files of a folder together" ON)
 
-# Files that run once a command, not once an iteration: they take a third less to compile.
+# For files that run once per command, not once per iteration: -O1 compiles a third faster.
 function(flbc_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
@@ -14,16 +14,16 @@ function(flbc_compile_rooms_together target most)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
-    cmake_path(GET source PARENT_PATH room)
-    cmake_path(GET room FILENAME room)  # what CGAL has to be compiled for is one unit: `cgal`
-    string(MAKE_C_IDENTIFIER "${room}" room)
-    if(NOT DEFINED files_in_${room})
-      set(files_in_${room} 0)
+    cmake_path(GET source PARENT_PATH folder_of_source)
+    cmake_path(GET folder_of_source FILENAME group)  # all files that include CGAL are in `cgal`
+    string(MAKE_C_IDENTIFIER "${group}" group)
+    if(NOT DEFINED files_in_${group})
+      set(files_in_${group} 0)
     endif()
-    math(EXPR unit "${files_in_${room}} / ${most}")
-    math(EXPR files_in_${room} "${files_in_${room}} + 1")
+    math(EXPR unit "${files_in_${group}} / ${most}")
+    math(EXPR files_in_${group} "${files_in_${group}} + 1")
     set_source_files_properties(${source} TARGET_DIRECTORY ${target}
-      PROPERTIES UNITY_GROUP ${room}_${unit})
+      PROPERTIES UNITY_GROUP ${group}_${unit})
   endforeach()
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${FLBC_UNITY_BUILD} UNITY_BUILD_MODE GROUP)

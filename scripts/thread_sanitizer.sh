@@ -53,7 +53,7 @@ tests=(solver/{compact_splitting,gradient_admm,weight_splitting}_test
   solver/{solver,supports,coarse_to_fine,lbc_solver,solve_parts,set_up,error_estimate}_test
   linear/{multigrid,panel_cholesky,row_matrix}_test
   problem/{boundary_values,bounded_distances,distance_weights,interpolated_distances}_test
-  projection/non_negative_test certificate/certificate_test evaluation/check_test
+  polytope/non_negative_test certificate/certificate_test evaluation/check_test
   coordinates/{deform,mean_value,placement,recovery,transfer_weights}_test
   sparsify/{sparsify,poisson_reduction,poisson_optimality}_test)
 cmake --build --preset tsan --target "${tests[@]##*/}"

@@ -9,7 +9,6 @@
 #include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
-#include "flbc/self_intersections.h"
 
 namespace flbc::app {
 namespace {

@@ -13,7 +13,6 @@
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/meshing.h"
-#include "flbc/self_intersections.h"
 
 namespace flbc::app {
 namespace {

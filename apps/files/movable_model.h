@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/keyframes.h"

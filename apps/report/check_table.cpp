@@ -6,7 +6,7 @@
 #include <numeric>
 #include <ostream>
 
-#include "flbc/violations.h"
+#include "flbc/check.h"
 #include "report/check_report.h"
 
 namespace flbc::app {

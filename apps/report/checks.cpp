@@ -2,9 +2,8 @@
 #include "report/checks.h"
 
 #include "flbc/cage_facts.h"
+#include "flbc/check.h"
 #include "flbc/meshing.h"
-#include "flbc/self_intersections.h"
-#include "flbc/violations.h"
 
 namespace flbc::app {
 

@@ -5,9 +5,8 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
-#include "flbc/coordinates.h"
-#include "flbc/edge_error.h"
-#include "flbc/poisson_reduction.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
 #include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 

@@ -8,7 +8,6 @@
 
 #include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/edge_list.h"
 #include "gltf/surface.h"
 
 namespace flbc::app {

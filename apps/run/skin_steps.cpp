@@ -8,7 +8,7 @@
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
 #include "report/sparsify_report.h"

@@ -10,10 +10,10 @@
 
 #include "files/held_signals.h"
 #include "files/load.h"
-#include "flbc/cage_parts.h"
+#include "flbc/cage_facts.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
-#include "flbc/mesh_parts.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"

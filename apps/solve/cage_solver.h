@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "flbc/cage.h"
-#include "flbc/coordinates.h"
-#include "flbc/embeddable_points.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
+#include "flbc/meshing.h"
 #include "flbc/placement.h"
+#include "flbc/quality.h"
 #include "report/history.h"
+#include "solve/cache_key.h"
 #include "solve/checkpoint.h"
 #include "solve/solve_settings.h"
-#include "solve/cache_key.h"
 #include "solve/weights_cache.h"
 
 namespace flbc::app {

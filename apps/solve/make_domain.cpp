@@ -6,8 +6,7 @@
 
 #include "files/load.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_in_parts.h"
-#include "flbc/tetrahedralize_by_netgen.h"
+#include "flbc/meshing.h"
 
 namespace flbc::app {
 namespace {

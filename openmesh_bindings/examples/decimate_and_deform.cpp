@@ -13,12 +13,12 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include <flbc/cell_locator.h>
-#include <flbc/coordinates.h>
 #include <flbc/interpolate.h>
 #include <flbc/io/cage_io.h>
 #include <flbc/io/model_file.h>
 #include <flbc/meshing.h>
 #include <flbc/openmesh/lbc.h>
+#include <flbc/quality.h>
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;

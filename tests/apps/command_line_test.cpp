@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "flbc/cage.h"
-#include "flbc/coordinates.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"

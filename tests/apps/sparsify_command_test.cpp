@@ -5,14 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/coordinates.h"
-#include "flbc/edge_error.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/poisson_reduction.h"
 #include "flbc/quality.h"
+#include "flbc/sparsify.h"
+#include "flbc/sparsify_error.h"
 #include "support/command_line.h"
 #include "support/model_cages.h"
 

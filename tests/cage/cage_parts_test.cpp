@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/cage_parts.h"
+#include "flbc/cage_facts.h"
 
 #include <numeric>
 #include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include "flbc/cage_facts.h"
 #include "support/code_cages.h"
 
 namespace flbc {

@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "flbc/meshing.h"
-#include "flbc/self_intersections.h"
 #include "support/code_cages.h"
 #include "support/model_cages.h"
 

@@ -12,7 +12,6 @@
 #include "flbc/cage_from_model.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
-#include "flbc/self_intersections.h"
 #include "support/code_cages.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"

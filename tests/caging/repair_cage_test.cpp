@@ -10,8 +10,8 @@
 
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "flbc/meshing.h"
 #include "flbc/repair_cage.h"
-#include "flbc/self_intersections.h"
 #include "support/code_cages.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"

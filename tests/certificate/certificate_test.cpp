@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "certificate/vertex_linear_program.h"
+#include "polytope/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/coordinates.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
+#include "flbc/quality.h"
 
 #include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
-#include "flbc/interpolate.h"
-#include "flbc/quality.h"
 #include "flbc/recovery.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"

@@ -12,8 +12,9 @@
 #include <Eigen/LU>
 
 #include "base/parallel.h"
-#include "flbc/coordinates.h"
+#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
+#include "flbc/interpolate.h"
 #include "flbc/quality.h"
 #include "support/code_cages.h"
 #include "support/hollow_sample.h"

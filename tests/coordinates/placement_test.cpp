@@ -5,10 +5,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
-#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"

@@ -9,10 +9,10 @@
 
 #include "base/parallel.h"
 #include "flbc/cage_facts.h"
-#include "flbc/coordinates.h"
+#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
+#include "flbc/interpolate.h"
 #include "flbc/quality.h"
-#include "flbc/violations.h"
 #include "support/code_cages.h"
 #include "support/harmonic_weights.h"
 #include "support/hollow_sample.h"

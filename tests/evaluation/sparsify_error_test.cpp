@@ -28,14 +28,14 @@ TYPED_TEST(SparsifyErrorTest, InfluencesNormsAndPoses) {
   before.row(0).setOnes();
   after(0, 0) = after(1, 1) = 1;
   EXPECT_EQ(count_influences(after).mean, 1);
-  EXPECT_EQ(count_influences(before + after).max, 2);
+  EXPECT_EQ(count_influences(WeightMatrix(before + after)).max, 2);
   EXPECT_EQ(weight_error(before, after).max, 1);
   EXPECT_DOUBLE_EQ(weight_error(before, after).rms, 0.5);  // two of eight differ by 1
   const double distance = (control_points.col(0) - control_points.col(1)).norm();
   const auto error = deformation_error<Dim>({control_points}, before, after);
   EXPECT_DOUBLE_EQ(error.max, distance);
   EXPECT_DOUBLE_EQ(error.rms, distance / std::sqrt(2));
-  EXPECT_THROW(weight_error(before, after.leftCols(1)), InputError);
+  EXPECT_THROW(weight_error(before, WeightMatrix(after.leftCols(1))), InputError);
   EXPECT_THROW(deformation_error<Dim>({control_points.leftCols(3)}, before, after), InputError);
 
   const double size = bounding_box_diagonal<Dim>(control_points);

@@ -7,7 +7,7 @@ execute_process(
 file(RENAME ${stage} ${WORK}/moved)
 
 file(COPY ${WORK}/moved/ DESTINATION ${WORK}/core_only)
-foreach(component cgal tetgen openmesh)
+foreach(component cgal caging tetgen openmesh)
   file(GLOB_RECURSE exports ${WORK}/core_only/flbc-${component}*.cmake)
   if(exports)
     file(REMOVE ${exports})

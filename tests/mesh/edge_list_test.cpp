@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 
 #include <cmath>
 #include <limits>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "flbc/cage.h"
-#include "flbc/edge_error.h"
 #include "flbc/errors.h"
-#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
+#include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
@@ -200,7 +200,8 @@ TYPED_TEST(EdgeListTest, EdgeErrorIsRelativeToTheEdges) {
   EXPECT_EQ(unit.max, 0);
   EXPECT_NEAR(unit.rms, std::sqrt(mean / 4), 1e-13);
 
-  EXPECT_THROW(edge_error<Dim>(points, edges, poses, before, after.leftCols(2)), InputError);
+  EXPECT_THROW(edge_error<Dim>(points, edges, poses, before, WeightMatrix(after.leftCols(2))),
+               InputError);
   EXPECT_THROW(edge_error<Dim>(points.leftCols(2), edges, poses, before, after), InputError);
   EXPECT_THROW(edge_error<Dim>(points, {{{0, 3}}, {}}, poses, before, after), InputError);
   EXPECT_THROW(edge_error<Dim>(points, edges, {poses[0].leftCols(2)}, before, after), InputError);

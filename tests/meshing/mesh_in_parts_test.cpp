@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/mesh_in_parts.h"
+#include "flbc/meshing.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,10 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "flbc/cage_facts.h"
-#include "flbc/cage_parts.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
-#include "flbc/meshing.h"
 #include "support/code_cages.h"
 
 namespace flbc::testing {

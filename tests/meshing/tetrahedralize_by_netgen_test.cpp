@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/tetrahedralize_by_netgen.h"
+#include "flbc/meshing.h"
 
 #include <string>
 

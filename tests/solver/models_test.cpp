@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/coordinates.h"
+#include "flbc/cell_locator.h"
+#include "flbc/interpolate.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
+#include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "support/judge.h"
 #include "support/model_cages.h"

@@ -7,9 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
+#include "flbc/cell_locator.h"
 #include "flbc/certificate.h"
-#include "flbc/coordinates.h"
 #include "flbc/harmonic.h"
+#include "flbc/interpolate.h"
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"

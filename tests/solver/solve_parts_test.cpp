@@ -9,10 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "flbc/check.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
 #include "flbc/solver.h"
-#include "flbc/violations.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
 

@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 #include "solver/supports/iterate_on_supports.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
 
 #include <algorithm>
 #include <cmath>

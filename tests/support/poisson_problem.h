@@ -11,8 +11,6 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
-#include "flbc/edge_error.h"
-#include "flbc/poisson_reduction.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"

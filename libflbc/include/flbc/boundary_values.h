@@ -55,20 +55,20 @@ struct BoundaryValues {
   }
 };
 
-//! Locates every boundary vertex on the cage by geometry, so that any mesh of the cage's interior
-//! serves, whoever made it.
+//! Locates every boundary vertex on the cage by geometry, so that any mesh of the interior of
+//! the cage works.
 //! \param cage  n control points
 //! \param mesh  V vertices, B of them on the boundary
 //! \param topology  of the mesh
 //! \throws InputError naming the vertex if one is farther from the cage than 1e-6 of the cage's
-//! size, the cell if its boundary facet is, or the control point if one is no vertex of the mesh
+//! size, the cell if its boundary facet is, or the control point if one is not a vertex of the mesh
 template <int Dim>
 BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                     const MeshTopology<Dim>& topology);
 
-//! Moves boundary vertices that lie a little beside the cage onto it, as they do where a mesh was
-//! stored in single precision or as text with few digits: first onto control points, then onto
-//! facets. Vertices within 1e-12 of the cage's size stay.
+//! Moves boundary vertices near the cage onto it: first onto control points, then onto facets.
+//! Meshes stored in single precision or as text with few digits have such vertices. Vertices within
+//! 1e-12 of the size of the cage are unchanged.
 //! \param cage  n control points
 //! \param topology  of the mesh
 //! \param tolerance  how far, relative to the cage's size, a vertex is moved at most, >= 0

@@ -13,4 +13,8 @@ namespace flbc {
 template <int Dim>
 double bounding_box_diagonal(const PointList<Dim>& points);
 
+//! Points outside a cage, its mesh or the hull of its control points by at most this fraction of
+//! the size (bounding_box_diagonal) count as boundary points, because files have few digits.
+constexpr double kBoundaryTolerance = 1e-6;
+
 }  // namespace flbc

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flbc/cage.h"
+#include "flbc/types.h"
 
 namespace flbc {
 
@@ -25,12 +26,12 @@ struct CageFacts {
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
-//! The place where a cage comes nearest to itself: a thin wall, or a facet that is nearly a line.
-//! Meshes of good cells need the more of them the thinner it is.
+//! The place where a cage is nearest to itself: a thin wall, or a facet that is nearly a line.
+//! The thinner it is, the more cells a mesh of good quality needs.
 struct ThinPlace {
-  double distance = 0;      //!< of the control point from the facet, in the cage's units
+  double distance = 0;  //!< of the control point from the facet, in the cage's units
   Index control_point = -1;
-  Index facet = -1;         //!< of which the control point is no corner; -1 if there is none
+  Index facet = -1;  //!< of which the control point is no corner; -1 if there is none
 };
 
 //! The smallest distance of a control point from a facet that it is no corner of. Takes time
@@ -42,11 +43,25 @@ ThinPlace thinnest_place(const Cage<Dim>& cage);
 //! Where thinnest_place() is below this part of the cage's size, meshing may not end in time.
 constexpr double kThin = 1e-3;
 
-//! Points outside a cage by more than kBoundaryTolerance of its size; those inside holes are outside.
+//! Points outside a cage by more than kBoundaryTolerance of its size; those inside holes are
+//! outside.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
 //! \return their indices, ascending
 template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! A connected part of a cage's interior: an outer loop or shell with the holes or cavities in it.
+template <int Dim>
+struct CagePart {
+  Cage<Dim> cage;                     //!< control points and facets in the order of the whole cage
+  std::vector<Index> control_points;  //!< per control point: its number there, ascending
+};
+
+//! Splits a cage into its parts. A loop or shell in a hole of another one is a part of its own.
+//! \param cage  has passed validate() and does not intersect itself
+//! \return at least one, in the order of their first control points
+template <int Dim>
+std::vector<CagePart<Dim>> cage_parts(const Cage<Dim>& cage);
 
 }  // namespace flbc

@@ -43,7 +43,7 @@ class CellLocator {
 //! Locates points inside the cage.
 //! \param mesh  valid
 //! \param points  Dim x P, in the units of the mesh
-//! \return P places; points beside the mesh are in the nearest cell
+//! \return P places; points within tolerance of the mesh are in the nearest cell
 //! \throws InputError naming the first point that lies outside the mesh by more than 1e-6 of its
 //! size, and how many do
 template <int Dim>

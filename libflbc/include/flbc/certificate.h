@@ -3,7 +3,6 @@
 //! How far weights can be from the optimum, proved by duality.
 #pragma once
 
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 
 namespace flbc {

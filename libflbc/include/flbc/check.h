@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/quality.h"
+#include "flbc/types.h"
 
 namespace flbc {
 
@@ -79,10 +81,20 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 //! \param cage  has passed validate()
 //! \param domain  mesh of the cage's interior, valid
 //! \param weights  n x V
-//! \throws InputError if sizes do not belong together or the mesh is none of the cage's interior
+//! \throws InputError if sizes do not belong together or the mesh does not fill the interior of the cage
 //!     (see boundary_values), SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights);
+
+//! Errors above this are violations of what coordinates must satisfy.
+constexpr double kCheckTolerance = 1e-6;
+
+//! Properties of all coordinates of a cage that the weights lack: being finite, partition of unity,
+//! reproduction, Lagrange property and linearity on facets. Negative weights are no violation.
+//! \param check  as check_weights() gives it
+//! \return a sentence each, with place and value; empty if there are none
+template <int Dim>
+std::vector<std::string> find_violations(const WeightCheck<Dim>& check);
 
 }  // namespace flbc

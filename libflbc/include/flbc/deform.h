@@ -10,16 +10,16 @@ namespace flbc {
 //! Where points go when the control points move.
 //! \param weights  n x P
 //! \param control_points  Dim x n, in any units
-//! \param threads  at most so many; 0 = as many as OpenMP offers. Less than four million weights
-//! take one whatever this says: waking others may cost more, by far where other programs keep the
-//! cores busy. The result does not depend on it
+//! \param threads  maximum number of threads (0 = as many as OpenMP offers). Fewer than four million
+//! weights always use one thread, because waking others may cost more. The result does not depend
+//! on it
 //! \return Dim x P, in the units of the control points
 //! \throws InputError naming both numbers of control points if they differ
 template <int Dim>
 PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
                       int threads = 0);
 
-//! The same for weights without zeros.
+//! The same for weights without their zeros.
 //! \param weights  of P points
 //! \param control_points  Dim x n, in any units
 //! \param threads  as above

@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The weight functions phi_i of the paper's problem (1): they make the variation of w_i dearer the
-//! farther it is from its control point, which keeps w_i local.
+//! Distances inside the domain, and the weight functions phi_i of the problem (1) of the paper.
+//! They make variation of w_i cost more the farther it is from its control point, which keeps w_i
+//! local.
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/geodesic_distances.h"
+#include "flbc/types.h"
 
 namespace flbc {
+
+//! n x V: column v holds the distances of point v from n sources, in single precision, as they are
+//! computed: they take as much memory as anything in a solve.
+using DistanceMatrix = Eigen::MatrixXf;
+
+//! Geodesic distances inside the domain, by fast marching (Sethian 1996) over the cells (Kimmel and
+//! Sethian 1998), which see the source as a point: exact to single precision where the way is
+//! straight, of first order in the size of the cells where it bends round the boundary. Time and
+//! memory grow with the mesh as its number of cells.
+//! \param mesh  valid, V vertices
+//! \param topology  of the mesh
+//! \param sources  vertices of the mesh, one per control point
+//! \return #sources x V, in the units of the mesh, >= 0
+template <int Dim>
+DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                                  const std::vector<Index>& sources);
 
 //! How phi_i grows with the relative distance d_i in [0, 1] from its control point.
 enum class DistanceScheme {
@@ -65,8 +83,8 @@ class WeightFunctions {
  private:
   double from_distances(Eigen::Index i, Eigen::Index s) const;
 
-  Eigen::MatrixXd values_;    // n x F, if given
-  DistanceMatrix distances_;  // n x V, else
+  Eigen::MatrixXd values_;                                      // n x F, if given
+  DistanceMatrix distances_;                                    // n x V, else
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;

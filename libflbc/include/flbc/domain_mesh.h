@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The mesh of the cage's interior on which the coordinates are piecewise linear.
+//! The mesh of the cage's interior on which the coordinates are piecewise linear, its facets, edges
+//! and connected parts.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "flbc/types.h"
@@ -61,13 +63,83 @@ std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num
 template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 
-//! Turns cells with negative measure round, and checks the mesh.
+//! Reverses cells with negative measure, and checks the mesh.
 //! \param mesh  any
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
 //! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
 //! cells or to two on the same side of it, or parts touch without a common facet. The mesh may
-//! have several parts that do not touch (mesh_parts.h).
+//! have several parts that do not touch (mesh_parts()).
 template <int Dim>
 void normalize_and_validate(DomainMesh<Dim>& mesh);
+
+//! A connected part of a mesh.
+template <int Dim>
+struct MeshPart {
+  DomainMesh<Dim> mesh;
+  std::vector<Index> vertices;  //!< per vertex of the part: its number in the whole mesh
+};
+
+//! Number of parts that share no vertex.
+//! \param mesh  has passed normalize_and_validate()
+template <int Dim>
+Index count_parts(const DomainMesh<Dim>& mesh);
+
+//! Splits a mesh into its parts. Vertices and cells of a part keep their order.
+//! \param mesh  has passed normalize_and_validate()
+//! \return in the order of their first vertices
+template <int Dim>
+std::vector<MeshPart<Dim>> mesh_parts(const DomainMesh<Dim>& mesh);
+
+//! Joins parts; the cells of one follow those of the other.
+//! \param parts  whose lists of vertices hold each number from 0 to V - 1 once
+template <int Dim>
+DomainMesh<Dim> join_parts(const std::vector<MeshPart<Dim>>& parts);
+
+//! Refuses meshes of several parts.
+//! \param mesh  has passed normalize_and_validate()
+//! \throws InputError that names a vertex of each of two parts
+template <int Dim>
+void require_connected(const DomainMesh<Dim>& mesh);
+
+//! Undirected edges between points.
+struct EdgeList {
+  //! The two points of each edge, in any order.
+  std::vector<std::array<Index, 2>> ends{};
+
+  //! How much each edge counts, > 0; empty stands for 1 each. An edge that is listed twice counts
+  //! twice.
+  std::vector<double> weights{};
+};
+
+//! Checks edges.
+//! \param edges  any
+//! \param num_points  P
+//! \throws InputError if an end of an edge is not in [0, P), or a weight that
+//! is not positive and finite, or if there is not one weight per edge
+void validate(const EdgeList& edges, Eigen::Index num_points);
+
+//! The edges of the cells, each once, ascending. Their weights make
+//!
+//!     sum over edges ab of k_ab |f(a) - f(b)|^2
+//!
+//! an approximation of the integral of |grad f|^2: each cell gives each of its edges an equal share
+//! of its area or volume, times its dimension, and k_ab is what an edge got in all, divided by its
+//! squared length. On regular cells these are the weights of linear finite elements (cotangents),
+//! but they are positive on all others, too, which minimizing edge by edge needs.
+//! \param mesh  any cells and points
+//! \throws InputError if a vertex of a cell is not one of the points
+template <int Dim>
+EdgeList edges_of_cells(const DomainMesh<Dim>& mesh);
+
+//! The same for polygons, whose area is that of the fan around their first vertex, and for
+//! polylines.
+//! \param points  Dim x P
+//! \param polygons  the vertices of each in order, the first not repeated
+//! \param polylines  the vertices of each in order; closed if the last is the first
+//! \throws InputError if a vertex of a polygon or polyline is not one of the points
+template <int Dim>
+EdgeList edges_of_polygons(const PointList<Dim>& points,
+                           const std::vector<std::vector<Index>>& polygons,
+                           const std::vector<std::vector<Index>>& polylines = {});
 
 }  // namespace flbc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The exceptions of the library. Not converging is no exception: it is a status in the report.
+//! The exceptions of the library. A solve that does not converge sets a status in the report
+//! instead.
 #pragma once
 
 #include <stdexcept>
@@ -27,7 +28,7 @@ class OptionError : public Error {
   using Error::Error;
 };
 
-//! Fewer vertices were asked for than a mesh of the cage takes. The text says how many these are.
+//! A mesh of the cage needs more vertices than requested. The text names the minimum.
 class TooFewVertices : public OptionError {
  public:
   using OptionError::OptionError;

@@ -1,58 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! All of libflbc's core.
+//! What a first program needs. The coordinates of a square:
+//!
+//!     #include <flbc/flbc.h>
+//!
+//!     flbc::Cage<2> cage;
+//!     cage.points.resize(2, 4);
+//!     cage.points << 0, 1, 1, 0,
+//!                    0, 0, 1, 1;
+//!     cage.facets.resize(2, 4);
+//!     cage.facets << 0, 1, 2, 3,
+//!                    1, 2, 3, 0;
+//!
+//!     flbc::DomainMesh<2> mesh = flbc::triangulate(cage, {500});  // component cgal
+//!     flbc::Solution solution = flbc::solve(cage, mesh);          // n x V, a column per vertex
+//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // = mesh.points: move cage.points
+//!
+//! Further headers: other coordinates (harmonic.h, mean_value.h), fewer influences (sparsify.h),
+//! checks (check.h, cage_facts.h), rest cages that are edited (editing.h), the parts of a solve
+//! (lbc_problem.h), and the optional component `caging` (cage_from_model.h, repair_cage.h).
 #pragma once
 
-#include "flbc/boundary_tolerance.h"
-#include "flbc/boundary_values.h"
-#include "flbc/bounding_box.h"
-#include "flbc/byte_archive.h"
-#include "flbc/cage.h"
-#include "flbc/cage_facts.h"
-#include "flbc/cage_from_model.h"
-#include "flbc/cage_parts.h"
-#include "flbc/cell_field.h"
-#include "flbc/cell_locator.h"
-#include "flbc/certificate.h"
-#include "flbc/check.h"
-#include "flbc/coarse_to_fine.h"
-#include "flbc/content_hash.h"
-#include "flbc/coordinates.h"
-#include "flbc/deform.h"
-#include "flbc/distance_weights.h"
-#include "flbc/domain_mesh.h"
-#include "flbc/edge_error.h"
-#include "flbc/edge_list.h"
-#include "flbc/errors.h"
-#include "flbc/geodesic_distances.h"
-#include "flbc/harmonic.h"
-#include "flbc/interpolate.h"
-#include "flbc/lbc_problem.h"
-#include "flbc/linear_solver.h"
-#include "flbc/mean_value.h"
-#include "flbc/mesh_in_parts.h"
-#include "flbc/mesh_parts.h"
-#include "flbc/meshing.h"
-#include "flbc/meshing_options.h"
-#include "flbc/non_negative.h"
-#include "flbc/observer.h"
-#include "flbc/options.h"
-#include "flbc/placement.h"
-#include "flbc/poisson_reduction.h"
-#include "flbc/poses.h"
-#include "flbc/published_penalty.h"
-#include "flbc/quality.h"
-#include "flbc/recovery.h"
-#include "flbc/repair_cage.h"
-#include "flbc/report.h"
-#include "flbc/self_intersections.h"
-#include "flbc/solver.h"
-#include "flbc/sparse_weights.h"
-#include "flbc/sparsify.h"
-#include "flbc/sparsify_error.h"
-#include "flbc/tetrahedralize.h"
-#include "flbc/transfer_weights.h"
-#include "flbc/triangulate.h"
-#include "flbc/types.h"
-#include "flbc/version.h"
-#include "flbc/violations.h"
+#include "flbc/cage.h"         // Cage, validate()
+#include "flbc/deform.h"       // deform()
+#include "flbc/domain_mesh.h"  // DomainMesh
+#include "flbc/errors.h"       // InputError, OptionError, SolverError
+#include "flbc/meshing.h"      // triangulate(), tetrahedralize()
+#include "flbc/placement.h"    // weights at the vertices of a model
+#include "flbc/solver.h"       // solve(), SolverOptions, Solution
+#include "flbc/version.h"      // FLBC_VERSION

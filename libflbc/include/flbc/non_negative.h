@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Makes weights non-negative without giving up sum and reproduction.
+//! Makes weights non-negative and keeps sum and reproduction.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ namespace flbc {
 
 //! Replaces every column by the nearest one (in the Euclidean norm) with w >= 0, sum w = 1 and
 //! sum w c = x. Afterwards no weight is below 0 (nor -0), and sum and reproduction hold to 1e-13,
-//! the latter relative to the size of the control points. Columns that are like that already
-//! stay. A point beside the convex hull of the control points by no more than kBoundaryTolerance of
-//! their size counts as the nearest point of the hull. Where rounding hides the nearest weights
-//! (points on the hull's boundary where control points lie in a facet but for 1e-8 of the size or
-//! less) the weights may be other feasible ones.
-//! The projection is computed in its dual by a semismooth Newton method (Qi and Sun 1993).
+//! the latter relative to the size of the control points. Feasible columns are
+//! unchanged. A point outside the convex hull of the control points by at most kBoundaryTolerance
+//! of their size counts as the nearest point of the hull. Where rounding hides the nearest weights
+//! (points on the boundary of the hull where control points are within 1e-8 of the size from a
+//! facet) the weights may be other feasible ones. The projection is computed in its dual by a
+//! semismooth Newton method (Qi and Sun 1993).
 //! \param control_points  Dim x n, n >= 1, finite
 //! \param points  Dim x P, finite, in the units of the control points
 //! \param weights  n x P, finite; replaced
@@ -31,7 +31,7 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
 //! \param points  Dim x P, in the units of the control points
 //! \param weights  n x P; the columns are replaced
 //! \param columns  numbers of points, each at most once
-//! \throws InputError as above, and for a column that is not there
+//! \throws InputError as above, and for a column out of range
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
                           WeightMatrix& weights, const std::vector<Index>& columns);

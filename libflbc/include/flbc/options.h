@@ -7,7 +7,7 @@
 
 #include "flbc/coarse_to_fine.h"
 #include "flbc/distance_weights.h"
-#include "flbc/linear_solver.h"
+#include "flbc/types.h"
 
 namespace flbc {
 

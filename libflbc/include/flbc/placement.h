@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights at any points: inside the cage, a hair beside it, or outside.
+//! Weights at any points: inside the cage, within tolerance of it, or outside.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ namespace flbc {
 
 //! Treatment of points outside the cage.
 enum class OutsidePoints {
-  kFail,     //!< an InputError says how many there are, which is the farthest, and how far it is
+  kFail,     //!< an InputError reports their number, the farthest one and its distance
   kNearest,  //!< the weights of the nearest point of the cage: >= 0, with sum 1; they reproduce
              //!< that point
-  kExtend  //!< those plus an affine function of the offset from it: the offset follows the affine
-           //!< map that fits the control points around best. The sum is 1 and the point is
-           //!< reproduced; weights may be negative. Continuous across the cage.
+  kExtend    //!< those plus an affine function of the offset from it: the offset follows the affine
+             //!< map that fits the control points around best. The sum is 1 and the point is
+             //!< reproduced; weights may be negative. Continuous across the cage.
 };
 
-//! A point beside the cage and the place on the cage that is nearest to it.
+//! A point outside the cage and the nearest point of the cage.
 template <int Dim>
 struct PointBeside {
   Index point = -1;
@@ -37,7 +37,7 @@ struct Placement {
   OutsidePoints policy = OutsidePoints::kFail;
   PointList<Dim> points;              //!< Dim x P, where the weights put them
   std::vector<Location<Dim>> places;  //!< of P points, coordinates >= 0; cell -1: not inside
-  //! Outside by no more than kBoundaryTolerance, and put on the cage; ascending.
+  //! Outside by at most kBoundaryTolerance, and moved onto the cage; ascending.
   std::vector<PointBeside<Dim>> on_cage;
   std::vector<PointBeside<Dim>> outside;  //!< by more; ascending
 };
@@ -46,14 +46,14 @@ struct Placement {
 //! \param cage  n control points, has passed validate()
 //! \param mesh  valid, of the cage's interior
 //! \param points  Dim x P, finite, in the units of the cage
-//! \param policy  what becomes of points outside by more than kBoundaryTolerance
+//! \param policy  how to handle points outside by more than kBoundaryTolerance
 //! \throws InputError if there are such and the policy is OutsidePoints::kFail
 template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
-//! The places on a cage that are nearest to points.
+//! The nearest points of a cage.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, finite, in the units of the cage
 //! \param which  of them, in [0, P)
@@ -62,8 +62,8 @@ template <int Dim>
 std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                               const std::vector<Index>& which);
 
-//! Weights at placed points: linear in the cells and facets, and beyond by the policy. Not negative
-//! where the mesh's are not, except for OutsidePoints::kExtend.
+//! Weights at placed points: linear in the cells and facets, and outside by the policy. Not
+//! negative where the mesh's are not, except for OutsidePoints::kExtend.
 //! \param cage, mesh  as for place_points()
 //! \param weights  n x V, of the mesh's vertices
 //! \param placement  as place_points() gives it

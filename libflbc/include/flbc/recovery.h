@@ -3,7 +3,6 @@
 //! From gradients to weights.
 #pragma once
 
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 
 namespace flbc {

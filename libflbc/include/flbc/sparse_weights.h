@@ -24,7 +24,7 @@ class SparseWeights {
   //! \param weights  n x P
   //! \param threshold  >= 0
   //! \throws OptionError if the threshold is negative or no number
-  explicit SparseWeights(const WeightMatrix& weights, double threshold = 0);
+  SparseWeights(const WeightMatrix& weights, double threshold = 0);
 
   //! Takes weights as they are.
   //! \param num_control_points  n

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! How far sparse weights are from those given, in weights and in deformations.
+//! How far sparse weights are from those given, in weights, in deformations and in differences
+//! along edges.
 #pragma once
 
 #include <vector>
 
+#include "flbc/domain_mesh.h"
 #include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
@@ -18,9 +20,6 @@ struct Influences {
 
 //! Counts weights other than 0.
 //! \param weights  n x P
-Influences count_influences(const WeightMatrix& weights);
-
-//! The same for weights without their zeros.
 Influences count_influences(const SparseWeights& weights);
 
 //! Root of the mean square, and largest.
@@ -33,9 +32,6 @@ struct ErrorNorms {
 //! \param before  n x P
 //! \param after  n x P
 //! \throws InputError if sizes differ
-ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after);
-
-//! The same for weights without their zeros.
 ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after);
 
 //! The norms of the distances between points deformed with either weights, over all points and
@@ -46,12 +42,22 @@ ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after)
 //! \return lengths in the units of the poses
 //! \throws InputError if sizes do not fit
 template <int Dim>
-ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                             const WeightMatrix& after);
-
-//! The same for weights without their zeros.
-template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                              const SparseWeights& after);
+
+//! The norms of the differences along edges between points deformed with either weights, relative
+//! to the edges at rest: with e = |C_p (d_a - d_b)|, rms = sqrt(mean_p sum k e^2 /
+//! sum k |x_a - x_b|^2) and max = max e / |x_a - x_b|, over the edges that have a length.
+//! \param points  Dim x P, at rest
+//! \param edges  between the points
+//! \param poses  Dim x n each, in the units of the points
+//! \param before  n x P
+//! \param after  n x P
+//! \return relative to the lengths of edges
+//! \throws InputError if sizes do not fit
+template <int Dim>
+ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
+                      const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                      const SparseWeights& after);
 
 }  // namespace flbc

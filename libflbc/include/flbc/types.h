@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The matrix orientation and the index type of the whole library: points are columns.
+//! Types of the whole library: points are columns.
 //! Eigen's matrices cross the interface, and how Eigen allocates them depends on the instruction
 //! set and on AddressSanitizer: give a program such flags (-march=native) only if the library was
 //! compiled with them too.
@@ -34,5 +34,17 @@ using CellList = Eigen::Matrix<Index, Dim + 1, Eigen::Dynamic>;
 //! n x #points: column v holds the n coordinates of point v, one per control point, contiguous.
 //! With the control points C as columns, reproduction reads C W = X.
 using WeightMatrix = Eigen::MatrixXd;
+
+//! How Method::kValue and kLbc2014 solve the linear system of each iteration, and Method::kGradient
+//! those of its start and its recovery.
+enum class LinearSolver {
+  kAuto,       //!< by what is faster: kMultigrid for kValue and kGradient on large meshes, else
+               //!< kDirect
+  kDirect,     //!< one factorisation, exact solves
+  kMultigrid,  //!< time and memory grow as the mesh: a cycle of algebraic multigrid per iteration;
+               //!< for kGradient conjugate gradients with such cycles
+  kNone  //!< kGradient and kPaper only: no global system. The start is the least-norm solution
+         //!< of the local constraints, the recovery breadth-first, as in the paper
+};
 
 }  // namespace flbc

@@ -8,7 +8,6 @@
 #include "cage/facet_distance.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
-#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/cage_parts.h"
+#include "flbc/cage_facts.h"
 
 #include <algorithm>
 #include <utility>

@@ -45,8 +45,8 @@ FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
           facet.to_coordinates * (point - facet.corners * coordinates);
       coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
     }
-    // Coordinates outside the facet or due to rounding are cut off, so that a point on an edge or at a
-    // corner has exact zeros elsewhere.
+    // Coordinates outside the facet or due to rounding are cut off, so that a point on an edge or
+    // at a corner has exact zeros elsewhere.
     coordinates = (coordinates.array() < kRounding).select(0, coordinates);
     coordinates /= coordinates.sum();
     const double distance = (facet.corners * coordinates - point).norm();

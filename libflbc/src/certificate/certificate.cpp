@@ -10,13 +10,13 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
-#include "certificate/vertex_linear_program.h"
+#include "polytope/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
-#include "projection/weight_projection.h"
+#include "polytope/weight_projection.h"
 
 namespace flbc {
 namespace {

@@ -2,7 +2,6 @@
 #include "flbc/harmonic.h"
 
 #include "coordinates/poisson_weights.h"
-#include "coordinates/project_interior.h"
 
 namespace flbc {
 

@@ -5,18 +5,98 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <vector>
+
+#include <Eigen/LU>
 
 #include "base/messages.h"
-#include "coordinates/affine_fit.h"
-#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
+#include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
+#include "linear/dense.h"
 #include "mesh/cell_geometry.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {
+
+// The linear part of the affine map that fits displacements of control points in the sense of
+// least squares: the columns of G with sum_i G_i = 0 and sum_i c_i G_i^T = I that have the least
+// norm.
+template <int Dim>
+struct AffineFit {
+  std::vector<Index> control_points;
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients;  //!< G, a row per control point
+};
+
+// Fits with a control point and its neighbours on the cage, and theirs, and so on, until they
+// surround it well enough: where facets lie in one plane neighbours alone do not.
+template <int Dim>
+class AffineFitter {
+ public:
+  // \param cage  has passed validate(), outlives the fitter
+  explicit AffineFitter(const Cage<Dim>& cage);
+
+  AffineFit<Dim> operator()(Index control_point) const;
+
+ private:
+  const Cage<Dim>& cage_;
+  std::vector<std::vector<Index>> neighbors_;
+};
+
+// Least extent of the control points, relative to their largest, squared: flatter ones would turn
+// small displacements across into large ones of what is far from their plane.
+constexpr double kLeastExtent = 0.04;
+
+template <int Dim>
+PointList<Dim> centered(const PointList<Dim>& points, const std::vector<Index>& chosen) {
+  PointList<Dim> some = points(Eigen::all, chosen);
+  const Vector<Dim> center = some.rowwise().mean();
+  return some.colwise() - center;
+}
+
+template <int Dim>
+bool surrounds(const PointList<Dim>& offsets) {
+  const Eigen::Matrix<double, Dim, Dim> moments = offsets * offsets.transpose();
+  const Eigen::Matrix<double, Dim, Dim> axes = dense::principal_axes<Dim>(moments);
+  const Vector<Dim> extents = (axes.transpose() * moments * axes).diagonal();
+  return extents.minCoeff() > kLeastExtent * extents.maxCoeff();
+}
+
+template <int Dim>
+AffineFitter<Dim>::AffineFitter(const Cage<Dim>& cage) : cage_(cage), neighbors_(cage.size()) {
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    for (int j = 0; j < Dim; ++j) {
+      for (int k = 0; k < Dim; ++k) {
+        if (j != k) neighbors_[cage.facets(j, f)].push_back(cage.facets(k, f));
+      }
+    }
+  }
+}
+
+template <int Dim>
+AffineFit<Dim> AffineFitter<Dim>::operator()(Index control_point) const {
+  std::vector<Index> chosen{control_point};
+  std::vector<bool> is_chosen(cage_.size(), false);
+  is_chosen[control_point] = true;
+  PointList<Dim> offsets;
+  std::size_t before = 0;
+  do {
+    const std::size_t end = chosen.size();
+    for (std::size_t k = before; k < end; ++k) {
+      for (const Index neighbor : neighbors_[chosen[k]]) {
+        if (is_chosen[neighbor]) continue;
+        is_chosen[neighbor] = true;
+        chosen.push_back(neighbor);
+      }
+    }
+    before = end;
+    offsets = centered<Dim>(cage_.points, chosen);
+  } while (!surrounds<Dim>(offsets) && chosen.size() > before);
+  const Eigen::Matrix<double, Dim, Dim> moments = offsets * offsets.transpose();
+  return {std::move(chosen), offsets.transpose() * moments.inverse()};
+}
 
 constexpr double kRounding = 1e-12;  // of the cage's size: a point that near a cell is in it
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "coordinates/poisson_weights.h"
-#include "coordinates/project_interior.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
 

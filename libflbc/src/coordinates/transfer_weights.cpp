@@ -9,7 +9,7 @@
 #include "coordinates/box_tree.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {

@@ -5,17 +5,127 @@
 #include <cmath>
 #include <string>
 
+#include "base/messages.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "cage/facet_locator.h"
-#include "evaluation/check_mesh.h"
-#include "evaluation/extremes.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "flbc/harmonic.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/quality.h"
+#include "mesh/vertex_cells.h"
 #include "problem/problem_geometry.h"
 
 namespace flbc {
 namespace {
+
+// Takes the value if it is the first or larger; the first of equal ones stays.
+template <int Dim>
+void keep_larger(Extreme<Dim>& best, const Extreme<Dim>& other) {
+  if (other.point >= 0 && (best.point < 0 || other.value > best.value)) best = other;
+}
+
+template <int Dim>
+void keep_smaller(Extreme<Dim>& best, const Extreme<Dim>& other) {
+  if (other.point >= 0 && (best.point < 0 || other.value < best.value)) best = other;
+}
+
+constexpr double kExtremumMargin = 1e-6;
+
+// Extrema found in a part of the mesh; parts are added up in the order of vertices.
+template <int Dim>
+struct Extrema {
+  Eigen::Matrix<Index, Eigen::Dynamic, 1> minima, maxima;  // n
+  Extreme<Dim> deepest, highest;
+
+  explicit Extrema(Index n) : minima(n), maxima(n) {
+    minima.setZero();
+    maxima.setZero();
+  }
+  Extrema& operator+=(const Extrema& next) {
+    minima += next.minima;
+    maxima += next.maxima;
+    keep_larger(deepest, next.deepest);
+    keep_larger(highest, next.highest);
+    return *this;
+  }
+};
+
+// Each neighbour once, because cells share them.
+template <int Dim>
+void collect_neighbours(const DomainMesh<Dim>& mesh, const VertexCells& around, Index vertex,
+                        std::vector<Index>& neighbours) {
+  neighbours.clear();
+  for (const Index s : around.cells_of(vertex)) {
+    for (const Index v : mesh.cells.col(s)) {
+      if (v != vertex) neighbours.push_back(v);
+    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+}
+
+template <int Dim>
+Extrema<Dim> find_extrema(const DomainMesh<Dim>& mesh, const std::vector<Index>& interior,
+                          const WeightMatrix& weights) {
+  const VertexCells around(mesh);
+  const auto n = static_cast<Index>(weights.rows());
+  const auto search = [&](Index begin, Index end) {
+    Extrema<Dim> found(n);
+    std::vector<Index> neighbours;
+    Eigen::ArrayXd lowest, highest;
+    for (Index k = begin; k < end; ++k) {
+      const Index v = interior[k];
+      const Vector<Dim> place = mesh.points.col(v);
+      collect_neighbours(mesh, around, v, neighbours);
+      lowest = highest = weights.col(neighbours.front());
+      for (const Index w : neighbours) {
+        lowest = lowest.min(weights.col(w).array());
+        highest = highest.max(weights.col(w).array());
+      }
+      for (Index i = 0; i < n; ++i) {
+        const double depth = lowest[i] - weights(i, v);
+        const double height = weights(i, v) - highest[i];
+        if (depth > kExtremumMargin) {
+          ++found.minima[i];
+          keep_larger(found.deepest, {depth, v, i, place});
+        }
+        if (height > kExtremumMargin) {
+          ++found.maxima[i];
+          keep_larger(found.highest, {height, v, i, place});
+        }
+      }
+    }
+    return found;
+  };
+  return parallel_sum(static_cast<Index>(interior.size()), Extrema<Dim>(n), search);
+}
+
+// \param problem  made of the mesh
+// \param domain  the mesh, in its own units
+// \param mean_influences  of the weights
+template <int Dim>
+MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Dim>& domain,
+                             const WeightMatrix& weights, double mean_influences) {
+  const auto interior = problem.boundary.interior_vertices();
+  MeshCheck<Dim> check;
+  check.interior_vertices = static_cast<Index>(interior.size());
+  const auto extrema = find_extrema(domain, interior, weights);
+  check.local_minima.assign(extrema.minima.begin(), extrema.minima.end());
+  check.local_maxima.assign(extrema.maxima.begin(), extrema.maxima.end());
+  check.deepest_minimum = extrema.deepest;
+  check.highest_maximum = extrema.highest;
+  check.total_variation = total_variation(domain, weights);
+
+  const auto harmonic = harmonic_coordinates(problem);
+  check.harmonic_total_variation = total_variation(domain, harmonic);
+  check.harmonic_mean_influences =
+      static_cast<double>((harmonic.array().abs() > kInfluenceThreshold).count()) /
+      static_cast<double>(domain.num_vertices());
+  check.influence_ratio = mean_influences / check.harmonic_mean_influences;
+  return check;
+}
 
 constexpr double kCoincidence = 1e-10;  // of the cage's size: a point that near is at the place
 constexpr double kRounding = 1e-12;     // a weight not more than this below 0 is not negative
@@ -178,6 +288,21 @@ WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& po
   return check;
 }
 
+template <int Dim>
+std::string point_of(const Extreme<Dim>& extreme) {
+  return "point " + std::to_string(extreme.point) + " at " + format_point(extreme.place);
+}
+
+std::string weight_for(Index control_point) {
+  return "the weight for control point " + std::to_string(control_point);
+}
+
+// Written so that an error that is no number is a violation, too.
+template <int Dim>
+bool is_violated(const Extreme<Dim>& error) {
+  return error.point >= 0 && !(error.value <= kCheckTolerance);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -205,5 +330,42 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& dom
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
+
+template <int Dim>
+std::vector<std::string> find_violations(const WeightCheck<Dim>& check) {
+  std::vector<std::string> violations;
+  if (check.non_finite > 0) {
+    const auto& first = check.first_non_finite;
+    violations.push_back(std::to_string(check.non_finite) +
+                         " weights are not finite, the first is " +
+                         weight_for(first.control_point) + " at " + point_of(first));
+  }
+  if (is_violated(check.partition)) {
+    violations.push_back("the weights of " + point_of(check.partition) +
+                         " do not sum to 1, but differ from it by " +
+                         format_number(check.partition.value));
+  }
+  if (is_violated(check.reproduction)) {
+    violations.push_back("the weights of " + point_of(check.reproduction) +
+                         " do not reproduce it: sum w c is off by " +
+                         format_number(check.reproduction.value) + " of the cage's size");
+  }
+  if (is_violated(check.lagrange)) {
+    violations.push_back("at " + point_of(check.lagrange) + ", where a control point is, " +
+                         weight_for(check.lagrange.control_point) + " is off by " +
+                         format_number(check.lagrange.value) +
+                         " from the 1 or 0 that it must be there");
+  }
+  if (is_violated(check.linearity)) {
+    violations.push_back("at " + point_of(check.linearity) + ", which is on the cage, " +
+                         weight_for(check.linearity.control_point) + " is off by " +
+                         format_number(check.linearity.value) +
+                         " from linear interpolation in the facet");
+  }
+  return violations;
+}
+
+template std::vector<std::string> find_violations(const WeightCheck<2>&);
+template std::vector<std::string> find_violations(const WeightCheck<3>&);
 
 }  // namespace flbc

@@ -3,15 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
-#include "evaluation/weight_difference.h"
+#include "base/shape_checks.h"
 #include "flbc/deform.h"
+#include "flbc/errors.h"
 
 namespace flbc {
+namespace {
 
-Influences count_influences(const WeightMatrix& weights) {
-  return count_influences(SparseWeights(weights));
+// \return after - before, of P points
+SparseWeights difference_of(const SparseWeights& before, const SparseWeights& after) {
+  const Index num_points = after.num_points();
+  const Index n = after.num_control_points();
+  if (before.num_points() != num_points || before.num_control_points() != n) {
+    throw InputError("weights of " + std::to_string(before.num_points()) + " points and " +
+                     std::to_string(before.num_control_points()) +
+                     " control points cannot be compared with " + std::to_string(num_points) +
+                     " points and " + std::to_string(n) + " control points");
+  }
+  return SparseWeights::of(n, num_points, [&](Index p) {
+    Eigen::VectorXd difference = after.at(p);
+    before.visit(p, [&](Index i, double weight) { difference[i] -= weight; });
+    return difference;
+  });
 }
+
+}  // namespace
 
 Influences count_influences(const SparseWeights& weights) {
   if (weights.num_points() == 0) return {};
@@ -24,10 +42,6 @@ Influences count_influences(const SparseWeights& weights) {
   return influences;
 }
 
-ErrorNorms weight_error(const WeightMatrix& before, const WeightMatrix& after) {
-  return weight_error(SparseWeights(before), SparseWeights(after));
-}
-
 ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after) {
   const auto difference = difference_of(before, after);
   const Eigen::Map<const Eigen::VectorXd> values(
@@ -35,12 +49,6 @@ ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after)
   if (values.size() == 0) return {};
   const double count = static_cast<double>(after.num_points()) * after.num_control_points();
   return {std::sqrt(values.squaredNorm() / count), values.cwiseAbs().maxCoeff()};
-}
-
-template <int Dim>
-ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const WeightMatrix& before,
-                             const WeightMatrix& after) {
-  return deformation_error(poses, SparseWeights(before), SparseWeights(after));
 }
 
 template <int Dim>
@@ -59,11 +67,39 @@ ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const Spa
   return {std::sqrt(sum / count), max};
 }
 
+template <int Dim>
+ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
+                      const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                      const SparseWeights& after) {
+  check_poses<Dim>(poses, before.num_control_points());
+  check_size(before.num_control_points(), before.num_points(), before.num_control_points(),
+             points.cols());
+  validate(edges, points.cols());
+  const auto difference = difference_of(before, after);
+  double sum = 0, rest = 0;
+  ErrorNorms norms;
+  for (const auto& pose : poses) {
+    const auto errors = deform<Dim>(difference, pose);
+    for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+      const auto [a, b] = edges.ends[e];
+      const double weight = edges.weights.empty() ? 1 : edges.weights[e];
+      const double length = (points.col(a) - points.col(b)).norm();
+      const double error = (errors.col(a) - errors.col(b)).norm();
+      sum += weight * error * error;
+      rest += weight * length * length;
+      if (length > 0) norms.max = std::max(norms.max, error / length);
+    }
+  }
+  if (rest > 0) norms.rms = std::sqrt(sum / rest);
+  return norms;
+}
+
 #define FLBC_INSTANTIATE(Dim)                                                                     \
-  template ErrorNorms deformation_error(const std::vector<PointList<Dim>>&, const WeightMatrix&,  \
-                                        const WeightMatrix&);                                     \
   template ErrorNorms deformation_error(const std::vector<PointList<Dim>>&, const SparseWeights&, \
-                                        const SparseWeights&);
+                                        const SparseWeights&);                                    \
+  template ErrorNorms edge_error(const PointList<Dim>&, const EdgeList&,                          \
+                                 const std::vector<PointList<Dim>>&, const SparseWeights&,        \
+                                 const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <variant>
 
-#include "flbc/linear_solver.h"
+#include "flbc/types.h"
 #include "linear/multigrid.h"
 #include "linear/panel_cholesky.h"
 

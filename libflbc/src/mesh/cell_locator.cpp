@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/messages.h"
-#include "flbc/boundary_tolerance.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 
 #include <algorithm>
 #include <cmath>

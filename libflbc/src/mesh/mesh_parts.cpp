@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 
 #include "base/messages.h"
 #include "base/union_find.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/embeddable_points.h"
+#include "flbc/meshing.h"
 
 #include "cage/close_points.h"
 #include "cage/point_in_cage.h"

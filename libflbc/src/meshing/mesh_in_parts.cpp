@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/mesh_in_parts.h"
+#include "flbc/meshing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,8 @@
 #include "base/messages.h"
 #include "cage/point_in_cage.h"
 #include "flbc/cage_facts.h"
-#include "flbc/cage_parts.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
 
 namespace flbc {
 namespace {

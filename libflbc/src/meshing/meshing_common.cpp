@@ -8,8 +8,8 @@
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
 #include "mesh/hilbert_order.h"
 
 namespace flbc {

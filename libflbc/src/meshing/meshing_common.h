@@ -3,7 +3,7 @@
 #pragma once
 
 #include "flbc/cage.h"
-#include "flbc/meshing_options.h"
+#include "flbc/meshing.h"
 
 namespace flbc {
 

@@ -11,7 +11,6 @@
 
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/linear_solver.h"
 #include "flbc/types.h"
 #include "linear/multigrid_cg.h"
 #include "linear/panel_cholesky.h"

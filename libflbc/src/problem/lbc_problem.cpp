@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 #include "problem/problem_geometry.h"
 
 namespace flbc {

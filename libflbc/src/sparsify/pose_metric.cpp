@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sparsify/pose_metric.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
+#include "polytope/scaling.h"
 
 namespace flbc {
 namespace {
@@ -33,8 +29,7 @@ Eigen::MatrixXd expectation(const PointList<Dim>& control_points, double size) {
 template <int Dim>
 Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
                             const std::vector<PointList<Dim>>& poses) {
-  const double size =
-      std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min());
+  const double size = scale_of<Dim>(control_points);
   Eigen::MatrixXd metric = expectation<Dim>(control_points, size);
   if (poses.empty()) return metric;
   metric *= kGeneral;

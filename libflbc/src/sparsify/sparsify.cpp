@@ -11,8 +11,8 @@
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
-#include "projection/nearest_point_in_hull.h"
-#include "sparsify/support_projection.h"
+#include "polytope/nearest_point_in_hull.h"
+#include "polytope/weight_projection.h"
 #include "sparsify/support_selection.h"
 
 namespace flbc {
@@ -132,7 +132,7 @@ class PointSparsifier {
 
   const PointList<Dim>& control_points_;
   SparsifyOptions options_;
-  SupportProjection<Dim> projection_;
+  WeightProjection<Dim> projection_;
 };
 
 // Within reduce_by_poisson() its own callback is told.

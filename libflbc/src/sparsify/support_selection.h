@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sparsify/active_set_qp.h"
+#include "polytope/active_set_qp.h"
 
 namespace flbc {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Component netgen: a mesh of an octahedron.
-#include <flbc/tetrahedralize_by_netgen.h>
+#include <flbc/meshing.h>
 
 #include "judge.h"
 

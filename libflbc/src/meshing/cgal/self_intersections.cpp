@@ -15,7 +15,7 @@
 
 #include "base/messages.h"
 #include "flbc/errors.h"
-#include "flbc/self_intersections.h"
+#include "flbc/meshing.h"
 
 namespace flbc {
 

@@ -18,7 +18,7 @@
 
 #include "base/messages.h"
 #include "flbc/errors.h"
-#include "flbc/self_intersections.h"
+#include "flbc/meshing.h"
 #include "meshing/meshing_common.h"
 #include "meshing/vertex_count_search.h"
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "flbc/geodesic_distances.h"
+#include "flbc/distance_weights.h"
 #include "mesh/vertex_cells.h"
 
 namespace flbc {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/geodesic_distances.h"
+#include "flbc/distance_weights.h"
 
 #include "problem/geodesic/march.h"
 #include "problem/geodesic/source_rows.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flbc/cell_locator.h"
-#include "flbc/geodesic_distances.h"
+#include "flbc/distance_weights.h"
 
 namespace flbc {
 

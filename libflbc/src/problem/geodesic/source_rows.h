@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/stage_progress.h"
-#include "flbc/geodesic_distances.h"
+#include "flbc/distance_weights.h"
 
 namespace flbc::distance {
 

@@ -7,8 +7,9 @@
 
 #include "base/messages.h"
 #include "flbc/boundary_values.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 
 namespace flbc {
 namespace {

@@ -14,7 +14,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 #include "mesh/cell_geometry.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/finish.h"

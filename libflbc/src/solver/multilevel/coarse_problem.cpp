@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 #include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"

@@ -5,7 +5,7 @@
 
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
-#include "flbc/mesh_parts.h"
+#include "flbc/domain_mesh.h"
 #include "problem/problem_geometry.h"
 #include "solver/multilevel/choose_distances.h"
 #include "solver/multilevel/mesh_ahead.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
 
 namespace flbc {
 

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "flbc/cell_field.h"
+#include "flbc/lbc_problem.h"
 #include "flbc/lbc_problem.h"
 
 namespace flbc {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "flbc/edge_list.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/types.h"
 
 namespace flbc {

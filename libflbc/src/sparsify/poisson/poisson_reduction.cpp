@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/poisson_reduction.h"
+#include "flbc/sparsify.h"
 
 #include <algorithm>
 
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
+#include "polytope/weight_projection.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_descent.h"
 #include "sparsify/poisson/poisson_energy.h"
-#include "sparsify/support_projection.h"
 
 namespace flbc {
 namespace {
@@ -30,7 +30,7 @@ std::vector<Index> support_of(const Eigen::VectorXd& weights) {
 // nothing is connected, the plain weights.
 template <int Dim>
 WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph,
-                      const SupportProjection<Dim>& projection, const PointList<Dim>& points,
+                      const WeightProjection<Dim>& projection, const PointList<Dim>& points,
                       const WeightMatrix& plain) {
   WeightMatrix result = plain;
   const auto num_points = static_cast<Index>(plain.cols());
@@ -79,7 +79,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   if (!(plain_cost > 0)) return plain;
 
   const EdgeGraph graph(points, weights, edges);
-  const SupportProjection<Dim> projection(control_points);
+  const WeightProjection<Dim> projection(control_points);
   PoissonDescent<Dim> descent(energy, graph, control_points, points, weights, plain, options);
   const auto descend_from = [&](const WeightMatrix& start) {
     const StagePart part(kStart, 1);

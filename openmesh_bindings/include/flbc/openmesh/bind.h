@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "flbc/meshing.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/meshers.h"
@@ -16,8 +17,6 @@
 #include "flbc/options.h"
 #include "flbc/placement.h"
 #include "flbc/report.h"
-#include "flbc/tetrahedralize.h"
-#include "flbc/triangulate.h"
 
 namespace flbc::openmesh {
 

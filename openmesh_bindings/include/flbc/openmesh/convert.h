@@ -12,7 +12,6 @@
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/edge_list.h"
 #include "flbc/errors.h"
 #include "flbc/openmesh/domain.h"
 #include "flbc/openmesh/silenced.h"

@@ -6,12 +6,10 @@
 #include <functional>
 
 #include "flbc/coarse_to_fine.h"
-#include "flbc/meshing_options.h"
+#include "flbc/meshing.h"
 #ifdef FLBC_LINKS_TETGEN
-#include "flbc/tetrahedralize.h"
 #endif
 #ifdef FLBC_LINKS_CGAL
-#include "flbc/triangulate.h"
 #endif
 
 namespace flbc::openmesh {

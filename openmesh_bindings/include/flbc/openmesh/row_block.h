@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "flbc/openmesh/rows_view.h"
-#include "flbc/padded_rows.h"
+#include "base/padded_rows.h"
 
 namespace flbc::openmesh {
 

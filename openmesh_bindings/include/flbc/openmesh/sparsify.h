@@ -10,7 +10,6 @@
 #include "flbc/deform.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/weights.h"
-#include "flbc/poisson_reduction.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 
@@ -18,7 +17,7 @@ namespace flbc::openmesh {
 
 //! How influences are reduced.
 enum class Reduction {
-  kPoisson,   //!< neighbours agree, so that no seams appear (flbc/poisson_reduction.h)
+  kPoisson,   //!< neighbours agree, so that no seams appear (flbc/sparsify.h)
   kQuadratic  //!< every vertex for itself, faster (flbc/sparsify.h)
 };
 

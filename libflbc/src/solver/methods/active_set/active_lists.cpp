@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "projection/nearest_point_in_hull.h"
+#include "polytope/nearest_point_in_hull.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::active_set {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/linear_solver.h"
+#include "flbc/types.h"
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/start/start.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/linear_solver.h"
+#include "flbc/types.h"
 
 namespace flbc::gradient {
 

@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "problem/laplacian.h"

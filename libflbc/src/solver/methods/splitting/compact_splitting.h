@@ -8,9 +8,9 @@
 
 #include "base/aligned_array.h"
 #include "base/kernel_dispatch.h"
-#include "flbc/cell_field.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/linear_solver.h"
+#include "flbc/lbc_problem.h"
+#include "flbc/types.h"
 #include "linear/spd_solver.h"
 #include "solver/methods/splitting/column_slices.h"
 #include "solver/methods/splitting/compact_data.h"

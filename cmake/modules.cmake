@@ -1,0 +1,95 @@
+# Modules of the library. Each is an OBJECT library that finds only its own headers and those of the
+# modules that it depends on, so that an include of a higher layer does not compile.
+include_guard(DIRECTORY)
+include(${CMAKE_CURRENT_LIST_DIR}/kernels.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
+
+# flbc_add_module(NAME [LIBRARY component] [DEPENDS module...] [HEADERS header...] [KERNELS kernel...]
+#                 [LINKS library...] [DEFINES macro...] SOURCES file...)
+# The sources of the current folder, which other files include as "NAME/header.h". NAME may be nested,
+# such as solver/run.
+# LIBRARY  the optional component that contains the module, instead of the core
+# HEADERS  public headers without a source of their name; those with one are found
+# LINKS    other libraries that only this module uses
+function(flbc_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" LIBRARY "DEPENDS;HEADERS;KERNELS;LINKS;DEFINES;SOURCES")
+  string(REPLACE / _ id ${name})
+  list(TRANSFORM arg_DEPENDS REPLACE / _)
+  list(TRANSFORM arg_DEPENDS PREPEND flbc_module_)
+  set(target flbc_module_${id})
+  add_library(${target} OBJECT ${arg_SOURCES})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_definitions(${target} PRIVATE ${arg_DEFINES})
+  target_link_libraries(${target}
+    PUBLIC Eigen3::Eigen ${arg_DEPENDS} PRIVATE OpenMP::OpenMP_CXX flbc_warnings ${arg_LINKS})
+  if(BUILD_SHARED_LIBS)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
+
+  # What the module shows to others is a folder of links.
+  set(view ${flbc_MODULES}/${id})
+  file(REMOVE_RECURSE ${view})
+  cmake_path(GET name PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${view}/flbc ${view}/${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${view}/${name} SYMBOLIC)
+  foreach(source IN LISTS arg_SOURCES)
+    cmake_path(GET source STEM header)
+    if(EXISTS ${flbc_HEADERS}/flbc/${header}.h)
+      list(APPEND arg_HEADERS ${header})
+    endif()
+  endforeach()
+  foreach(header IN LISTS arg_HEADERS)
+    file(CREATE_LINK ${flbc_HEADERS}/flbc/${header}.h ${view}/flbc/${header}.h SYMBOLIC)
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY flbc_headers_of_modules ${arg_HEADERS})
+  target_include_directories(${target} PUBLIC ${view})
+
+  set(library flbc)
+  set(files_in_unit 12)
+  if(arg_LIBRARY)
+    set(library flbc_${arg_LIBRARY})
+    set(files_in_unit 16)
+    flbc_optimise_lightly(${target})
+  elseif(name STREQUAL base)
+    # Eigen is most of what there is to compile.
+    target_precompile_headers(${target} PRIVATE
+      <algorithm> <functional> <map> <string> <vector>
+      <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore>)
+    target_include_directories(${target} PUBLIC ${flbc_GENERATED_HEADERS})
+  else()
+    target_precompile_headers(${target} REUSE_FROM flbc_module_base)
+  endif()
+  flbc_compile_rooms_together(${target} ${files_in_unit})
+  foreach(kernel IN LISTS arg_KERNELS)
+    flbc_add_kernel(${target} ${kernel})
+  endforeach()
+  target_sources(${library} PRIVATE $<TARGET_OBJECTS:${target}>)
+  target_link_libraries(${library} PRIVATE ${arg_LINKS})
+endfunction()
+
+# An optional library of modules that are added later: the license of the library behind it reaches
+# the binary.
+# \param ARGN  components that it uses
+function(flbc_add_component name)
+  add_library(flbc_${name})
+  add_library(flbc::${name} ALIAS flbc_${name})
+  set_target_properties(flbc_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_link_libraries(flbc_${name} PUBLIC flbc::flbc ${ARGN})
+endfunction()
+
+# Every public header but flbc.h belongs to exactly one module.
+function(flbc_check_public_headers)
+  get_property(owned GLOBAL PROPERTY flbc_headers_of_modules)
+  file(GLOB headers RELATIVE ${flbc_HEADERS}/flbc CONFIGURE_DEPENDS ${flbc_HEADERS}/flbc/*.h)
+  list(TRANSFORM headers REPLACE "\\.h$" "")
+  foreach(header IN LISTS headers)
+    set(owners ${owned})
+    list(FILTER owners INCLUDE REGEX "^${header}$")
+    list(LENGTH owners count)
+    if(NOT header STREQUAL flbc AND NOT count EQUAL 1)
+      message(FATAL_ERROR "flbc/${header}.h belongs to ${count} modules; name it in HEADERS of one, \
+or give one a source of this name")
+    endif()
+  endforeach()
+endfunction()

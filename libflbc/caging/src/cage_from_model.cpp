@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/cage_from_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/messages.h"
+#include "caging/coarsening.h"
+#include "caging/enclosure.h"
+#include "caging/mean_distance.h"
+#include "caging/simple_cages.h"
+#include "caging/surface_tools.h"
+#include "caging/symmetry.h"
+#include "caging/wrap.h"
+#include "flbc/errors.h"
+#include "flbc/meshing.h"
+
+namespace flbc {
+
+namespace {
+
+// Sizes relative to the model's, for a wrap with several times as many control points as wanted.
+template <int Dim>
+WrapSize wrap_size(double control_points) {
+  if (Dim == 2) {
+    const double offset = std::clamp(0.8 / control_points, 0.005, 0.04);
+    return {2 * offset, offset};
+  }
+  const double root = std::sqrt(control_points);
+  return {std::clamp(0.4 / root, 0.012, 0.2), std::clamp(1 / (6 * root), 0.004, 0.05)};
+}
+
+template <int Dim>
+constexpr Index kUsualNumber = Dim == 2 ? 30 : 100;
+
+template <int Dim>
+double total_measure(const Cage<Dim>& cage) {
+  double sum = 0;
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    sum += facet_normal<Dim>(corners).norm();
+  }
+  return sum;
+}
+
+// The longer the outline and the more of it there is to follow, the more control points.
+template <int Dim>
+Index number_by_shape(const Cage<Dim>& wrap, double model_size) {
+  if (Dim == 2) {
+    return std::clamp(static_cast<Index>(8 * total_measure(wrap) / model_size), 12, 60);
+  }
+  return std::clamp(wrap.size() / 5, 50, 150);
+}
+
+// Makes a cage round a model whose size is about 1.
+template <int Dim>
+class Caging {
+ public:
+  Caging(const PointList<Dim>& points, const FacetList<Dim>& facets, const CagingOptions& options)
+      : options_(options),
+        size_(bounding_box_diagonal<Dim>(points)),
+        plane_(find_symmetry<Dim>(points, facets, options.symmetry)),
+        model_(enclosed(points, facets)) {}
+
+  ModelCage<Dim> make() {
+    constexpr double kCoarsening = 1.4, kCoarsest = 2;
+    for (double scale = 1;; scale *= kCoarsening) {
+      const auto size = size_at(scale);
+      if (size.alpha > kCoarsest * size_) break;
+      if (const auto cage = try_wrap(size)) return describe(*cage, size.offset);
+    }
+    if (options_.control_points == 0) options_.control_points = kUsualNumber<Dim>;
+    const double offset = size_at(1).offset;
+    for (const auto& cage : simple_cages<Dim>(model_.box(), offset)) {
+      if (is_sound(cage)) return describe(cage, offset);
+      plane_ = {};
+    }
+    throw InputError("no cage with at most " + std::to_string(options_.control_points) +
+                     " control points encloses the model");
+  }
+
+ private:
+  // With its mirror image the model is symmetric whatever it was.
+  Enclosure<Dim> enclosed(const PointList<Dim>& points, const FacetList<Dim>& facets) const {
+    const Cage<Dim> shape{points, facets};
+    if (!plane_.is_there()) return {points, facets};
+    const auto both = with_mirror_image(shape, plane_);
+    return {both.points, both.facets};
+  }
+
+  WrapSize size_at(double scale) const {
+    const Index wanted = options_.control_points > 0 ? options_.control_points : kUsualNumber<Dim>;
+    WrapSize size = wrap_size<Dim>(wanted);
+    size.alpha *= scale * size_;
+    size.offset *= std::sqrt(scale) * size_;
+    if (options_.offset > 0) size.offset = options_.offset;
+    return size;
+  }
+
+  std::optional<Cage<Dim>> try_wrap(const WrapSize& size) {
+    Cage<Dim> surface = wrap(model_, size);
+    if (surface.facets.cols() == 0) return {};
+    if (options_.control_points == 0) options_.control_points = number_by_shape(surface, size_);
+    if (plane_.is_there()) surface = cut_half(surface, plane_, 1e-2 * size.offset);
+    Coarsening<Dim> coarsening(surface, plane_, model_, size.offset);
+    coarsening.reduce_to(options_.control_points);
+    if (coarsening.num_control_points() > options_.control_points) return {};
+    coarsening.relax();
+    surface = coarsening.surface();
+    if (plane_.is_there()) surface = join_halves(surface, plane_);
+    if (!is_sound(surface)) return {};
+    return surface;
+  }
+
+  bool is_sound(const Cage<Dim>& cage) const {
+    return cage.size() <= options_.control_points && find_defects(cage, 1).empty() &&
+           find_self_intersections(cage, 1).empty() && model_.is_strictly_inside(cage);
+  }
+
+  ModelCage<Dim> describe(const Cage<Dim>& cage, double offset) const {
+    return {cage, offset, plane_.axis, plane_.position, mean_distance(cage, model_)};
+  }
+
+  CagingOptions options_;
+  double size_;
+  MirrorPlane plane_;
+  Enclosure<Dim> model_;
+};
+
+template <int Dim>
+void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                 const CagingOptions& options) {
+  for (Index v = 0; v < points.cols(); ++v) {
+    if (points.col(v).allFinite()) continue;
+    throw InputError("vertex " + std::to_string(v) + " at " + format_point(points.col(v)) +
+                     " is not finite");
+  }
+  if (facets.size() > 0 && (facets.minCoeff() < 0 || facets.maxCoeff() >= points.cols())) {
+    throw InputError("a facet of the model names a vertex that is not there");
+  }
+  const double size = points.cols() > 0 ? bounding_box_diagonal<Dim>(points) : 0;
+  if (!(size >= 1e-30 && size <= 1e30)) {
+    throw InputError("the model's size is " + format_number(size) +
+                     "; it must be from 1e-30 to 1e30 to have a cage");
+  }
+  const std::string least = std::to_string(Dim + 1);
+  if (options.control_points != 0 && options.control_points <= Dim) {
+    throw OptionError("the number of control points must be at least " + least);
+  }
+  if (!(options.offset >= 0 && options.offset <= 10 * size)) {
+    throw OptionError("the offset must be from 0 to ten times the model's size of " +
+                      format_number(size));
+  }
+  if (Dim == 2 && options.symmetry == CageSymmetry::kZ) {
+    throw OptionError("a cage in 2D cannot be symmetric across z");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                               const CagingOptions& options) {
+  check_input<Dim>(points, facets, options);
+  // A power of two, so that no digit is lost and what is checked exactly holds for the model.
+  const double unit = std::exp2(std::ilogb(bounding_box_diagonal<Dim>(points)));
+  CagingOptions scaled = options;
+  scaled.offset /= unit;
+  auto made = Caging<Dim>(points / unit, facets, scaled).make();
+  made.cage.points *= unit;
+  made.offset *= unit;
+  made.symmetry_place *= unit;
+  made.mean_distance *= unit;
+  return made;
+}
+
+template ModelCage<2> cage_from_model(const PointList<2>&, const FacetList<2>&,
+                                      const CagingOptions&);
+template ModelCage<3> cage_from_model(const PointList<3>&, const FacetList<3>&,
+                                      const CagingOptions&);
+
+}  // namespace flbc

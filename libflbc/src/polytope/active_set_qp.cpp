@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "polytope/active_set_qp.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "polytope/nearest_point_in_hull.h"
+
+namespace flbc {
+namespace {
+
+// Feasibility tolerance on partition of unity and reproduction.
+constexpr double kFeasible = 1e-8;
+// Weights up to this count as 0.
+constexpr double kNegligible = 1e-12;
+// Slopes that rounding explains.
+constexpr double kFlat = 1e-10;
+
+template <class List>
+void erase_at(List& list, std::size_t position) {
+  list.erase(list.begin() + static_cast<std::ptrdiff_t>(position));
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd& ActiveSetQp<Dim>::aim_at(const Vector<Dim>& point) {
+  point_ = point;
+  return free_.aim_at(point);
+}
+
+template <int Dim>
+double ActiveSetQp<Dim>::cost_of(const PointWeights& weights) const {
+  double cost = 0;
+  for (std::size_t k = 0; k < weights.support.size(); ++k) {
+    double slope = -2 * free_.pull()[weights.support[k]];
+    if (metric().is_identity()) {
+      slope += weights.values[k];
+    } else {
+      for (std::size_t l = 0; l < weights.support.size(); ++l) {
+        slope += metric()(weights.support[l], weights.support[k]) * weights.values[l];
+      }
+    }
+    cost += slope * weights.values[k];
+  }
+  return cost;
+}
+
+template <int Dim>
+bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
+                             PointWeights& weights) {
+  // Without w >= 0 the cost is least, which bounds it from below.
+  if (!free_.minimize(support) || free_.cost() >= bound) return false;
+  if (!start_without_negative(support)) {
+    // As many control points as there are sums leave no choice.
+    if (support.size() <= Dim + 1 || !start_in_hull(support)) return false;
+  }
+  if (!left_.empty()) descend_to_minimum();
+  return finish(weights);
+}
+
+// The quickest way to feasible weights: the most negative one of the free minimum leaves, until
+// none is left. It may miss them.
+template <int Dim>
+bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support) {
+  members_ = support;
+  left_.clear();
+  for (;;) {
+    weights_ = free_.weights();
+    const auto lowest = std::min_element(weights_.begin(), weights_.end());
+    if (*lowest > kNegligible) return is_feasible();
+    const auto position = static_cast<std::size_t>(lowest - weights_.begin());
+    left_.push_back(members_[position]);
+    erase_at(members_, position);
+    if (members_.empty() || !free_.minimize(members_)) return false;
+  }
+}
+
+// A way that never misses them: Caratheodory's few control points around the point.
+template <int Dim>
+bool ActiveSetQp<Dim>::start_in_hull(const std::vector<Index>& support) {
+  const PointList<Dim> carriers = control_points_(Eigen::all, support);
+  const auto nearest = nearest_point_in_hull<Dim>(carriers, point_);
+  left_ = support;
+  members_.clear();
+  weights_.clear();
+  for (int k = 0; k < nearest.size; ++k) {
+    const Index member = support[nearest.support[k]];
+    enter(member, nearest.weights[k]);
+    left_.erase(std::find(left_.begin(), left_.end(), member));
+  }
+  return is_feasible();
+}
+
+template <int Dim>
+void ActiveSetQp<Dim>::descend(PointWeights& weights, Index newcomer) {
+  members_ = weights.support;
+  weights_ = weights.values;
+  left_.clear();
+  if (newcomer >= 0) enter(newcomer, 0);
+  descend_to_minimum();
+  weights.cost = cost_of(weights);
+  if (finish(lower_) && lower_.cost < weights.cost) std::swap(weights, lower_);
+}
+
+// Towards the free minimum; the control point whose weight reaches zero on the way leaves, and at
+// the minimum those come back whose weights would grow.
+template <int Dim>
+void ActiveSetQp<Dim>::descend_to_minimum() {
+  // Far more rounds than it takes: with rounding it might turn in circles.
+  const std::size_t rounds = 4 * (members_.size() + left_.size()) + 8;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    if (!free_.minimize(members_)) return;
+    const std::size_t first = step_to_free_minimum();
+    if (first < members_.size()) {
+      left_.push_back(members_[first]);
+      erase_at(members_, first);
+      erase_at(weights_, first);
+      continue;
+    }
+    const std::size_t back = most_wanted();
+    if (back == left_.size()) return;
+    enter(left_[back], 0);
+    erase_at(left_, back);
+  }
+}
+
+template <int Dim>
+void ActiveSetQp<Dim>::enter(Index control_point, double weight) {
+  const auto place = std::upper_bound(members_.begin(), members_.end(), control_point);
+  weights_.insert(weights_.begin() + (place - members_.begin()), weight);
+  members_.insert(place, control_point);
+}
+
+// \return who reached zero first, or the number of members
+template <int Dim>
+std::size_t ActiveSetQp<Dim>::step_to_free_minimum() {
+  const auto& wanted = free_.weights();
+  double step = 1;
+  std::size_t first = members_.size();
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (wanted[k] > kNegligible) continue;
+    const double reach = weights_[k] / std::max(weights_[k] - wanted[k], kNegligible);
+    if (reach < step) {
+      step = reach;
+      first = k;
+    }
+  }
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    weights_[k] += step * (wanted[k] - weights_[k]);
+  }
+  return first;
+}
+
+// \return whose weight would grow most, of those who left, or their number
+template <int Dim>
+std::size_t ActiveSetQp<Dim>::most_wanted() const {
+  double steepest = -kFlat;
+  std::size_t best = left_.size();
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    const Index i = left_[k];
+    double slope = -free_.pull()[i] - free_.constraint(i).dot(free_.multipliers());
+    if (!metric().is_identity()) {
+      for (std::size_t l = 0; l < members_.size(); ++l) {
+        slope += metric()(members_[l], i) * weights_[l];
+      }
+    }
+    if (slope < steepest) {
+      steepest = slope;
+      best = k;
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+bool ActiveSetQp<Dim>::is_feasible() const {
+  Sums sums = -Sums::Unit(0);
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    sums += weights_[k] * free_.constraint(members_[k]);
+  }
+  return sums.norm() <= kFeasible;
+}
+
+// \return false if the members' weights are not feasible
+template <int Dim>
+bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
+  if (!is_feasible()) return false;
+  weights.support.clear();
+  weights.values.clear();
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (weights_[k] <= kNegligible) continue;
+    weights.support.push_back(members_[k]);
+    weights.values.push_back(weights_[k]);
+  }
+  weights.cost = cost_of(weights);
+  return true;
+}
+
+template <int Dim>
+const Eigen::VectorXd& ActiveSetQp<Dim>::slopes(const PointWeights& weights) {
+  if (!free_.minimize(weights.support)) {
+    return slopes_ = Eigen::VectorXd::Zero(free_.pull().size());
+  }
+  slopes_ = -free_.pull() - free_.constraint_forces();
+  for (std::size_t k = 0; k < weights.support.size(); ++k) {
+    metric().add_column(weights.support[k], weights.values[k], slopes_);
+  }
+  return slopes_;
+}
+
+template <int Dim>
+const std::vector<double>& ActiveSetQp<Dim>::removal_costs(const PointWeights& weights) {
+  if (!free_.minimize(weights.support)) {
+    removal_costs_.assign(weights.support.size(), 0);
+    return removal_costs_;
+  }
+  free_.removal_costs(removal_costs_);
+  for (std::size_t k = 0; k < removal_costs_.size(); ++k) {
+    removal_costs_[k] *= weights.values[k] * weights.values[k];
+  }
+  return removal_costs_;
+}
+
+template class ActiveSetQp<2>;
+template class ActiveSetQp<3>;
+
+}  // namespace flbc

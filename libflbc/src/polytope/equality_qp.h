@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The equality-constrained quadratic program of one point's weights.
+#pragma once
+
+#include <vector>
+
+#include "flbc/types.h"
+#include "polytope/metric.h"
+
+namespace flbc {
+
+//! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
+//! support, for one point x and target t at a time. Keeps its buffers: one per thread.
+template <int Dim>
+class EqualityQp {
+ public:
+  using Sums = Eigen::Matrix<double, Dim + 1, 1>;
+
+  //! \param metric  H, n x n
+  //! \param control_points  Dim x n, kept by reference
+  EqualityQp(Metric metric, const PointList<Dim>& control_points);
+
+  //! From here on for this point.
+  //! \return H t, n, to be filled in
+  Eigen::VectorXd& aim_at(const Vector<Dim>& point);
+
+  const Metric& metric() const { return metric_; }
+
+  //! H t, n.
+  const Eigen::VectorXd& pull() const { return pull_; }
+
+  //! (1, (c - x) / size): the contribution of a weight of 1 to the sums, which must become
+  //! (1, 0, ..). Measured by the size of the control points.
+  Sums constraint(Index control_point) const { return constraints_.col(control_point); }
+
+  //! At once if the support is that of the last time.
+  //! \return false if rounding hides the minimum. Where the sums cannot be met they are not: this
+  //! is for the caller to check
+  bool minimize(const std::vector<Index>& support);
+
+  //! The minimum, in the order of the support, until the next one.
+  const std::vector<double>& weights() const { return weights_; }
+
+  //! (w - t) . H (w - t) - t . H t at the minimum.
+  double cost() const { return cost_; }
+
+  //! m such that H (w - t) = A m on the support, A the constraints as rows.
+  const Sums& multipliers() const { return multipliers_; }
+
+  //! A m for all control points, n.
+  Eigen::VectorXd constraint_forces() const { return constraints_.transpose() * multipliers_; }
+
+  //! The second derivative, halved, of the least cost by the weight of a control point outside of
+  //! the support.
+  double curvature(Index newcomer);
+
+  //! By how much the least cost rises when a weight must be 0, divided by its square.
+  //! \param costs  replaced, in the order of the support
+  void removal_costs(std::vector<double>& costs);
+
+ private:
+  using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+
+  bool factor_metric();
+  void factor_gram();
+  void orthonormalize(Sums& constraint) const;
+
+  Metric metric_;
+  const PointList<Dim>& control_points_;
+  double scale_;
+  Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> constraints_;  // A^T
+  Eigen::VectorXd pull_;                                        // H t
+
+  // With H = L L^T on the support,
+  std::vector<Index> support_;
+  bool minimized_ = false;       // is all of this of that support?
+  std::vector<double> factor_;   // L, row by row; unused if H is the identity
+  std::vector<Sums> rows_;       // L^-1 A G^-T
+  std::vector<double> targets_;  // L^-1 H t
+  Square gram_;                  // G, lower triangular, with G G^T = A^T H^-1 A
+  Sums multipliers_;
+  std::vector<double> weights_;
+  double cost_ = 0;
+  std::vector<double> column_;
+};
+
+}  // namespace flbc

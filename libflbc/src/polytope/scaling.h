@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The weights of a point x: the polytope {w >= 0, sum w = 1, sum w c = x}, in units of its control
+//! points c. Every solver of this module works in these units.
+#pragma once
+
+#include "flbc/types.h"
+#include "polytope/nearest_point_in_hull.h"
+
+namespace flbc {
+
+//! The bounding box diagonal of the control points, as a divisor: never 0.
+//! \param control_points  Dim x n, n >= 1, finite
+template <int Dim>
+double scale_of(const PointList<Dim>& control_points);
+
+//! (c - x) / scale, Dim x n: the contributions of the weights to the reproduction error.
+template <int Dim>
+PointList<Dim> scaled_offsets(const PointList<Dim>& control_points, const Vector<Dim>& point,
+                              double scale) {
+  return (control_points.colwise() - point) / scale;
+}
+
+//! A vertex of the polytope of a point of the hull: n weights.
+template <int Dim>
+Eigen::VectorXd vertex_of(const HullPoint<Dim>& hull_point, Eigen::Index n) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+  for (int k = 0; k < hull_point.size; ++k) weights[hull_point.support[k]] = hull_point.weights[k];
+  return weights;
+}
+
+}  // namespace flbc

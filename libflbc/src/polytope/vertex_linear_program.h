@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The linear program of one interior vertex in the Lagrangian dual bound.
+#pragma once
+
+#include <array>
+
+#include <Eigen/LU>
+
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! min { omega . costs : omega >= 0, sum omega = 1, sum omega c = x } for one set of control points
+//! and many x, by the primal simplex method. A basis has Dim + 1 control points, so that it is
+//! factored anew in every step. Keeps its buffers: one per thread.
+template <int Dim>
+class VertexLinearProgram {
+ public:
+  //! \param control_points  Dim x n, n >= 1, kept by reference
+  explicit VertexLinearProgram(const PointList<Dim>& control_points);
+
+  //! A lower bound of the minimum by weak duality, rounding included, which is the minimum up to
+  //! rounding if x lies in the hull of the control points. With sum omega = 1 every y in R^Dim
+  //! gives one: min_i costs_i - y . (c_i - x).
+  //! \param start  n weights, feasible ones near the optimum if there are; others cost time only
+  double lower_bound(const Vector<Dim>& point, const Eigen::VectorXd& costs,
+                     const Eigen::VectorXd& start);
+
+ private:
+  static constexpr int kRows = Dim + 1;
+  using Sums = Eigen::Matrix<double, kRows, 1>;
+  using Square = Eigen::Matrix<double, kRows, kRows>;
+
+  bool start_from(const Eigen::VectorXd& start, const Eigen::VectorXd& costs);
+  bool choose_basis(const Eigen::VectorXd& start);
+  void push_to_zero(Index entering, double value, const Eigen::VectorXd& costs);
+  void iterate(const Eigen::VectorXd& costs);
+  Eigen::Index choose_entering(bool first, double tolerance) const;
+  int choose_leaving(const Sums& column, bool first) const;
+  bool is_basic(Index i) const;
+  void factor();
+  Sums basic_costs(const Eigen::VectorXd& costs) const;
+  double rigorous_bound(const Eigen::VectorXd& costs) const;
+
+  const PointList<Dim>& points_;
+  double scale_;
+  Eigen::Matrix<double, Eigen::Dynamic, kRows> columns_;  // of the program: [1, (c - x) / size]
+  Eigen::Matrix<double, Eigen::Dynamic, kRows> rest_;     // of the columns, beside a basis
+  Eigen::VectorXd reduced_costs_;
+  std::array<Index, kRows> basis_{};
+  Sums values_;  // of the basic variables
+  Eigen::PartialPivLU<Square> lu_;
+  Sums best_multipliers_;
+};
+
+}  // namespace flbc
