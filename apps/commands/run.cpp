@@ -112,7 +112,6 @@ void print_summary(const Run<Dim>& run) {
 template <int Dim>
 int finish(Run<Dim>& run) {
   run.folder.add_report(run.report, "all of this in numbers");
-  run.solver.forget_checkpoint();
   if (!run.arguments.quiet) print_summary(run);
   for (const auto& violation : run.report["check"]["weights"]["violations"]) {
     std::cerr << "flbc: " << run.arguments.output << ": " << violation.template get<std::string>()

@@ -33,8 +33,7 @@ void check_outputs(const SolveArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
   require_distinct({settings.cage, settings.domain, settings.model},
-                   {arguments.output, arguments.save_domain, arguments.report,
-                    settings.checkpoint.file});
+                   {arguments.output, arguments.save_domain, arguments.report});
 }
 
 template <int Dim>
@@ -46,7 +45,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   std::cerr << report.control_points << " control points, "
             << report.vertices << " vertices, " << report.cells
             << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report) << ", "
-            << report.seconds.solve << (solver.is_cached() ? " s, from the cache" : " s")
+            << report.seconds.solve << " s"
             << "; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
   if (is_certified(report)) {
@@ -76,7 +75,6 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
   }
-  solver.forget_checkpoint();
   if (arguments.verbose) std::cerr << json;
   if (!arguments.quiet) print_summary(arguments, solver, delivered);
   return tell_convergence(solver.report(), settings) ? kDone : kNotConverged;

@@ -42,7 +42,7 @@ struct Run {
 template <int Dim>
 void deliver_cage(Run<Dim>& run);
 
-//! domain.obj or domain.mesh; from the cache the weights as well.
+//! domain.obj or domain.mesh
 template <int Dim>
 void mesh_interior(Run<Dim>& run);
 

@@ -59,7 +59,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
     for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
                                "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations",
-                               "--penalty", "--relaxation", "--checkpoint"}) {
+                               "--penalty", "--relaxation"}) {
       refuse(option, name + " does not read it");
     }
   }
@@ -114,18 +114,6 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_flag("--history", settings.history,
                    "keep errors, residuals and objective by iteration in the report (flbc plot)");
-  command.add_option("--cache", settings.cache,
-                     "keep weights in this folder, and take them from there if the numbers of "
-                     "cage and mesh and all options are the same");
-  auto* checkpoint = command.add_option(
-      "--checkpoint", settings.checkpoint.file,
-      "keep the state of the solve in this file, also when interrupted: the same command goes on "
-      "from it, to the same bits; removed when done");
-  command
-      .add_option("--checkpoint-every", settings.checkpoint.interval,
-                  "seconds between two writes of the state (60)")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(checkpoint);
 }
 
 }  // namespace flbc::app

@@ -106,8 +106,8 @@ TEST_F(HelpCommands, BashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(all.count(command), 1U) << command;
     EXPECT_EQ(offered({"flbc", command, "-"}), options_of(command)) << command;
   }
-  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--check"}),
-            (Words{"--checkpoint", "--checkpoint-every"}));
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--mesh"}),
+            (Words{"--mesher", "--mesh-timeout"}));
   EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--phi", ""}),
             (Words{"square", "linear", "sqrt", "constant"}));
   EXPECT_EQ(offered({"flbc", "run", "--pictures", "p"}), (Words{"pdf", "png"}));
