@@ -13,7 +13,6 @@
 #include "draw/picture_file.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -53,11 +52,7 @@ void check_arguments(const DrawArguments& arguments) {
   if (arguments.domain.empty() == arguments.model.empty()) {
     throw OptionError("give either the domain's mesh or --model");
   }
-  const auto& color = arguments.color;
-  if (!color.empty() && color != kDisplacement && color != kWeight && color != kPlain) {
-    throw OptionError("--color: '" + color + "' is none of displacement|weight|plain");
-  }
-  if (color == kDisplacement && arguments.pose.empty()) {
+  if (arguments.color == kDisplacement && arguments.pose.empty()) {
     throw OptionError("--color displacement needs --pose: there the model has moved");
   }
 }
@@ -191,8 +186,7 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
                                                 ? picture_of_domain(cage, arguments)
                                                 : picture_of_model(cage, arguments),
                                             draw::picture_format(arguments.output));
-  const HeldSignals held;
-  io::write_file(arguments.output, [&](std::ostream& file) { file << picture; });
+  write_text(arguments.output, picture);
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
@@ -207,12 +201,9 @@ void add_options(CLI::App& command, DrawArguments& a) {
       command.add_option("--control-point", a.control_point, "which function, from 0 (0)");
   command.add_option("--pose", a.pose, "the cage in another place: the model at rest and there")
       ->needs(model);
-  command
-      .add_option("--color", a.color,
-                  "what colours show on a model in 3D (weight; displacement "
-                  "with --pose)")
-      ->needs(model)
-      ->type_name("displacement|weight|plain");
+  add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
+             "what the colors of a 3D model show (default: weight, or displacement with --pose)")
+      ->needs(model);
   command
       .add_option("--view", a.view,
                   "from where a model in 3D is seen, by name or by angles in "

@@ -9,7 +9,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace flbc::app {
 
@@ -39,6 +40,9 @@ struct CommandTable {
   std::vector<OptionEntry> options{};
   std::vector<CommandEntry> commands{};
 };
+
+//! Reads an option of the parser.
+OptionEntry read_option(const CLI::Option& option);
 
 //! Reads the parser.
 CommandTable read_table(const CLI::App& app);

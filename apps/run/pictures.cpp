@@ -9,7 +9,6 @@
 #include "draw/weight_picture.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
 #include "run/facts.h"
 #include "run/page.h"
 
@@ -73,9 +72,7 @@ void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
                  const draw::Image& image) {
   const auto name = std::string(title) + "." + run.arguments.pictures;
   const auto picture = draw::encode_picture(image, draw::picture_format(name));
-  run.folder.add(name, facts, [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << picture; });
-  });
+  run.folder.add_text(name, facts, picture);
   run.report["pictures"]["files"].push_back(name);
 }
 

@@ -134,9 +134,7 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
                                                 : edges_of_cage<Dim>(soup_of(run.cage));
   const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
                                       shape.surface, options, animation);
-  run.folder.add(name, facts_of(skin, run) + left_out_of(skin), [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << skin.content; });
-  });
+  run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {
       {"file", name},
