@@ -30,8 +30,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kQuadratic = "quadratic";
-constexpr const char* kPoisson = "poisson";
 
 struct SparsifyArguments {
   std::string weights;

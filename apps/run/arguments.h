@@ -6,13 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "report/sparsify_report.h"
 #include "solve/solve_settings.h"
 
 namespace flbc::app {
-
-//! How influences are reduced, by the names of flbc sparsify.
-constexpr const char* kQuadratic = "quadratic";
-constexpr const char* kPoisson = "poisson";
 
 struct RunArguments {
   SolveSettings settings;             //!< cage and model among them, but no domain
