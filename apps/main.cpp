@@ -105,7 +105,8 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure, "
       "5 out of memory."};
   app.formatter(help_formatter());
-  app.set_version_flag("--version", version());
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", version(), "print version and components and exit");
   app.require_subcommand(1);
   app.failure_message(describe_usage_error);
   int exit_status = kDone;

@@ -11,7 +11,7 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "report/checks.h"
+#include "report/check_report.h"
 #include "report/report_json.h"
 #include "solve/weights_of_model.h"
 

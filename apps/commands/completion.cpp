@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "help/completion.h"
+#include "help/command_table.h"
 
 namespace flbc::app {
 

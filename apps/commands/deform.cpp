@@ -13,8 +13,6 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "poses/displacement.h"
-#include "poses/file_sequence.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
 

@@ -125,10 +125,7 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   check_reproduction<Dim>(sparse, cage.points, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
   posed.pose = load_control_points<Dim>(arguments.pose);
-  if (posed.pose.cols() != cage.size()) {
-    throw InputError(arguments.pose + ": has " + std::to_string(posed.pose.cols()) +
-                     " vertices, but " + arguments.cage + " has " + std::to_string(cage.size()));
-  }
+  require_control_points(arguments.pose, posed.pose.cols(), cage.size(), arguments.cage);
   posed.moved = deform<Dim>(sparse, posed.pose);
   return posed;
 }

@@ -16,6 +16,7 @@
 #include "gltf/skin.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
+#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {
@@ -135,7 +136,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   }
 
   auto options = arguments.options;
-  options.cage_edges = edges_of_cage<Dim>(io::read_polygons(arguments.cage));
+  options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, options, animation);
   });

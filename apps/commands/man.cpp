@@ -7,8 +7,7 @@
 #include "commands/commands.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "help/completion.h"
-#include "help/manual.h"
+#include "help/command_table.h"
 
 namespace flbc::app {
 namespace {

@@ -20,6 +20,8 @@
 #include "flbc/poisson_reduction.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "files/movable_model.h"
+#include "poses/poses.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
 #include "solve/progress_bar.h"
@@ -57,21 +59,14 @@ struct ConnectedPoints {
   EdgeList edges;
 };
 
-// The vertices of a domain mesh or a model, by the file's name.
+// The vertices of a domain mesh or a model.
 template <int Dim>
 ConnectedPoints<Dim> load_points(const std::string& path) {
-  if (!io::holds(path, {io::Content::kModel}) &&
-      io::holds(path, {io::Content::kMesh2D, io::Content::kMesh3D})) {
-    auto mesh = io::read_domain<Dim>(path);
-    auto edges = edges_of_cells(mesh);
-    return {std::move(mesh.points), std::move(edges)};
-  }
-  const auto soup = io::read_polygons(path);
-  auto points = io::to_points<Dim>(soup, path);
-  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
-  auto edges =
-      naming(path, [&] { return edges_of_polygons(points, soup.polygons, soup.polylines); });
-  return {std::move(points), std::move(edges)};
+  const MovedFile same{path, path};
+  if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
+  const MovableModel<Dim> model(same);
+  if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
+  return {model.points(), model.edges()};
 }
 
 template <int Dim>
@@ -93,9 +88,7 @@ std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments, Eigen
   std::vector<PointList<Dim>> poses;
   for (const auto& path : arguments.poses) {
     poses.push_back(load_model<Dim>(path));
-    if (poses.back().cols() == size) continue;
-    throw InputError(path + ": has " + std::to_string(poses.back().cols()) + " vertices, but " +
-                     arguments.cage + " has " + std::to_string(size));
+    require_control_points(path, poses.back().cols(), size, arguments.cage);
   }
   return poses;
 }

@@ -17,7 +17,7 @@
 #include "poses/poses.h"
 #include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
-#include "view/influences.h"
+#include "view/page.h"
 #include "view/model_page.h"
 
 namespace flbc::app {

@@ -47,4 +47,14 @@ OptionEntry read_option(const CLI::Option& option);
 //! Reads the parser.
 CommandTable read_table(const CLI::App& app);
 
+// Scripts by which shells complete commands, options, and their values.
+std::string bash_completion(const CommandTable& table);
+std::string zsh_completion(const CommandTable& table);
+
+//! flbc(1), for man.
+std::string manual_of_program(const CommandTable& table);
+
+//! flbc-COMMAND(1), for man.
+std::string manual_of_command(const CommandEntry& command);
+
 }  // namespace flbc::app

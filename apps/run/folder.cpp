@@ -19,7 +19,7 @@
 #include "flbc/io/files.h"
 #include "help/options.h"
 #include "report/report_json.h"
-#include "run/names.h"
+#include "run/inputs.h"
 
 namespace flbc::app {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/page.h"
-
 #include <string>
 
-#include "run/facts.h"
-#include "view/influences.h"
+#include "report/facts.h"
+#include "run/steps.h"
+#include "view/page.h"
 #include "view/model_page.h"
 
 namespace flbc::app {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/pictures.h"
-
 #include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
 #include "draw/model_view.h"
@@ -9,8 +7,8 @@
 #include "draw/weight_picture.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "run/facts.h"
-#include "run/page.h"
+#include "report/facts.h"
+#include "run/steps.h"
 
 namespace flbc::app {
 namespace {

@@ -9,10 +9,10 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/quality.h"
-#include "poses/file_sequence.h"
-#include "report/checks.h"
+#include "poses/poses.h"
+#include "report/check_report.h"
 #include "report/report_json.h"
-#include "run/facts.h"
+#include "report/facts.h"
 
 namespace flbc::app {
 

@@ -8,7 +8,7 @@
 
 #include "flbc/options.h"
 #include "flbc/placement.h"
-#include "solve/mesher.h"
+#include "solve/make_domain.h"
 
 namespace flbc::app {
 

@@ -310,7 +310,7 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --deformed");
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
-  expect_run("out", cage + " --sparsify best", 1, "'best' is none of");
+  expect_run("out", cage + " --sparsify best", 1, "invalid value 'best'");
   expect_run("out", cage + " --deformed " + sample("2d/letter_cage.obj"), 2,
              "has 24 vertices, but");
   expect_run("out", cage + " --deformed " + path("no_%d.obj"), 4, "there is neither");

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "files/silhouette.h"
+#include "files/model_facets.h"
 #include "fuzz/reader.h"
 #include "report/history.h"
 
