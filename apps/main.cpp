@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
 
@@ -105,26 +104,19 @@ int run(int argc, char** argv) {
       "Local barycentric coordinates of cages in 2D and 3D.\n"
       "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure, "
       "5 out of memory."};
-  app.set_version_flag("--version", version());
+  app.formatter(help_formatter());
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", version(), "print version and components and exit");
   app.require_subcommand(1);
   app.failure_message(describe_usage_error);
   int exit_status = kDone;
-  add_run_command(app, exit_status);
-  add_cage_command(app, exit_status);
-  add_mesh_command(app, exit_status);
-  add_solve_command(app, exit_status);
-  add_check_command(app, exit_status);
-  add_convert_command(app, exit_status);
-  add_deform_command(app, exit_status);
-  add_sparsify_command(app, exit_status);
-  add_transfer_command(app, exit_status);
-  add_export_command(app, exit_status);
-  add_draw_command(app, exit_status);
-  add_plot_command(app, exit_status);
-  add_view_command(app, exit_status);
-  add_info_command(app, exit_status);
-  add_completion_command(app, exit_status);
-  add_man_command(app, exit_status);
+  for (auto* add : {add_run_command, add_cage_command, add_mesh_command, add_solve_command,
+                    add_check_command, add_convert_command, add_deform_command,
+                    add_sparsify_command, add_transfer_command, add_export_command,
+                    add_draw_command, add_plot_command, add_view_command, add_info_command,
+                    add_completion_command, add_man_command}) {
+    add(app, exit_status);
+  }
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'" +

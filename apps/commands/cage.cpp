@@ -26,6 +26,12 @@ struct CageArguments {
   bool quiet = false;
 };
 
+const std::map<std::string, CageSymmetry> kSymmetries{{"none", CageSymmetry::kNone},
+                                                      {"x", CageSymmetry::kX},
+                                                      {"y", CageSymmetry::kY},
+                                                      {"z", CageSymmetry::kZ},
+                                                      {"auto", CageSymmetry::kAuto}};
+
 template <int Dim>
 void cage(const ModelFacets<Dim>& model, const CageArguments& arguments) {
   require_cage_writable<Dim>(arguments.output);
@@ -115,17 +121,10 @@ void add_cage_command(CLI::App& app, int&) {
       "--offset", a.options.offset,
       "distance from the model, in its units (by the number of control points)");
   offset->needs(model);
-  const std::map<std::string, CageSymmetry> symmetries{{"none", CageSymmetry::kNone},
-                                                       {"x", CageSymmetry::kX},
-                                                       {"y", CageSymmetry::kY},
-                                                       {"z", CageSymmetry::kZ},
-                                                       {"auto", CageSymmetry::kAuto}};
-  command
-      ->add_option("--symmetric", a.options.symmetry,
-                   "the cage is its own mirror image across the model's middle; auto: where the "
-                   "model is (auto)")
-      ->transform(CLI::CheckedTransformer(symmetries).description(""))
-      ->type_name("none|x|y|z|auto")
+  add_choice(
+      *command, "--symmetric", {"none", "x", "y", "z", "auto"},
+      [&a](const std::string& word) { a.options.symmetry = kSymmetries.at(word); },
+      "make the cage symmetric across the center of the model (default: auto, where the model is)")
       ->needs(model);
   command->add_option("--repair", a.defective,
                       "a defective cage: merges, drops, reverses and adds what it takes to make it "

@@ -5,16 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "report/checks.h"
+#include "report/check_report.h"
 #include "report/report_json.h"
 #include "solve/weights_of_model.h"
 
@@ -72,10 +69,7 @@ void check_weight_file(CheckReport<Dim>& report) {
 template <int Dim>
 void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
   if (json_file != "-") print_check(std::cout, report);
-  if (json_file.empty()) return;
-  const auto json = to_text(check_json(report));
-  const HeldSignals held;
-  io::write_file(json_file, [&](std::ostream& file) { file << json; });
+  if (!json_file.empty()) write_text(json_file, to_text(check_json(report)));
 }
 
 template <int Dim>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The subcommands. Each adds itself to the command line and leaves its action as callback, which
-//! stores the exit status.
+//! The subcommands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,25 +8,26 @@
 #include <string>
 
 #include "flbc/types.h"
+#include "help/options.h"
 
 namespace flbc::app {
 
-void add_cage_command(CLI::App& app, int& exit_status);
-void add_man_command(CLI::App& app, int& exit_status);
-void add_mesh_command(CLI::App& app, int& exit_status);
-void add_solve_command(CLI::App& app, int& exit_status);
-void add_check_command(CLI::App& app, int& exit_status);
-void add_completion_command(CLI::App& app, int& exit_status);
-void add_convert_command(CLI::App& app, int& exit_status);
-void add_deform_command(CLI::App& app, int& exit_status);
-void add_draw_command(CLI::App& app, int& exit_status);
-void add_export_command(CLI::App& app, int& exit_status);
-void add_info_command(CLI::App& app, int& exit_status);
-void add_plot_command(CLI::App& app, int& exit_status);
-void add_run_command(CLI::App& app, int& exit_status);
-void add_sparsify_command(CLI::App& app, int& exit_status);
-void add_transfer_command(CLI::App& app, int& exit_status);
-void add_view_command(CLI::App& app, int& exit_status);
+//! Exit status of the program: stable, scripts depend on it.
+enum ExitStatus : int {
+  kDone = 0,
+  kWrongUsage = 1,    //!< unknown or impossible options
+  kBadInput = 2,      //!< a defect in a file's content
+  kNotConverged = 3,  //!< results are written nevertheless, the report says so
+  kIoFailure = 4,     //!< a file cannot be opened, read or written
+  kOutOfMemory = 5
+};
+
+//! Adds a subcommand to the command line. Its callback changes the exit status unless it is kDone.
+using AddCommand = void(CLI::App& app, int& exit_status);
+AddCommand add_cage_command, add_check_command, add_completion_command, add_convert_command,
+    add_deform_command, add_draw_command, add_export_command, add_info_command, add_man_command,
+    add_mesh_command, add_plot_command, add_run_command, add_solve_command, add_sparsify_command,
+    add_transfer_command, add_view_command;
 
 //! Complaint about a number of vertices, for CLI::Option::check(); empty if it is fine.
 inline std::string refuse_vertex_count(const std::string& text) {
@@ -35,7 +35,7 @@ inline std::string refuse_vertex_count(const std::string& text) {
   const auto* end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, count);
   if (parsed.ec == std::errc() && parsed.ptr == end && count > 0) return {};
-  return "must be a positive whole number as 20000, not '" + text + "'";
+  return "must be a positive whole number such as 20000, not '" + text + "'";
 }
 
 }  // namespace flbc::app

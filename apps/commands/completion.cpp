@@ -4,12 +4,11 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
-#include "help/completion.h"
+#include "help/command_table.h"
 
 namespace flbc::app {
 
-void add_completion_command(CLI::App& app, int& exit_status) {
+void add_completion_command(CLI::App& app, int&) {
   auto shell = std::make_shared<std::string>();
   auto* command =
       app.add_subcommand("completion", "Print what makes a shell complete commands and options");
@@ -20,10 +19,9 @@ void add_completion_command(CLI::App& app, int& exit_status) {
   command->add_option("SHELL", *shell, "bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));
-  command->callback([&app, shell, &exit_status] {
+  command->callback([&app, shell] {
     const auto table = read_table(app);
     std::cout << (*shell == "bash" ? bash_completion(table) : zsh_completion(table));
-    exit_status = kDone;
   });
 }
 

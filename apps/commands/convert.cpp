@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc convert: weights or meshes from one format to another.
-#include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/convert_weights.h"
 #include "files/held_signals.h"
 #include "files/load.h"
@@ -24,9 +22,6 @@ void check_weight_arguments(const WeightConversion& files) {
   if (io::holds(files.output, kMeshFiles))
     throw OptionError(files.output + ": weights are no mesh");
   require_writable(files.output, kWeightFiles);
-  if (files.threshold && !(*files.threshold >= 0 && std::isfinite(*files.threshold))) {
-    throw OptionError("--threshold must be a number that is not negative");
-  }
 }
 
 void check_mesh_arguments(const WeightConversion& files) {
@@ -37,8 +32,8 @@ void check_mesh_arguments(const WeightConversion& files) {
   }
   if (is_weight_file(files.output)) throw OptionError(files.output + ": a mesh is no weights");
   require_formats({files.input, files.output, false, true});
-  if (files.transpose || files.threshold || !files.cage.empty() || !files.points.empty()) {
-    throw OptionError("--cage, --points, --transpose and --threshold are for weights, but " +
+  if (files.transpose || !files.cage.empty() || !files.points.empty()) {
+    throw OptionError("--cage, --points, and --transpose are for weights, but " +
                       files.input + " is a mesh");
   }
 }
@@ -71,7 +66,7 @@ void convert_mesh(const std::string& input, const std::string& output, bool quie
 
 }  // namespace
 
-void add_convert_command(CLI::App& app, int& exit_status) {
+void add_convert_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ConvertArguments>();
   auto& a = arguments->files;
   auto* command =
@@ -89,9 +84,8 @@ void add_convert_command(CLI::App& app, int& exit_status) {
                       "model or mesh whose vertices the weights belong to: checks their number");
   command->add_flag("--transpose", a.transpose,
                     "IN has control points as rows (.txt: \"POINT CONTROL_POINT WEIGHT\")");
-  command->add_option("--threshold", a.threshold, "drop weights up to this size");
   command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments] {
     check_arguments(*arguments);
     const auto& files = arguments->files;
     if (is_weight_file(files.input)) {
@@ -99,7 +93,6 @@ void add_convert_command(CLI::App& app, int& exit_status) {
     } else {
       convert_mesh(files.input, files.output, arguments->quiet);
     }
-    exit_status = kDone;
   });
 }
 

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
@@ -14,8 +13,6 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "poses/displacement.h"
-#include "poses/file_sequence.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
 
@@ -160,7 +157,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
 
 }  // namespace
 
-void add_deform_command(CLI::App& app, int& exit_status) {
+void add_deform_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DeformArguments>();
   auto& a = *arguments;
   auto* command = app.add_subcommand("deform", "Move a model or a domain mesh with its cage");
@@ -196,16 +193,12 @@ void add_deform_command(CLI::App& app, int& exit_status) {
   command->add_flag("--show-displacement", a.file.shows_displacement,
                     "show how far vertices moved: as their colours; in .vtu and .mesh as a field");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->cages);
     const auto& first = arguments->keyframes.empty() ? cages.paths.front() : arguments->rest;
-    if (dimension_of_cage(first) == 2) {
-      deform_model<2>(*arguments, cages);
-    } else {
-      deform_model<3>(*arguments, cages);
-    }
-    exit_status = kDone;
+    dimension_of_cage(first) == 2 ? deform_model<2>(*arguments, cages)
+                                  : deform_model<3>(*arguments, cages);
   });
 }
 

@@ -13,7 +13,6 @@
 #include "draw/picture_file.h"
 #include "draw/slice_picture.h"
 #include "draw/weight_picture.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -53,11 +52,7 @@ void check_arguments(const DrawArguments& arguments) {
   if (arguments.domain.empty() == arguments.model.empty()) {
     throw OptionError("give either the domain's mesh or --model");
   }
-  const auto& color = arguments.color;
-  if (!color.empty() && color != kDisplacement && color != kWeight && color != kPlain) {
-    throw OptionError("--color: '" + color + "' is none of displacement|weight|plain");
-  }
-  if (color == kDisplacement && arguments.pose.empty()) {
+  if (arguments.color == kDisplacement && arguments.pose.empty()) {
     throw OptionError("--color displacement needs --pose: there the model has moved");
   }
 }
@@ -130,10 +125,7 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   check_reproduction<Dim>(sparse, cage.points, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
   posed.pose = load_control_points<Dim>(arguments.pose);
-  if (posed.pose.cols() != cage.size()) {
-    throw InputError(arguments.pose + ": has " + std::to_string(posed.pose.cols()) +
-                     " vertices, but " + arguments.cage + " has " + std::to_string(cage.size()));
-  }
+  require_control_points(arguments.pose, posed.pose.cols(), cage.size(), arguments.cage);
   posed.moved = deform<Dim>(sparse, posed.pose);
   return posed;
 }
@@ -191,8 +183,7 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
                                                 ? picture_of_domain(cage, arguments)
                                                 : picture_of_model(cage, arguments),
                                             draw::picture_format(arguments.output));
-  const HeldSignals held;
-  io::write_file(arguments.output, [&](std::ostream& file) { file << picture; });
+  write_text(arguments.output, picture);
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
@@ -207,12 +198,9 @@ void add_options(CLI::App& command, DrawArguments& a) {
       command.add_option("--control-point", a.control_point, "which function, from 0 (0)");
   command.add_option("--pose", a.pose, "the cage in another place: the model at rest and there")
       ->needs(model);
-  command
-      .add_option("--color", a.color,
-                  "what colours show on a model in 3D (weight; displacement "
-                  "with --pose)")
-      ->needs(model)
-      ->type_name("displacement|weight|plain");
+  add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
+             "what the colors of a 3D model show (default: weight, or displacement with --pose)")
+      ->needs(model);
   command
       .add_option("--view", a.view,
                   "from where a model in 3D is seen, by name or by angles in "

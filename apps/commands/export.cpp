@@ -5,9 +5,7 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/blender_script.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/bounding_box.h"
@@ -18,6 +16,7 @@
 #include "gltf/skin.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
+#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {
@@ -43,12 +42,6 @@ constexpr double kWorthATell = 1e-5;
 
 void check_arguments(ExportArguments& arguments) {
   using gltf::WeightFormat;
-  if (arguments.bits != 0 && arguments.bits != 8 && arguments.bits != 16) {
-    throw OptionError("--quantize must be 8 or 16 bits, not " + std::to_string(arguments.bits));
-  }
-  if (!(arguments.frames_per_second >= 1e-3 && arguments.frames_per_second <= 1e6)) {
-    throw OptionError("--fps must be from 0.001 to 1000000");
-  }
   if (arguments.bits == 16) arguments.options.weight_format = WeightFormat::kUnsignedShort;
   if (arguments.bits == 8) arguments.options.weight_format = WeightFormat::kUnsignedByte;
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
@@ -70,10 +63,7 @@ void write_vertex_groups(const PointList<Dim>& rest, const PointList<Dim>& point
     return sparsify<Dim>(rest, points, weights, {arguments.options.max_influences});
   });
   const auto script = blender_script<Dim>(rest, few);
-  {
-    const HeldSignals held;
-    io::write_file(arguments.output, [&](std::ostream& file) { file << script; });
-  }
+  write_text(arguments.output, script);
   if (arguments.quiet) return;
   std::cerr << arguments.output << ": " << rest.cols() << " vertex groups and bones, at most "
             << count_influences(few).max << " influences per vertex; " << script.size()
@@ -146,14 +136,11 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   }
 
   auto options = arguments.options;
-  options.cage_edges = edges_of_cage<Dim>(io::read_polygons(arguments.cage));
+  options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, options, animation);
   });
-  {
-    const HeldSignals held;
-    io::write_file(arguments.output, [&](std::ostream& file) { file << skin.content; });
-  }
+  write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
   for (const auto& phrase : skin.left_out) {
@@ -171,7 +158,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 
 }  // namespace
 
-void add_export_command(CLI::App& app, int& exit_status) {
+void add_export_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ExportArguments>();
   auto& a = *arguments;
   auto* command = app.add_subcommand("export", "Write a model as glTF skin that its cage moves");
@@ -197,26 +184,25 @@ void add_export_command(CLI::App& app, int& exit_status) {
       ->add_option("--keyframes", a.keyframes,
                    "an animation: displacements of the cage, with times in seconds")
       ->excludes(cages);
-  command->add_option("--fps", a.frames_per_second, "poses of --cages per second (24)")
+  command->add_option("--fps", a.frames_per_second, "poses of --cages per second (default: 24)")
+      ->check(in_range(1e-3, 1e6))
       ->needs(cages);
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "most influences per vertex, 8 or 4 (8)");
-  command->add_option("--quantize", a.bits, "store weights with 16 or 8 bits (as float)");
+  add_choice(*command, "--quantize", {"8", "16"},
+             [&a](const std::string& bits) { a.bits = std::stoi(bits); },
+             "store weights with 8 or 16 bits (default: as float)");
   command
       ->add_option("-o,--output", a.output,
                    "the skin: .glb, .usda, or .py for vertex groups in Blender")
       ->required();
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments] {
     check_arguments(*arguments);
     const auto poses = find_cages(arguments->poses);
     check_files(*arguments, poses);
-    if (dimension_of_cage(arguments->cage) == 2) {
-      export_model<2>(*arguments, poses);
-    } else {
-      export_model<3>(*arguments, poses);
-    }
-    exit_status = kDone;
+    dimension_of_cage(arguments->cage) == 2 ? export_model<2>(*arguments, poses)
+                                            : export_model<3>(*arguments, poses);
   });
 }
 

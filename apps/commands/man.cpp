@@ -5,11 +5,9 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "help/completion.h"
-#include "help/manual.h"
+#include "help/command_table.h"
 
 namespace flbc::app {
 namespace {
@@ -45,7 +43,7 @@ struct ManArguments {
 
 }  // namespace
 
-void add_man_command(CLI::App& app, int& exit_status) {
+void add_man_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ManArguments>();
   auto* command = app.add_subcommand("man", "Print a manual page");
   command->footer("To read one: flbc man solve | man -l -");
@@ -57,14 +55,13 @@ void add_man_command(CLI::App& app, int& exit_status) {
       ->add_option("--folder", arguments->folder,
                    "write all pages here instead, with the completion for bash and zsh")
       ->excludes(name);
-  command->callback([&app, arguments, &exit_status] {
+  command->callback([&app, arguments] {
     const auto table = read_table(app);
     if (arguments->folder.empty()) {
       std::cout << page_of(table, arguments->command);
     } else {
       write_all(table, arguments->folder);
     }
-    exit_status = kDone;
   });
 }
 

@@ -51,12 +51,12 @@ void add_mesh_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<MeshArguments>();
   auto* command = app.add_subcommand("mesh", "Mesh the interior of a cage");
   command->add_option("CAGE", arguments->cage, "closed polylines (2D) or surface (3D)")->required();
-  command->add_option("-o,--output", arguments->output, mesh_formats_help())->required();
-  command->add_option("--vertices", arguments->vertices, "number of mesh vertices wanted")
+  command->add_option("-o,--output", arguments->output, "the mesh: " + mesh_formats())->required();
+  command->add_option("--vertices", arguments->vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_mesher_options(*command, arguments->meshing);
-  command->add_option("--model", arguments->model, "make this model's vertices mesh vertices");
-  command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
+  command->add_option("--model", arguments->model, "use the vertices of this model as vertices of the mesh");
+  command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
   command->callback([arguments] {
     require_distinct({arguments->cage, arguments->model}, {arguments->output});
     std::visit([&](const auto& cage) { mesh(cage, *arguments); }, load_cage(arguments->cage));

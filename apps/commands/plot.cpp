@@ -7,7 +7,6 @@
 #include "commands/commands.h"
 #include "draw/picture_file.h"
 #include "draw/plot_picture.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/io/files.h"
 #include "report/history.h"
@@ -96,8 +95,7 @@ void plot(PlotArguments& arguments) {
   arguments.options.layers = draw::has_layers(format);
   const auto picture = draw::encode_picture(
       draw::draw_plot(names_of_runs(arguments), panels, 2, arguments.options), format);
-  const HeldSignals held;
-  io::write_file(arguments.output, [&](std::ostream& file) { file << picture; });
+  write_text(arguments.output, picture);
 }
 
 }  // namespace

@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "run/facts.h"
-#include "run/page.h"
-#include "run/pictures.h"
+#include "report/facts.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
 #include "solve/progress_bar.h"
@@ -28,17 +25,6 @@ void check_arguments(const RunArguments& arguments) {
   if (arguments.settings.outside == OutsidePoints::kExtend) {
     throw OptionError(
         "--outside extend: skins have no negative weights; take nearest, or flbc solve and deform");
-  }
-  if (arguments.reduction != kPoisson && arguments.reduction != kQuadratic) {
-    throw OptionError("--sparsify: '" + arguments.reduction + "' is none of poisson|quadratic");
-  }
-  const auto& pictures = arguments.pictures;
-  if (pictures != "png" && pictures != "svg" && pictures != "pdf") {
-    throw OptionError("--pictures: '" + pictures + "' is none of png|svg|pdf");
-  }
-  const double rate = arguments.frames_per_second;
-  if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
-    throw OptionError("--fps must be from 0.001 to 1000000");
   }
 }
 
@@ -112,7 +98,6 @@ void print_summary(const Run<Dim>& run) {
 template <int Dim>
 int finish(Run<Dim>& run) {
   run.folder.add_report(run.report, "all of this in numbers");
-  run.solver.forget_checkpoint();
   if (!run.arguments.quiet) print_summary(run);
   for (const auto& violation : run.report["check"]["weights"]["violations"]) {
     std::cerr << "flbc: " << run.arguments.output << ": " << violation.template get<std::string>()
@@ -215,18 +200,33 @@ int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArgume
 CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
   command
       .add_option("CAGE", settings.cage,
-                  "closed polylines (2D) or surface (3D); with --auto-cage a model, or a "
-                  ".png with transparent pixels")
+                  "closed polylines (2D) or surface (3D); with --auto-cage a model, or a .png with "
+                  "transparent pixels")
       ->required();
   command.add_option("MODEL", settings.model,
-                     "what is inside and moves along: .obj .off .ply .stl .om; without it the "
-                     "mesh of the interior");
+                     "model inside the cage: .obj .off .ply .stl .om (default: the mesh of the "
+                     "cage interior)");
+  command.option_defaults()->group("Cage and poses");
   return command
-      .add_option(
-          "--auto-cage",
-          "the file is a model: make a cage round it, of at most N control points (by its shape)")
+      .add_option("--auto-cage",
+                  "make a cage around the first file, with at most N control points (default: by "
+                  "shape)")
       ->expected(0, 1)
       ->type_name("[N]");
+}
+
+void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* deformed) {
+  command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
+  add_choice(command, "--sparsify", {kPoisson, kQuadratic}, a.reduction,
+             "how to reduce influences (default: poisson). poisson: without seams between "
+             "neighbors. quadratic: each vertex separately, faster");
+  command
+      .add_option("--fps", a.frames_per_second,
+                  "poses of --deformed per second in model.glb (default: 24, or 1 for one pose)")
+      ->check(in_range(1e-3, 1e6))
+      ->needs(deformed);
+  add_choice(command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
+             "format of the pictures (default: png)");
 }
 
 }  // namespace
@@ -234,43 +234,38 @@ CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
 void add_run_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
   auto& a = *arguments;
-  auto& settings = a.settings;
   auto* command = app.add_subcommand(
       "run", "Mesh, solve, check, sparsify, deform, export and draw, all at once");
+  add_help_all(*command);
   command->footer(
-      "OUTDIR gets the mesh of the interior, dense and sparse weights, the model in every pose,\n"
-      "model.glb, which is a skin that moves through them, pictures, model.html, in which the\n"
-      "cage can be moved, and report.json. What an earlier run has made there is replaced. Model\n"
-      "and skin move by the sparse weights. If a step fails, what was made before stays.");
-  auto* auto_cage = add_shapes(*command, settings);
+      "OUTDIR receives the mesh of the cage interior, dense and sparse weights, the model in each\n"
+      "pose, model.glb (an animated skin), pictures, model.html (a page for moving the cage), and\n"
+      "report.json. A run replaces the files of an earlier run in OUTDIR. Model and skin use the\n"
+      "sparse weights. If a step fails, the results of earlier steps remain.");
+  auto* auto_cage = add_shapes(*command, a.settings);
   auto* deformed = command->add_option(
-      "--deformed", a.deformed, "the cage in its new pose; several, or a pattern as pose_%d.obj");
-  auto* keyframes = command->add_option(
-      "--keyframes", a.keyframes, "poses as displacements of the cage, with times in seconds");
-  keyframes->excludes(deformed);
+      "--deformed", a.deformed, "deformed cage; several files, or a pattern such as pose_%d.obj");
+  command
+      ->add_option("--keyframes", a.keyframes,
+                   "poses as displacements of the cage, with times in seconds")
+      ->excludes(deformed);
+  command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()
       ->type_name("OUTDIR");
-  command->add_option("-k,--max-influences", a.max_influences, "most influences per point (8)");
-  command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
-      ->check(refuse_vertex_count);
-  command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices");
-  command
-      ->add_option("--sparsify", a.reduction,
-                   "how influences are reduced: poisson: no seams between neighbours; quadratic: "
-                   "every point for itself, faster (poisson)")
-      ->type_name("poisson|quadratic");
-  command
-      ->add_option("--fps", a.frames_per_second,
-                   "poses of --deformed per second in model.glb (24, but 1 for a single one)")
-      ->needs(deformed);
+  command->add_option("-k,--max-influences", a.max_influences,
+                      "maximum influences per vertex (default: 8)");
   command->add_option("--control-point", a.control_point,
-                      "whose function is drawn, from 0 (the one that moves most)");
-  command->add_option("--pictures", a.pictures, "format of pictures (png)")
-      ->type_name("png|svg|pdf");
-  add_solver_options(*command, settings);
-  command->add_flag("--force", a.force, "replace files in OUTDIR that are not of an earlier run");
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+                      "control point whose function is drawn, counted from 0 (default: the one "
+                      "that moves most)");
+  command->add_flag("--force", a.force, "replace files in OUTDIR that no earlier run has made");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
+  command->option_defaults()->group("Solver");
+  command
+      ->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
+      ->check(refuse_vertex_count);
+  add_solver_options(*command, a.settings);
+  add_rare_options(*command, a, deformed);
   command->callback(
       [arguments, command, auto_cage, &exit_status] {
         exit_status = run_as_told(*command, *auto_cage, *arguments);

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/bounding_box.h"
@@ -25,7 +24,6 @@ struct SolveArguments {
   std::string save_domain;
   std::string report;
   bool quiet = false;
-  bool verbose = false;
 };
 
 void check_outputs(const SolveArguments& arguments) {
@@ -33,8 +31,7 @@ void check_outputs(const SolveArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
   require_distinct({settings.cage, settings.domain, settings.model},
-                   {arguments.output, arguments.save_domain, arguments.report,
-                    settings.checkpoint.file});
+                   {arguments.output, arguments.save_domain, arguments.report});
 }
 
 template <int Dim>
@@ -46,7 +43,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   std::cerr << report.control_points << " control points, "
             << report.vertices << " vertices, " << report.cells
             << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report) << ", "
-            << report.seconds.solve << (solver.is_cached() ? " s, from the cache" : " s")
+            << report.seconds.solve << " s"
             << "; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
   if (is_certified(report)) {
@@ -76,8 +73,6 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
   }
-  solver.forget_checkpoint();
-  if (arguments.verbose) std::cerr << json;
   if (!arguments.quiet) print_summary(arguments, solver, delivered);
   return tell_convergence(solver.report(), settings) ? kDone : kNotConverged;
 }
@@ -89,26 +84,32 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto& a = *arguments;
   auto& settings = a.settings;
   auto* command = app.add_subcommand("solve", "Compute the coordinates of a cage");
+  add_help_all(*command);
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
+  command->option_defaults()->group("Output");
   command
       ->add_option("-o,--output", a.output,
-                   "weights, a row per point and a column per control point: .mtx, .dmat or .npy")
+                   "weights, a row per point and a column per control point: .mtx, .dmat, .npy")
       ->required();
-  auto* vertices =
-      command->add_option("--vertices", settings.vertices, "number of mesh vertices wanted (10000)")
-          ->check(refuse_vertex_count);
-  auto* domain = command->add_option("--domain", settings.domain, "use this mesh of the interior");
-  auto* model =
-      command->add_option("--model", settings.model, "write weights at this model's vertices");
-  auto* embed =
-      command->add_flag("--embed", settings.embed, "make the model's vertices mesh vertices")
-          ->needs(model);
-  domain->excludes(vertices)->excludes(embed);
-  command->add_option("--save-domain", a.save_domain, mesh_formats_help());
-  command->add_option("--report", a.report, "write what happened to this .json file");
+  command->add_option("--report", a.report, "write facts about the solve to this .json file");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
+  command->option_defaults()->group("Domain and model");
+  auto* vertices = command
+                       ->add_option("--vertices", settings.vertices,
+                                    "number of mesh vertices (default: 10000)")
+                       ->check(refuse_vertex_count);
+  auto* domain = command->add_option("--domain", settings.domain,
+                                     "use this mesh of the cage interior instead of a new one");
+  command->add_option("--save-domain", a.save_domain,
+                      "write the mesh of the cage interior: " + mesh_formats());
+  auto* model = command->add_option("--model", settings.model,
+                                    "compute weights at the vertices of this model");
   add_solver_options(*command, settings);
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->add_flag("-v,--verbose", a.verbose, "print the report");
+  auto* embed = command
+                    ->add_flag("--embed", settings.embed,
+                               "use the model vertices as vertices of the mesh")
+                    ->needs(model);
+  domain->excludes(vertices)->excludes(embed);
   command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);
     refuse_unread_options(*command, arguments->settings);

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/domain_mesh.h"
@@ -20,6 +19,8 @@
 #include "flbc/io/weights_triplets.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "files/movable_model.h"
+#include "poses/poses.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
 #include "solve/progress_bar.h"
@@ -30,8 +31,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kQuadratic = "quadratic";
-constexpr const char* kPoisson = "poisson";
 
 struct SparsifyArguments {
   std::string weights;
@@ -59,21 +58,14 @@ struct ConnectedPoints {
   EdgeList edges;
 };
 
-// The vertices of a domain mesh or a model, by the file's name.
+// The vertices of a domain mesh or a model.
 template <int Dim>
 ConnectedPoints<Dim> load_points(const std::string& path) {
-  if (!io::holds(path, {io::Content::kModel}) &&
-      io::holds(path, {io::Content::kMesh2D, io::Content::kMesh3D})) {
-    auto mesh = io::read_domain<Dim>(path);
-    auto edges = edges_of_cells(mesh);
-    return {std::move(mesh.points), std::move(edges)};
-  }
-  const auto soup = io::read_polygons(path);
-  auto points = io::to_points<Dim>(soup, path);
-  if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
-  auto edges =
-      naming(path, [&] { return edges_of_polygons(points, soup.polygons, soup.polylines); });
-  return {std::move(points), std::move(edges)};
+  const MovedFile same{path, path};
+  if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
+  const MovableModel<Dim> model(same);
+  if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
+  return {model.points(), model.edges()};
 }
 
 template <int Dim>
@@ -95,9 +87,7 @@ std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments, Eigen
   std::vector<PointList<Dim>> poses;
   for (const auto& path : arguments.poses) {
     poses.push_back(load_model<Dim>(path));
-    if (poses.back().cols() == size) continue;
-    throw InputError(path + ": has " + std::to_string(poses.back().cols()) + " vertices, but " +
-                     arguments.cage + " has " + std::to_string(size));
+    require_control_points(path, poses.back().cols(), size, arguments.cage);
   }
   return poses;
 }
@@ -124,7 +114,7 @@ SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedP
 }
 
 template <int Dim>
-int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
+void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
   const auto model = load_points<Dim>(arguments.points);
   if (arguments.method == kPoisson && model.edges.ends.empty()) {
@@ -166,17 +156,11 @@ int sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) 
     }
   }
   if (!arguments.quiet) std::cerr << summary_of(report) << '\n';
-  return kDone;
-}
-
-std::string refuse_method(const std::string& name) {
-  if (name == kQuadratic || name == kPoisson) return {};
-  return "'" + name + "' is none of quadratic|poisson";
 }
 
 }  // namespace
 
-void add_sparsify_command(CLI::App& app, int& exit_status) {
+void add_sparsify_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<SparsifyArguments>();
   auto& a = *arguments;
   auto* command = app.add_subcommand("sparsify", "Keep few influences per point");
@@ -196,12 +180,9 @@ void add_sparsify_command(CLI::App& app, int& exit_status) {
                                     "most influences per point, at least 3 in 2D and 4 in 3D");
   auto* threshold = command->add_option("--threshold", a.options.threshold,
                                         "drop weights below this first, if the rest reproduces");
-  command
-      ->add_option("--method", a.method,
-                   "quadratic: every point for itself; poisson: no seams between neighbours "
-                   "(quadratic)")
-      ->type_name("quadratic|poisson")
-      ->check(refuse_method);
+  add_choice(*command, "--method", {kQuadratic, kPoisson}, a.method,
+             "how to reduce influences (default: quadratic). quadratic: each vertex separately. "
+             "poisson: without seams between neighbors");
   command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat or .npy")->required();
   command
       ->add_option("--pose", a.poses,
@@ -210,14 +191,13 @@ void add_sparsify_command(CLI::App& app, int& exit_status) {
       ->allow_extra_args(false);
   command->add_option("--report", a.report, "write what happened to this .json file");
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, count, threshold, &exit_status] {
+  command->callback([arguments, count, threshold] {
     if (count->count() + threshold->count() == 0) {
       throw OptionError("give -k, the most influences per point, or --threshold, or both");
     }
     check_files(*arguments);
-    const auto cage = load_cage(arguments->cage);
-    exit_status =
-        std::visit([&](const auto& any) { return sparsify_weights(any, *arguments); }, cage);
+    std::visit([&](const auto& cage) { sparsify_weights(cage, *arguments); },
+               load_cage(arguments->cage));
   });
 }
 

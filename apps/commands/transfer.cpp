@@ -5,14 +5,12 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/names.h"
 #include "flbc/quality.h"
 #include "solve/cage_solver.h"
 #include "solve/weights_of_model.h"
@@ -35,9 +33,6 @@ struct TransferArguments {
 void check_arguments(const TransferArguments& arguments) {
   if (arguments.from.empty() == arguments.domain.empty()) {
     throw OptionError("say whose the weights are: a model's by --from, or a mesh's by --domain");
-  }
-  if (!(arguments.limit >= 0 && arguments.limit <= 1)) {
-    throw OptionError("--limit must be in [0, 1], a part of the model's size");
   }
   require_writable(arguments.output, {io::Content::kWeights});
   require_distinct(
@@ -100,14 +95,9 @@ void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
             << result.facts << '\n';
 }
 
-std::string refuse_policy(const std::string& name) {
-  if (value_named<OutsidePoints>(name)) return {};
-  return "'" + name + "' is none of fail|nearest|extend";
-}
-
 }  // namespace
 
-void add_transfer_command(CLI::App& app, int& exit_status) {
+void add_transfer_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<TransferArguments>();
   auto& a = *arguments;
   auto* command = app.add_subcommand("transfer", "Weights for another version of a model");
@@ -124,21 +114,17 @@ void add_transfer_command(CLI::App& app, int& exit_status) {
   command->add_option("--to", a.to, "the model that gets weights")->required();
   command
       ->add_option("--limit", a.limit,
-                   "largest distance between the models, as a part of the size (0.02)")
+                   "largest distance between the models, relative to their size (default: 0.02)")
+      ->check(in_range(0, 1))
       ->needs(from);
-  command
-      ->add_option_function<std::string>(
-          "--outside", [&a](const std::string& name) { a.outside = *value_named<OutsidePoints>(name); },
-          "what becomes of vertices outside the cage, as in flbc solve (fail)")
-      ->check(refuse_policy)
-      ->type_name("fail|nearest|extend")
+  add_choice(*command, "--outside", a.outside,
+             "how to handle vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);
   command->add_option("-o,--output", a.output, "weights: .mtx, .dmat or .npy")->required();
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments] {
     check_arguments(*arguments);
     std::visit([&](const auto& cage) { transfer(cage, *arguments); }, load_cage(arguments->cage));
-    exit_status = kDone;
   });
 }
 

@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "commands/exit_status.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/bounding_box.h"
@@ -19,7 +17,7 @@
 #include "poses/poses.h"
 #include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
-#include "view/influences.h"
+#include "view/page.h"
 #include "view/model_page.h"
 
 namespace flbc::app {
@@ -58,10 +56,6 @@ void check_arguments(const ViewArguments& arguments) {
                                     {"--cage", &arguments.cage},
                                     {"--output", &arguments.output}}) {
     if (value->empty()) throw OptionError(std::string(name) + " is required, or --serve");
-  }
-  const double rate = arguments.frames_per_second;
-  if (rate != 0 && !(rate >= 1e-3 && rate <= 1e6)) {
-    throw OptionError("--fps must be from 0.001 to 1000000");
   }
   if (!arguments.picture.empty()) media_type_of(arguments.picture);
   require_mesh_readable(arguments.model);
@@ -139,10 +133,7 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
                                   arguments.max_influences);
   });
   const auto page = make_page(content);
-  {
-    const HeldSignals held;
-    io::write_file(arguments.output, [&](std::ostream& file) { file << page; });
-  }
+  write_text(arguments.output, page);
   const auto bytes = static_cast<double>(page.size());
   if (!arguments.quiet) {
     std::cerr << arguments.output << ": " << content.points.cols() << " points, "
@@ -178,7 +169,7 @@ void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app, int& exit_status) {
+void add_view_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ViewArguments>();
   auto& a = *arguments;
   auto* command =
@@ -203,7 +194,8 @@ void add_view_command(CLI::App& app, int& exit_status) {
       ->excludes(poses);
   command
       ->add_option("--fps", a.frames_per_second,
-                   "poses of --pose per second (24, but 1 for a single one)")
+                   "poses of --pose per second (default: 24, or 1 for one pose)")
+      ->check(in_range(1e-3, 1e6))
       ->needs(poses);
   command->add_option("-k,--max-influences", a.max_influences,
                       "most influences per point, up to 16 (16)");
@@ -212,17 +204,13 @@ void add_view_command(CLI::App& app, int& exit_status) {
   auto* output = command->add_option("-o,--output", a.output, "the page, .html");
   add_serving(*command, a, output);
   command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
-  command->callback([arguments, &exit_status] {
-    exit_status = kDone;
+  command->callback([arguments] {
     if (!arguments->served.empty()) return serve(*arguments);
     check_arguments(*arguments);
     const auto files = find_cages(arguments->poses);
     check_files(*arguments, files);
-    if (dimension_of_cage(arguments->cage) == 2) {
-      write_page<2>(*arguments, files);
-    } else {
-      write_page<3>(*arguments, files);
-    }
+    dimension_of_cage(arguments->cage) == 2 ? write_page<2>(*arguments, files)
+                                            : write_page<3>(*arguments, files);
   });
 }
 

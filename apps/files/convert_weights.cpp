@@ -19,7 +19,7 @@ bool holds_triplets(const std::string& path) {
 }
 
 void check_files(const WeightMatrix& weights, const WeightConversion& conversion) {
-  const auto& [input, output, cage, points, threshold, transpose] = conversion;
+  const auto& [input, output, cage, points, transpose] = conversion;
   const Eigen::Index num_controls = cage.empty() ? weights.rows() : count_vertices(cage);
   const Eigen::Index num_points = points.empty() ? weights.cols() : count_vertices(points);
   const bool is_turned = num_controls == weights.cols() && num_points == weights.rows();
@@ -36,27 +36,6 @@ WeightMatrix load(const WeightConversion& conversion) {
   if (conversion.transpose) weights.transposeInPlace();
   check_files(weights, conversion);
   return weights;
-}
-
-// Changes due to dropped weights.
-struct Dropped {
-  Eigen::Index count = 0;
-  double largest_sum = 0;  // of one point
-};
-
-Dropped drop(WeightMatrix& weights, double threshold) {
-  Dropped dropped;
-  for (auto column : weights.colwise()) {
-    double sum = 0;
-    for (double& weight : column) {
-      if (weight == 0 || std::abs(weight) > threshold) continue;
-      sum += weight;
-      weight = 0;
-      ++dropped.count;
-    }
-    dropped.largest_sum = std::max(dropped.largest_sum, std::abs(sum));
-  }
-  return dropped;
 }
 
 void save(const std::string& path, const WeightMatrix& weights) {
@@ -79,10 +58,8 @@ WeightMatrix read_weight_file(const std::string& path) {
 }
 
 void convert_weights(const WeightConversion& conversion, bool quiet) {
-  const auto& [input, output, cage, points, threshold, transpose] = conversion;
-  auto weights = load(conversion);
-  Dropped dropped;
-  if (threshold) dropped = drop(weights, *threshold);
+  const auto& [input, output, cage, points, transpose] = conversion;
+  const auto weights = load(conversion);
   naming(input, [&] { save(conversion.output, weights); });
   if (quiet) return;
   std::cerr << output << ": weights of " << weights.cols() << " points for " << weights.rows()
@@ -90,11 +67,6 @@ void convert_weights(const WeightConversion& conversion, bool quiet) {
   if (holds_triplets(input) && (cage.empty() || points.empty())) {
     std::cerr << "flbc: " << input << " does not tell these numbers; they are the largest ones in "
               << "it (--cage and --points check them)\n";
-  }
-  if (threshold) {
-    std::cerr << "flbc: " << dropped.count << " weights up to " << *threshold
-              << " were dropped, which changes the sum of a point's weights by at most "
-              << dropped.largest_sum << '\n';
   }
 }
 

@@ -3,7 +3,6 @@
 //! Weights from one format to another.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "flbc/io/formats.h"
@@ -17,7 +16,6 @@ struct WeightConversion {
   std::string output;
   std::string cage;                   //!< of the weights; empty = not known
   std::string points;                 //!< model or mesh they belong to; empty = not known
-  std::optional<double> threshold{};  //!< weights up to this size become 0
   bool transpose = false;             //!< the input has control points as rows
 };
 

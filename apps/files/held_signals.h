@@ -25,8 +25,6 @@ class HeldSignals {
     for (int k = 0; k < kCount; ++k) sigaction(kSignals[k], &before_[k], nullptr);
     if (came() != 0) raise(came());
   }
-  //! Whether one came since.
-  bool came_any() const { return came() != 0; }
 
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;

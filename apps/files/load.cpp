@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "files/held_signals.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -131,8 +132,13 @@ void require_writable(const std::string& path, std::initializer_list<io::Content
   require_writable_folder(path);
 }
 
-std::string mesh_formats_help() {
-  return "mesh file: " + io::extensions_of({io::Content::kMesh2D}) + " in 2D, " +
+void write_text(const std::string& path, const std::string& text) {
+  const HeldSignals held;
+  io::write_file(path, [&](std::ostream& file) { file << text; });
+}
+
+std::string mesh_formats() {
+  return io::extensions_of({io::Content::kMesh2D}) + " in 2D, " +
          io::extensions_of({io::Content::kMesh3D}) + " in 3D";
 }
 

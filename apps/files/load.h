@@ -48,8 +48,11 @@ void require_writable(const std::string& path, std::initializer_list<io::Content
 //! Nothing is checked for an empty path.
 void require_writable_folder(const std::string& path);
 
+//! Writes a result of text; signals wait meanwhile. \throws IoError
+void write_text(const std::string& path, const std::string& text);
+
 //! The formats of meshes of the interior, for help.
-std::string mesh_formats_help();
+std::string mesh_formats();
 
 //! \throws OptionError before any work is done if a result would replace a file that is read, or
 //! another result. Empty paths and "-" are no files.

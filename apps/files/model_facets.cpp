@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "files/load.h"
-#include "files/silhouette.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"

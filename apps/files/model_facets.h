@@ -27,6 +27,12 @@ using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 //! IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
+//! The outline of the pixels of a .png file that are not wholly transparent. A pixel is a unit
+//! square; the lower left corner of the picture is at the origin.
+//! \throws IoError; InputError if the file is no such picture, or has no pixel that is transparent
+//! or none that is not
+ModelFacets<2> load_silhouette(const std::string& path);
+
 //! A model as its triangles and segments, and points that belong to none of them.
 //! \throws IoError, InputError
 template <int Dim>

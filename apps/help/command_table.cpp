@@ -28,6 +28,15 @@ std::string value_name(const std::string& type) {
   return name;
 }
 
+void read_options(const CLI::App& app, std::vector<OptionEntry>& positionals,
+                  std::vector<OptionEntry>& options) {
+  for (const auto* option : app.get_options()) {
+    (option->nonpositional() ? options : positionals).push_back(read_option(*option));
+  }
+}
+
+}  // namespace
+
 OptionEntry read_option(const CLI::Option& option) {
   OptionEntry entry;
   for (const auto& name : option.get_snames()) entry.names.push_back("-" + name);
@@ -45,15 +54,6 @@ OptionEntry read_option(const CLI::Option& option) {
   entry.repeated = option.get_expected_max() > 1;
   return entry;
 }
-
-void read_options(const CLI::App& app, std::vector<OptionEntry>& positionals,
-                  std::vector<OptionEntry>& options) {
-  for (const auto* option : app.get_options()) {
-    (option->nonpositional() ? options : positionals).push_back(read_option(*option));
-  }
-}
-
-}  // namespace
 
 CommandTable read_table(const CLI::App& app) {
   CommandTable table;

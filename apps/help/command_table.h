@@ -9,7 +9,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace flbc::app {
 
@@ -40,7 +41,20 @@ struct CommandTable {
   std::vector<CommandEntry> commands{};
 };
 
+//! Reads an option of the parser.
+OptionEntry read_option(const CLI::Option& option);
+
 //! Reads the parser.
 CommandTable read_table(const CLI::App& app);
+
+// Scripts by which shells complete commands, options, and their values.
+std::string bash_completion(const CommandTable& table);
+std::string zsh_completion(const CommandTable& table);
+
+//! flbc(1), for man.
+std::string manual_of_program(const CommandTable& table);
+
+//! flbc-COMMAND(1), for man.
+std::string manual_of_command(const CommandEntry& command);
 
 }  // namespace flbc::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "help/completion.h"
+#include "help/command_table.h"
 
 #include <sstream>
 

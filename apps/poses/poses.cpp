@@ -2,6 +2,7 @@
 #include "poses/poses.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 #include "flbc/domain_mesh.h"
@@ -9,9 +10,70 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/keyframes.h"
 #include "flbc/io/model_file.h"
-#include "poses/file_sequence.h"
 
 namespace flbc::app {
+namespace {
+
+struct Place {
+  std::size_t begin = std::string::npos;
+  std::size_t end = std::string::npos;
+  std::size_t width = 0;
+};
+
+// The first %d or %0Nd from `start` on. Other percent signs are part of the name.
+Place find_place(const std::string& name, std::size_t start = 0) {
+  constexpr std::size_t kMostDigits = 2;
+  for (auto begin = name.find('%', start); begin != std::string::npos;
+       begin = name.find('%', begin + 1)) {
+    const auto end = name.find_first_not_of("0123456789", begin + 1);
+    if (end == std::string::npos || name[end] != 'd') continue;
+    const auto digits = name.substr(begin + 1, end - begin - 1);
+    if (digits.size() > kMostDigits) continue;
+    return {begin, end + 1, digits.empty() ? 0 : std::stoul(digits)};
+  }
+  return {};
+}
+
+struct NumberedFile {
+  std::string path;
+  std::int64_t number;
+};
+
+// The files of a pattern that exist: from number 0 or else 1 up to the first one missing.
+std::vector<NumberedFile> find_files(const std::string& pattern) {
+  std::error_code error;
+  const auto exists = [&](std::int64_t number) {
+    return std::filesystem::exists(with_number(pattern, number), error);
+  };
+  std::vector<NumberedFile> files;
+  for (std::int64_t number = exists(0) ? 0 : 1; exists(number); ++number) {
+    files.push_back({with_number(pattern, number), number});
+  }
+  if (files.empty()) {
+    throw IoError(pattern + ": there is neither " + with_number(pattern, 0) + " nor " +
+                  with_number(pattern, 1));
+  }
+  return files;
+}
+
+}  // namespace
+
+bool has_number(const std::string& pattern) {
+  const auto place = find_place(pattern);
+  if (place.begin == std::string::npos) return false;
+  if (find_place(pattern, place.end).begin != std::string::npos) {
+    throw OptionError(pattern + ": there must be one %d in the name, not several");
+  }
+  return true;
+}
+
+std::string with_number(const std::string& pattern, std::int64_t number) {
+  if (!has_number(pattern)) return pattern;
+  const auto place = find_place(pattern);
+  auto digits = std::to_string(number);
+  if (digits.size() < place.width) digits.insert(0, place.width - digits.size(), '0');
+  return pattern.substr(0, place.begin) + digits + pattern.substr(place.end);
+}
 
 CageFiles find_cages(const std::vector<std::string>& cages) {
   CageFiles files;
@@ -45,22 +107,6 @@ PointList<Dim> load_control_points(const std::string& path) {
   return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
-template <int Dim>
-FacetList<2> edges_of_cage(const io::PolygonSoup& soup) {
-  PointList<3> points(3, soup.points.size());
-  for (std::size_t i = 0; i < soup.points.size(); ++i) points.col(i) = soup.points[i];
-  auto polylines = soup.polylines;
-  if (Dim == 2 && polylines.empty() && soup.polygons.empty()) {
-    auto& loop = polylines.emplace_back(soup.points.size());
-    std::iota(loop.begin(), loop.end(), 0);
-    loop.push_back(0);
-  }
-  const auto edges = edges_of_polygons<3>(points, soup.polygons, polylines).ends;
-  FacetList<2> result(2, edges.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) result.col(e) << edges[e][0], edges[e][1];
-  return result;
-}
-
 double frame_rate(std::size_t num_poses, double asked) {
   constexpr double kVideo = 24;
   if (asked > 0) return asked;
@@ -77,14 +123,18 @@ std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_seco
   return poses;
 }
 
+void require_control_points(const std::string& file, Eigen::Index count, Eigen::Index expected,
+                            const std::string& cage) {
+  if (count == expected) return;
+  throw InputError(file + ": has " + std::to_string(count) + " vertices, but " + cage + " has " +
+                   std::to_string(expected));
+}
+
 template <int Dim>
 gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num_control_points) {
   gltf::Animation<Dim> animation;
   for (const auto& pose : poses) {
-    if (pose.points.cols() != num_control_points) {
-      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
-                       " vertices, but the cage has " + std::to_string(num_control_points));
-    }
+    require_control_points(pose.name, pose.points.cols(), num_control_points, "the cage");
     animation.times.push_back(pose.time);
     animation.poses.push_back(pose.points);
   }
@@ -110,7 +160,6 @@ std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<D
 
 #define FLBC_INSTANTIATE(Dim)                                                                \
   template PointList<Dim> load_control_points(const std::string&);                           \
-  template FacetList<2> edges_of_cage<Dim>(const io::PolygonSoup&);                          \
   template std::vector<Pose<Dim>> load_poses(const CageFiles&, double);                      \
   template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&); \
   template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&, Index);

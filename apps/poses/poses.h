@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The poses of a cage, from cage files or an animation.
+//! The poses of a cage, from cage files or an animation, and how far they move a model.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "flbc/io/model.h"
+#include "flbc/deform.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
 
@@ -39,11 +39,6 @@ int dimension_of_cage(const std::string& path);
 template <int Dim>
 PointList<Dim> load_control_points(const std::string& path);
 
-//! The edges of a cage as they stand in its file: of polygons and polylines, each once; in 2D, where
-//! there are none, between consecutive points. \return 2 x E
-template <int Dim>
-FacetList<2> edges_of_cage(const io::PolygonSoup& soup);
-
 //! Frames per second of a sequence: as asked, or, if that is 0, a single pose within a second and
 //! several as a video.
 double frame_rate(std::size_t num_poses, double asked);
@@ -51,6 +46,10 @@ double frame_rate(std::size_t num_poses, double asked);
 //! One pose per file, `frames_per_second` of them in a second, the first one at 0.
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second = 1);
+
+//! \throws InputError unless a file has as many vertices as the cage
+void require_control_points(const std::string& file, Eigen::Index count, Eigen::Index expected,
+                            const std::string& cage);
 
 //! The poses at their times.
 //! \param num_control_points  of the cage at rest
@@ -62,5 +61,39 @@ gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num
 //! \throws InputError if the file is for another number of control points than `rest` (Dim x n) has
 template <int Dim>
 std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest);
+
+// Sequences of files are written as pose_%d.obj or pose_%03d.obj.
+
+//! Whether a name has a place for a number. \throws OptionError if it has more than one
+bool has_number(const std::string& pattern);
+
+//! The name with the number in its place, with leading zeros up to the width between % and d. A
+//! name without a place for it stays as it is.
+std::string with_number(const std::string& pattern, std::int64_t number);
+
+//! The lengths of the displacements, and the largest of all.
+struct Displacement {
+  Eigen::MatrixXd lengths{};  //!< number of poses x P
+  double largest = 0;
+  Eigen::Index point = 0;  //!< that moves farthest
+  std::size_t pose = 0;    //!< in which it does
+};
+
+//! \param points  Dim x P, where the model rests
+template <int Dim>
+Displacement measure_displacement(const SparseWeights& weights, const PointList<Dim>& points,
+                                  const std::vector<Pose<Dim>>& poses) {
+  Displacement result;
+  result.lengths.resize(static_cast<Eigen::Index>(poses.size()), points.cols());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    result.lengths.row(static_cast<Eigen::Index>(k)) =
+        displacements(points, deform(weights, poses[k].points)).transpose();
+  }
+  if (result.lengths.size() == 0) return result;
+  Eigen::Index pose = 0;
+  result.largest = result.lengths.maxCoeff(&pose, &result.point);
+  result.pose = static_cast<std::size_t>(pose);
+  return result;
+}
 
 }  // namespace flbc::app

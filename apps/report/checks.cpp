@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/checks.h"
+#include "report/check_report.h"
 
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"

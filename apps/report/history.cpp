@@ -81,17 +81,6 @@ void HistoryRecorder::note(const Progress& progress) {
   start_ += std::chrono::steady_clock::now() - now;
 }
 
-void HistoryRecorder::go_on(std::vector<HistoryEntry> entries) {
-  entries_ = std::move(entries);
-  for (const auto& entry : entries_) {
-    if (entry.finer_levels > 0) earlier_ = entry.iteration;
-  }
-  if (entries_.empty()) return;
-  using std::chrono::steady_clock;
-  const std::chrono::duration<double> seconds(entries_.back().seconds);
-  start_ = steady_clock::now() - std::chrono::duration_cast<steady_clock::duration>(seconds);
-}
-
 double HistoryRecorder::seconds_until(std::chrono::steady_clock::time_point now) const {
   return std::chrono::duration<double>(now - start_).count();
 }

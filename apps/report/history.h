@@ -31,12 +31,6 @@ class HistoryRecorder {
 
   void note(const Progress& progress);
 
-  //! Entries noted so far.
-  const std::vector<HistoryEntry>& entries() const { return entries_; }
-
-  //! Goes on with what another recorder had noted of the same solve.
-  void go_on(std::vector<HistoryEntry> entries);
-
   //! All entries and the end, which no callback is told of; none for methods that do not iterate.
   std::vector<HistoryEntry> finished(const SolveReport& report);
 

@@ -56,8 +56,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"max_iterations", options.max_iterations},
           {"penalty", penalty_asked_for(report, settings)},
           {"relaxation", options.relaxation},
-          {"threads", options.threads},
-          {"cache", settings.cache}};
+          {"threads", options.threads}};
 }
 
 void add_certificate(const SolveReport& report, nlohmann::ordered_json& json) {
@@ -108,7 +107,6 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["converged"] = report.status == SolveStatus::kConverged;
   json["status"] = name_of(report.status);
   json["criterion"] = name_of(report.criterion);
-  json["cached"] = context.cached;
   json["primal_residual"] = report.primal_residual;
   json["dual_residual"] = report.dual_residual;
   json["objective"] = report.objective;

@@ -16,8 +16,6 @@ struct RunContext {
   int dim = 0;
   double mesh_seconds = 0;
   Mesher mesher = Mesher::kGiven;
-  bool cached =
-      false;  //!< the weights are from the cache, and all seconds from when they got there
   Quality delivered{};  //!< of the rows written: the model's if there is one
 };
 

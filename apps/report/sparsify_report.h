@@ -14,6 +14,10 @@
 
 namespace flbc::app {
 
+//! How influences are reduced, as options name it.
+constexpr const char* kQuadratic = "quadratic";
+constexpr const char* kPoisson = "poisson";
+
 //! Weights before and after, and what they are measured with. All kept by reference.
 template <int Dim>
 struct SparsifiedWeights {

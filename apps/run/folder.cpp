@@ -12,14 +12,14 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "help/options.h"
 #include "report/report_json.h"
-#include "run/names.h"
+#include "run/inputs.h"
 
 namespace flbc::app {
 namespace {
@@ -48,21 +48,6 @@ bool is_plain_name(const std::string& name) {
 }
 
 constexpr int kColumn = 20;
-
-// Broken between words for a terminal, and indented to the column.
-std::string wrapped(const std::string& facts) {
-  constexpr std::size_t kRoom = 79 - 2 - kColumn;
-  std::string text;
-  std::size_t used = 0;
-  std::istringstream words(facts);
-  for (std::string word; words >> word;) {
-    const bool breaks = used > 0 && used + 1 + word.size() > kRoom;
-    if (used > 0) text += breaks ? "\n" + std::string(2 + kColumn, ' ') : " ";
-    used = (breaks || used == 0 ? 0 : used + 1) + word.size();
-    text += word;
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -142,10 +127,18 @@ void RunFolder::add(const std::string& name, const std::string& facts,
   if (!facts.empty()) tell(name, facts);
 }
 
+void RunFolder::add_text(const std::string& name, const std::string& facts,
+                         const std::string& text) {
+  write_text(path_of(name), text);
+  names_.push_back(name);
+  tell(name, facts);
+}
+
 void RunFolder::tell(const std::string& name, const std::string& facts) const {
   if (quiet_) return;
+  const auto indent = "\n" + std::string(2 + kColumn, ' ');
   std::cerr << "  " << std::left << std::setw(kColumn) << name
-            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts) : facts) << '\n';
+            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts, 77 - kColumn, indent) : facts) << '\n';
 }
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {
@@ -157,8 +150,7 @@ void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& fa
 }
 
 void RunFolder::write_report(const nlohmann::ordered_json& report) const {
-  const HeldSignals held;
-  io::write_file(path_of(kReport), [&](std::ostream& file) { file << to_text(report); });
+  write_text(path_of(kReport), to_text(report));
 }
 
 }  // namespace flbc::app

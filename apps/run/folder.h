@@ -38,6 +38,9 @@ class RunFolder {
   void add(const std::string& name, const std::string& facts,
            const std::function<void(const std::string& path)>& write);
 
+  //! The same of a text that is there already.
+  void add_text(const std::string& name, const std::string& facts, const std::string& text);
+
   //! Prints a line about a file, or about what stands for several.
   void tell(const std::string& name, const std::string& facts) const;
 

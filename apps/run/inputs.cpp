@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/inputs.h"
 
+#include <filesystem>
+
 #include "files/load.h"
 #include "flbc/errors.h"
-#include "poses/file_sequence.h"
-#include "run/names.h"
+#include "poses/poses.h"
 
 namespace flbc::app {
 namespace {
@@ -32,7 +33,33 @@ void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInput
   naming(path, [&] { gltf::validate(inputs.animation, cage.size()); });
 }
 
+template <int Dim>
+Shape<Dim> load_shape(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (!io::holds(path, {io::Content::kModel})) {
+    throw OptionError(path + ": cannot tell the format; a model must end in " +
+                      io::extensions_of({io::Content::kModel}));
+  }
+  Shape<Dim> shape{file.stem().string(), file.extension().string()};
+  shape.file = std::make_unique<MovableModel<Dim>>(MovedFile{path, path});
+  shape.points = shape.file->points();
+  if (shape.points.cols() == 0) throw InputError(path + ": the model has no vertices");
+  shape.edges = shape.file->edges();
+  // Points and lines have none, and are fine nevertheless.
+  if (!shape.file->model()->soup.polygons.empty()) shape.surface = shape.file->surface();
+  return shape;
+}
+
 }  // namespace
+
+template <int Dim>
+Shape<Dim> shape_of(const DomainMesh<Dim>& domain) {
+  Shape<Dim> shape{"domain", domain_extension<Dim>()};
+  shape.points = domain.points;
+  shape.edges = edges_of_cells(domain);
+  shape.surface = gltf::surface_of_model<Dim>({io::to_polygons(domain)});
+  return shape;
+}
 
 template <int Dim>
 RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments) {
@@ -78,6 +105,7 @@ std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                 \
+  template Shape<Dim> shape_of(const DomainMesh<Dim>&);                       \
   template RunInputs<Dim> load_inputs(const Cage<Dim>&, const RunArguments&); \
   template std::vector<std::string> names_of_results(const RunInputs<Dim>&);
 FLBC_INSTANTIATE(2)

@@ -1,18 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The inputs of flbc run.
+//! What flbc run reads, and how the files are named that it makes.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "files/movable_model.h"
 #include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/edge_list.h"
 #include "gltf/skin.h"
+#include "gltf/surface.h"
 #include "poses/poses.h"
-#include "run/arguments.h"
-#include "run/shape.h"
+#include "report/sparsify_report.h"
+#include "solve/solve_settings.h"
 
 namespace flbc::app {
+
+constexpr const char* kCage = "cage.obj";  //!< made round a model
+constexpr const char* kDomain = "domain";  //!< the extension depends on the dimension
+constexpr const char* kDomainWeights = "domain_weights.npy";
+constexpr const char* kWeights = "weights.npy";
+constexpr const char* kSparseWeights = "sparse_weights.mtx";
+constexpr const char* kSkin = "model.glb";        //!< of four influences, which every reader knows
+constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
+// Pictures; the extension depends on the format.
+constexpr const char* kFunction = "function";
+constexpr const char* kModelPicture = "model";
+constexpr const char* kDeformation = "deformation";
+constexpr const char* kPage = "model.html";
+
+//! The report, in which the names of all files are: the next run knows by them what is its own.
+constexpr const char* kReport = "report.json";
+
+//! Arguments of flbc run.
+struct RunArguments {
+  SolveSettings settings;             //!< cage and model among them, but no domain
+  bool makes_cage = false;            //!< a cage is made round the model
+  std::string picture;                //!< or round this picture's silhouette; empty for none
+  Index cage_control_points = 0;      //!< at most so many; 0 = by the model's shape
+  std::vector<std::string> deformed;  //!< cage files or a pattern of them
+  std::string keyframes;              //!< file of poses instead
+  std::string output;                 //!< folder
+  Index max_influences = 8;
+  std::string reduction = kPoisson;
+  double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
+  Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
+  std::string pictures = "png";       //!< format of pictures
+  bool force = false;            //!< results replace files of others, too
+  bool quiet = false;
+};
+
+//! A model or mesh as the steps of flbc run need it.
+template <int Dim>
+struct Shape {
+  std::string name;                           //!< in glTF
+  std::string extension;                      //!< of its file, with the dot
+  PointList<Dim> points{};                    //!< Dim x P
+  EdgeList edges{};                           //!< between them; empty for a mere set of points
+  gltf::Surface surface{};                    //!< without triangles if there are none
+  std::unique_ptr<MovableModel<Dim>> file{};  //!< the model's; null for the mesh
+};
+
+//! A mesh of the interior.
+template <int Dim>
+Shape<Dim> shape_of(const DomainMesh<Dim>& domain);
+
+//! The format in which flbc run writes meshes of the interior.
+template <int Dim>
+constexpr const char* domain_extension() {
+  return Dim == 2 ? ".obj" : ".mesh";
+}
 
 //! Everything that is read beside the cage.
 template <int Dim>

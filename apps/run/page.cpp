@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/page.h"
-
 #include <string>
 
-#include "flbc/io/files.h"
-#include "run/facts.h"
-#include "view/influences.h"
+#include "report/facts.h"
+#include "run/steps.h"
+#include "view/page.h"
 #include "view/model_page.h"
 
 namespace flbc::app {
@@ -50,9 +48,7 @@ void write_page(Run<Dim>& run) {
   run.report["page"] = {{"file", kPage}, {"bytes", page.size()}};
   Facts facts;
   facts << "a page to move the cage in; " << static_cast<double>(page.size()) / 1e6 << " MB";
-  run.folder.add(kPage, facts.text(), [&](const std::string& name) {
-    io::write_file(name, [&](std::ostream& file) { file << page; });
-  });
+  run.folder.add_text(kPage, facts.text(), page);
 }
 
 template view::ShownCage<2> shown_cage(const Run<2>&);

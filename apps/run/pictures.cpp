@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/pictures.h"
-
 #include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
 #include "draw/model_view.h"
@@ -9,9 +7,8 @@
 #include "draw/weight_picture.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
-#include "run/facts.h"
-#include "run/page.h"
+#include "report/facts.h"
+#include "run/steps.h"
 
 namespace flbc::app {
 namespace {
@@ -73,9 +70,7 @@ void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
                  const draw::Image& image) {
   const auto name = std::string(title) + "." + run.arguments.pictures;
   const auto picture = draw::encode_picture(image, draw::picture_format(name));
-  run.folder.add(name, facts, [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << picture; });
-  });
+  run.folder.add_text(name, facts, picture);
   run.report["pictures"]["files"].push_back(name);
 }
 

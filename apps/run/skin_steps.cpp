@@ -12,7 +12,7 @@
 #include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
 #include "report/sparsify_report.h"
-#include "run/facts.h"
+#include "report/facts.h"
 #include "run/steps.h"
 #include "solve/progress_bar.h"
 
@@ -105,17 +105,6 @@ std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
   return facts.text();
 }
 
-// Of a cage that was made.
-template <int Dim>
-io::PolygonSoup soup_of(const Cage<Dim>& cage) {
-  io::PolygonSoup soup;
-  soup.points.resize(static_cast<std::size_t>(cage.size()), Vector<3>::Zero());
-  for (Index i = 0; i < cage.size(); ++i) soup.points[i].template head<Dim>() = cage.points.col(i);
-  auto& facets = Dim == 2 ? soup.polylines : soup.polygons;
-  for (const auto& facet : cage.facets.colwise()) facets.emplace_back(facet.begin(), facet.end());
-  return soup;
-}
-
 std::string left_out_of(const gltf::ExportedSkin& skin) {
   std::string text;
   for (const auto& phrase : skin.left_out) text += "; left out: " + phrase;
@@ -130,13 +119,10 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   gltf::SkinOptions options;
   options.max_influences = max_influences;
   options.name = shape.name;
-  options.cage_edges = run.cage_file != nullptr ? edges_of_cage<Dim>(run.cage_file->model().soup)
-                                                : edges_of_cage<Dim>(soup_of(run.cage));
+  options.cage_edges = view::as_facets(shown_cage(run).edges);
   const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
                                       shape.surface, options, animation);
-  run.folder.add(name, facts_of(skin, run) + left_out_of(skin), [&](const std::string& path) {
-    io::write_file(path, [&](std::ostream& file) { file << skin.content; });
-  });
+  run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {
       {"file", name},

@@ -9,10 +9,10 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/quality.h"
-#include "poses/file_sequence.h"
-#include "report/checks.h"
+#include "poses/poses.h"
+#include "report/check_report.h"
 #include "report/report_json.h"
-#include "run/facts.h"
+#include "report/facts.h"
 
 namespace flbc::app {
 
@@ -38,7 +38,6 @@ void mesh_interior(Run<Dim>& run) {
                         {"vertices", domain.num_vertices()},
                         {"cells", domain.num_cells()},
                         {"mesher", name_of(solver.mesher())},
-                        {"cached", solver.is_cached()},
                         {"seconds", solver.mesh_seconds()}};
   Facts facts;
   facts << domain.num_vertices() << " vertices, " << domain.num_cells()
@@ -66,7 +65,6 @@ void compute_weights(Run<Dim>& run) {
   if (!report.parts.empty()) facts << ", " << report.parts.size() << " parts";
   if (report.iterations > 0) facts << ", " << describe_iterations(report);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
-  if (solver.is_cached()) facts << ", from the cache";
   facts << "; " << delivered.mean_influences
         << " influences above 0.0001 per point, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;

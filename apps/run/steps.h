@@ -6,12 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "poses/displacement.h"
-#include "run/arguments.h"
+#include "poses/poses.h"
 #include "run/folder.h"
 #include "run/inputs.h"
-#include "run/names.h"
 #include "solve/cage_solver.h"
+#include "view/page.h"
 
 namespace flbc::app {
 
@@ -42,7 +41,7 @@ struct Run {
 template <int Dim>
 void deliver_cage(Run<Dim>& run);
 
-//! domain.obj or domain.mesh; from the cache the weights as well.
+//! domain.obj or domain.mesh
 template <int Dim>
 void mesh_interior(Run<Dim>& run);
 
@@ -66,5 +65,19 @@ void deform_shape(Run<Dim>& run);
 //! asked for model_8.glb. Left out if there are no triangles.
 template <int Dim>
 void export_shape(Run<Dim>& run);
+
+//! function.png: one coordinate function on the mesh, in 3D on slices. With poses also
+//! deformation.png: what the cage moves at rest and in the pose where it moves farthest; without
+//! them model.png: what it will move, coloured by that function.
+template <int Dim>
+void draw_pictures(Run<Dim>& run);
+
+//! The cage with the edges and the text of its file, if it was read from one.
+template <int Dim>
+view::ShownCage<Dim> shown_cage(const Run<Dim>& run);
+
+//! model.html: a page in which the cage can be moved, with the sparse weights and the poses.
+template <int Dim>
+void write_page(Run<Dim>& run);
 
 }  // namespace flbc::app

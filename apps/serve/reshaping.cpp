@@ -8,7 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/placement.h"
-#include "view/influences.h"
+#include "view/page.h"
 
 namespace flbc::app {
 namespace {

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/cage_facts.h"
 #include "flbc/domain_mesh.h"
@@ -18,7 +16,6 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
-#include "solve/cache_key.h"
 #include "solve/make_domain.h"
 #include "solve/progress_bar.h"
 
@@ -52,17 +49,6 @@ nlohmann::ordered_json beside_json(const std::vector<PointBeside<Dim>>& points) 
   json["farthest"] = farthest(points).point;
   json["distance"] = farthest(points).distance;
   return json;
-}
-
-// Weights that cannot be kept are delivered nevertheless.
-template <int Dim>
-void keep(const WeightsCache& cache, const std::string& key, const SolvedDomain<Dim>& solved) {
-  try {
-    const HeldSignals held;
-    cache.store(key, solved);
-  } catch (const IoError& error) {
-    std::cerr << "flbc: the weights are not kept in the cache: " << error.what() << '\n';
-  }
 }
 
 const char* name_of(Stage stage) {
@@ -119,136 +105,67 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                      "; are CAGE and MODEL swapped?");
   }
   if (settings.history) refuse_history_of_parts(cage);
-  if (!settings.cache.empty()) cache_.emplace(settings.cache);
-  require_writable_folder(settings.checkpoint.file);
 }
 
 template <int Dim>
-WeightOrigin<Dim> CageSolver<Dim>::origin() const {
-  return {cage_,
-          settings_.domain.empty() ? nullptr : &solved_.domain,
-          settings_.embed ? &embedded_.points : nullptr,
-          settings_.vertices,
-          bool(coarse_mesher<Dim>(settings_.meshing.mesher)),
-          settings_.penalty,
-          settings_.options,
-          settings_.meshing.mesher};
-}
-
-template <int Dim>
-bool CageSolver<Dim>::find_in_cache() {
-  if (!cache_) return false;
-  key_ = key_of(origin());
-  auto answer = cache_->find<Dim>(key_);
-  if (!answer.complaint.empty()) {
-    std::cerr << "flbc: " << answer.complaint << "; the weights are computed anew\n";
+void CageSolver<Dim>::fill_cage(bool quiet) {
+  std::string note;
+  {
+    const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
+    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
+                                       settings_.meshing, settings_.embed ? settings_.model : "",
+                                       embedded_.points});
+    domain_ = std::move(made.mesh);
+    mesher_ = made.mesher;
+    note = std::move(made.note);
   }
-  if (!answer.solved) return false;
-  solved_ = std::move(*answer.solved);
-  return true;
-}
-
-template <int Dim>
-bool CageSolver<Dim>::find_checkpoint(bool quiet) {
-  if (settings_.checkpoint.file.empty()) return false;
-  const std::string history = settings_.history ? "history 1\n" : "history 0\n";
-  checkpoint_.emplace(settings_.checkpoint, lines_of(origin()) + history);
-  auto found = checkpoint_->find();
-  if (!found) return false;
-  kept_ = std::move(*found);
-  solved_ = std::move(kept_.solved);
-  if (!quiet) {
-    std::cerr << "flbc: going on from " << settings_.checkpoint.file << ", at iteration "
-              << kept_.iteration << '\n';
-  }
-  return true;
+  if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
 }
 
 template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
   const auto start = std::chrono::steady_clock::now();
-  const bool has_domain = !settings_.domain.empty();
-  if (has_domain) solved_.domain = io::read_domain<Dim>(settings_.domain);
   if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
-  is_cached_ = find_in_cache();
-  if (!is_cached_ && !find_checkpoint(quiet)) {
-    std::string note;
-    if (!has_domain) {
-      const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
-      auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
-                                         settings_.meshing, settings_.embed ? settings_.model : "",
-                                         embedded_.points});
-      solved_.domain = std::move(made.mesh);
-      solved_.mesher = made.mesher;
-      note = std::move(made.note);
-    }
-    if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    solved_.mesh_seconds = seconds.count();
+  if (settings_.domain.empty()) {
+    fill_cage(quiet);
+  } else {
+    domain_ = io::read_domain<Dim>(settings_.domain);
   }
-  if (checkpoint_ && count_parts(solved_.domain) > 1) {
-    throw OptionError("--checkpoint: " + settings_.cage +
-                      " has several parts, a solve of which cannot be gone on from; leave it out");
-  }
+  mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
   placement_ = naming(settings_.model, [&] {
-    return place_points(cage_, solved_.domain, model_, settings_.outside);
+    return place_points(cage_, domain_, model_, settings_.outside);
   });
-}
-
-template <int Dim>
-void CageSolver<Dim>::compute(bool quiet) {
-  auto options = settings_.options;
-  std::optional<ProgressBar> bar;
-  bar.emplace(quiet, "setting up: boundary values, distances", options);
-  HistoryRecorder recorder(options);
-  recorder.go_on(std::move(kept_.history));
-  options.resume_from = kept_.state;
-  options.progress = [&](const Progress& progress) {
-    bar->show(progress);
-    if (settings_.history) recorder.note(progress);
-    if (checkpoint_ && checkpoint_->look(progress, solved_, recorder.entries())) {
-      bar.reset();
-      checkpoint_->end();
-    }
-    return true;
-  };
-  options.stage_progress = [&](Stage stage, double done) {
-    if (checkpoint_) checkpoint_->release_signals();  // what they would interrupt is over
-    bar->show(name_of(stage), done);
-  };
-  solved_.solution = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-    return solve_domain(cage_, solved_.domain, options, settings_.penalty, solved_.mesher);
-  });
-  if (settings_.history) history_ = recorder.finished(report());
-  kept_ = {};
-}
-
-template <int Dim>
-void CageSolver<Dim>::forget_checkpoint() const {
-  if (checkpoint_ && report().status == SolveStatus::kConverged) checkpoint_->remove();
 }
 
 template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
-  if (!is_cached_) {
-    compute(quiet);
-    if (checkpoint_) checkpoint_->release_signals();
-    if (cache_ && report().status == SolveStatus::kConverged) keep(*cache_, key_, solved_);
-  }
+  auto options = settings_.options;
+  ProgressBar bar(quiet, "setting up: boundary values, distances", options);
+  HistoryRecorder recorder(options);
+  options.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    if (settings_.history) recorder.note(progress);
+    return true;
+  };
+  options.stage_progress = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
+  solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
+    return solve_domain(cage_, domain_, options, settings_.penalty, mesher_);
+  });
+  if (settings_.history) history_ = recorder.finished(report());
   if (!settings_.model.empty()) rows_ = weights_of_model();
 }
 
 template <int Dim>
 const PointList<Dim>& CageSolver<Dim>::points() const {
-  if (settings_.model.empty()) return solved_.domain.points;
+  if (settings_.model.empty()) return domain_.points;
   return placement_.points;
 }
 
 template <int Dim>
 SparseWeights CageSolver<Dim>::weights_of_model() const {
-  auto rows = weights_at(cage_, solved_.domain, domain_weights(), placement_);
+  auto rows = weights_at(cage_, domain_, domain_weights(), placement_);
   if (!settings_.embed) return rows;
   return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
     const Index number = embedded_.number[p];  // exactly those of the vertex
@@ -258,7 +175,7 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
 
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
-  auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), is_cached_, delivered});
+  auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), delivered});
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(settings_.outside)},
                        {"on_cage", beside_json(placement_.on_cage)},
@@ -284,6 +201,14 @@ std::string describe(const Placement<Dim>& placement, double size) {
                                                          : "are extrapolated");
   }
   return text.str();
+}
+
+bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
+  if (report.status == SolveStatus::kConverged) return true;
+  std::cerr << "flbc: not converged within " << settings.options.max_iterations
+            << " iterations; the result was written nevertheless (see --max-iterations, "
+               "--tolerance and --gap)\n";
+  return false;
 }
 
 template class CageSolver<2>;

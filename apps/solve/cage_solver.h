@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From a cage to weights, as settings say, from the cache if they are there.
+//! From a cage to weights, as settings say.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,9 @@
 #include "flbc/meshing.h"
 #include "flbc/placement.h"
 #include "flbc/quality.h"
+#include "flbc/solver.h"
 #include "report/history.h"
-#include "solve/cache_key.h"
-#include "solve/checkpoint.h"
 #include "solve/solve_settings.h"
-#include "solve/weights_cache.h"
 
 namespace flbc::app {
 
@@ -27,30 +24,22 @@ template <int Dim>
 class CageSolver {
  public:
   //! Keeps references to all. \param model  Dim x P, not looked at if settings name no model
-  //! \throws IoError if the cache cannot be used
   CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
 
-  //! Finds mesh and weights in the cache, or mesh and state in the file of the checkpoint; or reads the mesh, or makes it. Then finds the model's
-  //! vertices in it, so that a model outside its cage is refused before the solve. Says on standard
-  //! error if a file of the cache is of no use.
+  //! Reads the mesh, or makes it. Then finds the model's vertices in it, so that a model outside its
+  //! cage is refused before the solve.
   //! \param quiet  without a progress line
   void make_domain(bool quiet);
 
-  //! Nothing, if the weights were in the cache; else they go there if they have converged.
   //! \param quiet  without a progress line
   void solve(bool quiet);
 
-  //! To be called when all results are written: the state of a solve that has converged is of no use
-  //! any more.
-  void forget_checkpoint() const;
-
   const Cage<Dim>& cage() const { return cage_; }
-  const DomainMesh<Dim>& domain() const { return solved_.domain; }
-  const SparseWeights& domain_weights() const { return solved_.solution.weights; }
-  const SolveReport& report() const { return solved_.solution.report; }
-  bool is_cached() const { return is_cached_; }
-  double mesh_seconds() const { return solved_.mesh_seconds; }
-  Mesher mesher() const { return solved_.mesher; }
+  const DomainMesh<Dim>& domain() const { return domain_; }
+  const SparseWeights& domain_weights() const { return solution_.weights; }
+  const SolveReport& report() const { return solution_.report; }
+  double mesh_seconds() const { return mesh_seconds_; }
+  Mesher mesher() const { return mesher_; }
 
   //! The points that get weights: the model's vertices, or those of the mesh. Vertices beside the
   //! cage are where their weights put them.
@@ -65,21 +54,16 @@ class CageSolver {
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
-  WeightOrigin<Dim> origin() const;
+  void fill_cage(bool quiet);
   SparseWeights weights_of_model() const;
-  bool find_in_cache();
-  bool find_checkpoint(bool quiet);
-  void compute(bool quiet);
 
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;
   const SolveSettings& settings_;
-  std::optional<WeightsCache> cache_;
-  std::optional<Checkpoint<Dim>> checkpoint_;
-  KeptRun<Dim> kept_;  // to go on from
-  std::string key_;
-  SolvedDomain<Dim> solved_;
-  bool is_cached_ = false;
+  DomainMesh<Dim> domain_;
+  double mesh_seconds_ = 0;  // for making or reading it
+  Mesher mesher_ = Mesher::kGiven;
+  SparseSolution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded

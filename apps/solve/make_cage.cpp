@@ -3,7 +3,7 @@
 
 #include "files/load.h"
 #include "flbc/errors.h"
-#include "run/facts.h"
+#include "report/facts.h"
 
 namespace flbc::app {
 

@@ -3,49 +3,21 @@
 
 #include "flbc/errors.h"
 #include "flbc/names.h"
+#include "help/options.h"
 
 namespace flbc::app {
-namespace {
-
-// A named choice, shown in the help by its names only.
-template <class Enum>
-void add_choice(CLI::App& command, const std::string& name, Enum& value, const std::string& help) {
-  std::string names;
-  for (const auto& choice : names_of<Enum>()) names += (names.empty() ? "" : "|") + choice;
-  command
-      .add_option_function<std::string>(
-          name,
-          [&value, name, names](const std::string& text) {
-            const auto found = value_named<Enum>(text);
-            if (!found) throw CLI::ValidationError(name, "'" + text + "' is none of " + names);
-            value = *found;
-          },
-          help)
-      ->type_name(names);
-}
-
-}  // namespace
-
 void add_mesher_options(CLI::App& command, MesherSettings& settings) {
-  command
-      .add_option_function<std::string>(
-          "--mesher",
-          [&settings](const std::string& text) {
-            for (const Mesher mesher :
-                 {Mesher::kAuto, Mesher::kCgal, Mesher::kTetgen, Mesher::kNetgen}) {
-              if (text != name_of(mesher)) continue;
-              settings.mesher = mesher;
-              return;
-            }
-            throw CLI::ValidationError("--mesher",
-                                       "'" + text + "' is none of auto|cgal|tetgen|netgen");
-          },
-          "who fills the cage with cells (auto: CGAL in 2D; TetGen in 3D, and Netgen where that "
-          "fails)")
-      ->type_name("auto|cgal|tetgen|netgen");
+  const auto take = [&settings](const std::string& word) {
+    for (const Mesher mesher : {Mesher::kAuto, Mesher::kCgal, Mesher::kTetgen, Mesher::kNetgen}) {
+      if (word == name_of(mesher)) settings.mesher = mesher;
+    }
+  };
+  add_choice(command, "--mesher", {"auto", "cgal", "tetgen", "netgen"}, take,
+             "which mesher to use (default: auto, which is CGAL in 2D, and in 3D TetGen, then "
+             "Netgen if TetGen fails)");
   command
       .add_option("--mesh-timeout", settings.timeout,
-                  "seconds after which a run of the mesher is stopped (60)")
+                  "time limit of a mesher run in seconds (default: 60)")
       ->check(CLI::PositiveNumber);
 }
 
@@ -59,7 +31,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
     for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
                                "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations",
-                               "--penalty", "--relaxation", "--checkpoint"}) {
+                               "--penalty", "--relaxation"}) {
       refuse(option, name + " does not read it");
     }
   }
@@ -77,55 +49,54 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
 
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
-  add_choice(command, "--method", options.method, "how to solve (auto)");
-  add_choice(command, "--non-negative", options.non_negative,
-             "what becomes of negative weights (by method)");
-  add_choice(command, "--coarse-to-fine", options.coarse_to_fine,
-             "start from coarser meshes of the cage (auto: where it pays)");
-  command.add_flag("--certify", options.certify, "prove how near the optimum the weights are");
-  add_choice(command, "--phi", options.phi, "growth of the distance weights (square)");
-  add_choice(
-      command, "--active", options.active_pairs,
-      "work only on pairs of points and control points whose weights may be positive (auto: in "
-      "3D from 80 control points on, unless --certify)");
-  add_choice(command, "--distances", options.distances,
-             "where distances are computed: on the mesh, or on a coarser one of the cage (auto)");
-  add_choice(command, "--linear-solver", options.linear_solver,
-             "how global systems are solved; none: gradient and paper do without (auto)");
-  add_choice(command, "--recovery", options.recovery, "how weights follow from gradients (auto)");
-  add_choice(command, "--precision", options.precision,
-             "numbers of the iteration (auto: half where the tolerance allows)");
+  command.option_defaults()->group("Solver");
+  add_choice(command, "--method", options.method,
+             "how to solve (default: auto, which is value, the weight-splitting ADMM)");
   command.add_option("--tolerance", options.tolerance,
-                     "accuracy wanted (by method: gradient 1e-6, others 1e-7)");
-  command.add_option(
-      "--gap", options.gap,
-      "certified relative gap that ends the iteration as well, 0 for none (1e-3 with "
-      "the methods' own tolerances)");
-  command.add_option("--max-iterations", options.max_iterations, "limit of iterations (20000)");
-  command.add_option("--penalty", settings.penalty,
-                     "penalty of the augmented Lagrangian, as published: for a domain scaled to "
-                     "radius 250 (by method)");
-  command.add_option("--relaxation", options.relaxation, "over-relaxation in (0, 2) (by method)");
+                     "target for the estimated error of the weights (default: 1e-6 for gradient, "
+                     "1e-7 for other methods)");
+  command.add_flag("--certify", options.certify, "prove how close to the optimum the weights are");
+  command.add_option("--threads", options.threads, "number of threads (default: all cores)");
+  command.option_defaults()->group(kMore);
   add_choice(command, "--outside", settings.outside,
-             "what becomes of the model's vertices outside the cage: nearest: weights of the "
-             "nearest point of the cage; extend: those and an affine function of the offset, which "
-             "reproduce the vertex but may be negative (fail)");
+             "how to handle model vertices outside the cage (default: fail). nearest: use the "
+             "weights of the nearest point on the cage. extend: reproduce the vertex; weights may "
+             "be negative");
+  add_choice(command, "--non-negative", options.non_negative,
+             "how to keep weights from being negative (default: by method)");
+  add_choice(command, "--coarse-to-fine", options.coarse_to_fine,
+             "start from coarser meshes of the cage (default: auto, where it saves time)");
+  add_choice(command, "--phi", options.phi,
+             "growth of the distance weights with distance (default: square)");
+  add_choice(command, "--active", options.active_pairs,
+             "store and update only weights that may be positive (default: auto, which is on in "
+             "3D from 80 control points, unless --certify is given)");
+  add_choice(command, "--distances", options.distances,
+             "compute distances on the mesh, or interpolate them from a coarser one (default: "
+             "auto)");
+  add_choice(command, "--linear-solver", options.linear_solver,
+             "how to solve global linear systems. none: avoid them, for gradient and paper "
+             "(default: auto)");
+  add_choice(command, "--recovery", options.recovery,
+             "how to compute weights from gradients (default: auto)");
+  // The library decides where it stores numbers in half precision.
+  add_choice(command, "--precision", options.precision,
+             "precision of the iteration (default: auto, what the tolerance allows)",
+             {"auto", "single", "double"});
+  command.add_option("--gap", options.gap,
+                     "certified relative gap at which to stop early, 0 for never (default: 1e-3, "
+                     "or 0 if --tolerance is given)");
+  command.add_option("--max-iterations", options.max_iterations,
+                     "maximum number of iterations (default: 20000)");
+  command.add_option("--penalty", settings.penalty,
+                     "penalty parameter for a domain scaled to radius 250, as published (default: "
+                     "by method)");
+  command.add_option("--relaxation", options.relaxation,
+                     "over-relaxation factor in (0, 2) (default: by method)");
   add_mesher_options(command, settings.meshing);
-  command.add_option("--threads", options.threads, "number of threads (all)");
   command.add_flag("--history", settings.history,
-                   "keep errors, residuals and objective by iteration in the report (flbc plot)");
-  command.add_option("--cache", settings.cache,
-                     "keep weights in this folder, and take them from there if the numbers of "
-                     "cage and mesh and all options are the same");
-  auto* checkpoint = command.add_option(
-      "--checkpoint", settings.checkpoint.file,
-      "keep the state of the solve in this file, also when interrupted: the same command goes on "
-      "from it, to the same bits; removed when done");
-  command
-      .add_option("--checkpoint-every", settings.checkpoint.interval,
-                  "seconds between two writes of the state (60)")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(checkpoint);
+                   "record error, residuals, and objective by iteration in the report, for flbc "
+                   "plot");
 }
 
 }  // namespace flbc::app

@@ -8,8 +8,7 @@
 
 #include "flbc/options.h"
 #include "flbc/placement.h"
-#include "solve/checkpoint_settings.h"
-#include "solve/mesher.h"
+#include "solve/make_domain.h"
 
 namespace flbc::app {
 
@@ -22,8 +21,6 @@ struct SolveSettings {
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
-  std::string cache;   //!< folder of weights computed before
-  CheckpointSettings checkpoint{};
   bool history = false;  //!< the report tells how the iteration came nearer to its end
   double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
@@ -38,7 +35,7 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings);
 //! \throws OptionError naming the option
 void refuse_unread_options(const CLI::App& command, const SolveSettings& settings);
 
-//! Adds all options about the solver, --cache and --checkpoint, to a command. \param settings  outlives it
+//! Adds all options about the solver to a command. \param settings  outlives it
 void add_solver_options(CLI::App& command, SolveSettings& settings);
 
 }  // namespace flbc::app

@@ -26,9 +26,9 @@ while(begin LESS length)
   math(EXPR begin "${begin} + 8000")
 endwhile()
 file(WRITE ${OUTPUT} "// Made by join_page.cmake.
-#include \"view/page_template.h\"
-
 namespace flbc::view {
+
+extern const char* const kPageTemplate;
 
 const char* const kPageTemplate =${literals};
 

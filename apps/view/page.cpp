@@ -11,10 +11,14 @@
 #include "draw/colormap.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "view/influences.h"
-#include "view/page_template.h"
+#include "flbc/sparsify.h"
 
 namespace flbc::view {
+
+// The page without its content, joined from the files in page/ when the program is built: HTML with
+// {{data}} where the content goes.
+extern const char* const kPageTemplate;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -207,6 +211,26 @@ std::string to_script(const Json& json) {
 }  // namespace
 
 template <int Dim>
+WeightMatrix limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                              const WeightMatrix& weights, Index most) {
+  if (most < Dim + 1 || most > kMostInfluences) {
+    throw OptionError("a page holds from " + std::to_string(Dim + 1) + " to " +
+                      std::to_string(kMostInfluences) + " influences per point, not " +
+                      std::to_string(most));
+  }
+  std::vector<Eigen::Index> crowded;
+  for (Eigen::Index p = 0; p < weights.cols(); ++p) {
+    if ((weights.col(p).array() != 0).count() > most) crowded.push_back(p);
+  }
+  WeightMatrix result = weights;
+  if (crowded.empty()) return result;
+  const PointList<Dim> places = points(Eigen::all, crowded);
+  const WeightMatrix given = weights(Eigen::all, crowded);
+  result(Eigen::all, crowded) = sparsify<Dim>(control_points, places, given, {most});
+  return result;
+}
+
+template <int Dim>
 std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
                                                 const FacetList<Dim>& facets) {
   std::set<std::array<Index, 2>> edges;
@@ -251,6 +275,8 @@ std::string make_page(const PageContent<Dim>& content) {
                                                            const FacetList<Dim>&);                 \
   template std::string make_update(const PointList<Dim>&, const WeightMatrix&,                     \
                                    const Vector<Dim>&);                                            \
+  template WeightMatrix limit_influences(const PointList<Dim>&, const PointList<Dim>&,              \
+                                         const WeightMatrix&, Index);                              \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

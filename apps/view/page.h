@@ -12,6 +12,19 @@
 
 namespace flbc::view {
 
+//! Most influences of a point that a page holds.
+constexpr Index kMostInfluences = 16;
+
+//! Reduces the points that have more than `most` influences by sparsify(); all others keep their
+//! weights as they are, negative ones too.
+//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! \param most  Dim + 1 .. kMostInfluences
+//! \return n x P
+//! \throws OptionError if `most` is out of range; InputError as sparsify()
+template <int Dim>
+WeightMatrix limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                              const WeightMatrix& weights, Index most);
+
 //! A cage as it is shown.
 template <int Dim>
 struct ShownCage {
@@ -58,6 +71,13 @@ struct PageContent {
 template <int Dim>
 std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
                                                 const FacetList<Dim>& facets);
+
+//! The same edges as columns.
+inline FacetList<2> as_facets(const std::vector<std::array<Index, 2>>& edges) {
+  FacetList<2> facets(2, static_cast<Eigen::Index>(edges.size()));
+  for (std::size_t e = 0; e < edges.size(); ++e) facets.col(e) << edges[e][0], edges[e][1];
+  return facets;
+}
 
 //! From where the page sees the model's points.
 template <int Dim>

@@ -247,7 +247,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("slove " + cage, 1, "did you mean solve?");
   expect_failure("solve " + cage, 1, "flbc solve: --output is required");
   expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
-  expect_failure("solve " + cage + o + " --method magic", 1, "'magic' is none of auto|");
+  expect_failure("solve " + cage + o + " --method magic", 1, "invalid value 'magic'; choose from auto|");
   expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
   expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");
   expect_failure("solve " + cage + o + " --threads -1", 1, "threads must be in");

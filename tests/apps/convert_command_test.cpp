@@ -115,24 +115,6 @@ TEST_F(ConvertCommand, Transpose) {
   expect_converted(path("t.npy") + files + " --transpose");
 }
 
-TEST_F(ConvertCommand, SmallWeightsAreDroppedOnlyIfAsked) {
-  WeightMatrix weights(3, 2);
-  weights << 0.75, 1e-5,  //
-      0.25, -1e-4,        //
-      1e-4, 0.5;
-  io::write_weights(path("a.npy"), weights);
-  expect_converted(path("a.npy") + " -o " + path("b.mtx"));
-  EXPECT_TRUE(bit_equal(read("b.mtx"), weights));
-  expect_converted(path("a.npy") + " -o " + path("b.mtx") + " --threshold 1e-4",
-                   "3 weights up to 0.0001 were dropped, which changes the sum of a point's "
-                   "weights by at most 0.0001");
-  WeightMatrix expected = weights;
-  expected(2, 0) = expected(0, 1) = expected(1, 1) = 0;
-  EXPECT_EQ(read("b.mtx"), expected);
-  expect_refused(path("a.npy") + " -o " + path("c.mtx") + " --threshold -1", 1, "--threshold");
-  expect_refused(path("a.npy") + " -o " + path("c.mtx") + " --threshold nan", 1, "--threshold");
-}
-
 template <class Dimension>
 class ConvertMesh : public ConvertCommand {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;

@@ -275,7 +275,7 @@ TEST_F(ExportCommand, RoundedWeights) {
   EXPECT_EQ(sum(), Eigen::RowVectorXd::Constant(4, 65535));
   expect_export(arguments + "8", 0, "");
   EXPECT_EQ(sum(), Eigen::RowVectorXd::Constant(4, 255));
-  expect_export(arguments + "12", 1, "--quantize must be 8 or 16");
+  expect_export(arguments + "12", 1, "--quantize: invalid value '12'; choose from 8|16");
 }
 
 TEST_F(ExportCommand, KeyframesHaveTimes) {

@@ -38,7 +38,9 @@ class HelpCommands : public CommandLineTest {
     return words;
   }
   Words options_of(const std::string& command) const {
-    const auto help = run(command + " --help").output;
+    // Of commands that have more options than --help shows.
+    const auto all = run(command + " --help-all");
+    const auto help = all.status == 0 ? all.output : run(command + " --help").output;
     // Lines of options begin with their names: "  -o,--output FILE"
     auto words = found_in(help, R"(\n  (?:-[a-zA-Z],)?(--[a-z-]+))");
     const auto shorts = found_in(help, R"(\n  (-[a-zA-Z]),)");
@@ -81,6 +83,22 @@ TEST_F(HelpCommands, EveryOptionIsOnItsPage) {
   EXPECT_EQ(run("man slove").status, 1);
 }
 
+TEST_F(HelpCommands, FewOptionsAreShownUnlessAllAreAskedFor) {
+  for (const std::string command : {"solve", "run"}) {
+    const auto help = run(command + " --help").output;
+    const auto few = found_in(help, R"(\n  (?:-[a-zA-Z],)?(--[a-z-]+))");
+    EXPECT_LE(few.size(), 16U) << help;
+    EXPECT_GE(options_of(command).size(), few.size() + 15) << help;
+    EXPECT_EQ(few.count("--tolerance") + few.count("--output"), 2U) << help;
+    EXPECT_EQ(few.count("--penalty"), 0U) << help;
+    EXPECT_NE(help.find("flbc " + command + " --help-all"), std::string::npos) << help;
+    for (const std::string& text : {help, run(command + " --help-all").output}) {
+      EXPECT_EQ(found_in(text, R"((\n {30}[^\n]{50,}))"), Words{}) << "wider than a terminal";
+    }
+  }
+  EXPECT_EQ(run("solve cage.obj --precision half -o w.npy").status, 1);
+}
+
 TEST_F(HelpCommands, PagesAreWithoutWarnings) {
   ASSERT_EQ(run("man --folder " + path("help")).status, 0);
   if (!is_there("groff")) GTEST_SKIP() << "groff is not installed";
@@ -106,8 +124,8 @@ TEST_F(HelpCommands, BashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(all.count(command), 1U) << command;
     EXPECT_EQ(offered({"flbc", command, "-"}), options_of(command)) << command;
   }
-  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--check"}),
-            (Words{"--checkpoint", "--checkpoint-every"}));
+  EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--mesh"}),
+            (Words{"--mesher", "--mesh-timeout"}));
   EXPECT_EQ(offered({"flbc", "solve", "cage.obj", "--phi", ""}),
             (Words{"square", "linear", "sqrt", "constant"}));
   EXPECT_EQ(offered({"flbc", "run", "--pictures", "p"}), (Words{"pdf", "png"}));

@@ -206,16 +206,6 @@ TYPED_TEST(PartsCommand, WhatWantsOnePartSaysSo) {
   this->expect("view --serve " + cage, 2, "the domain is not connected: it has 2 parts");
 }
 
-TYPED_TEST(PartsCommand, CacheKeepsTheParts) {
-  const auto cage = this->both();
-  const auto solve = "solve " + cage + this->vertices() + "--cache " + this->path("cache") +
-                     " -o " + this->path("w.npy") + " --report " + this->path("report.json");
-  this->expect(solve, 0);
-  const auto first = this->report("report.json");
-  this->expect(solve, 0, "from the cache");
-  EXPECT_EQ(this->report("report.json")["parts"], first["parts"]);
-}
-
 using PartsOfPicture = CommandLineTest;
 
 // Two discs, one of them a ring with a third disc in it.

@@ -177,7 +177,7 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
 TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   const auto arguments = square();
   expect_refusal(arguments + " -k 3 --method poisson", 2, "model.obj: has neither faces nor lines");
-  expect_refusal(arguments + " -k 3 --method cubic", 1, "none of quadratic|poisson");
+  expect_refusal(arguments + " -k 3 --method cubic", 1, "choose from quadratic|poisson");
   // Without neighbours there are no edges to measure.
   ASSERT_EQ(
       run("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"))

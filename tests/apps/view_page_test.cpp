@@ -9,7 +9,6 @@
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
-#include "view/influences.h"
 #include "view/page.h"
 
 namespace flbc::view {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readers of the program alone: silhouettes, reports, weights that it kept.
+// Readers of the program alone: silhouettes and reports.
 #include <png.h>
 
-#include <filesystem>
 #include <string>
 
-#include "files/silhouette.h"
-#include "flbc/errors.h"
+#include "files/model_facets.h"
 #include "fuzz/reader.h"
 #include "report/history.h"
-#include "solve/weights_cache.h"
 
 namespace flbc::fuzz {
 namespace {
@@ -49,43 +46,6 @@ void read_report(const std::string& path) {
   app::read_history(path);
 }
 
-// ---- weights that were kept: any file may be there, and the key decides
-// ---------------------------
-
-constexpr const char* kKey = "key";
-
-template <int Dim>
-void read_kept(const std::string& path) {
-  const app::WeightsCache cache(std::filesystem::path(path).parent_path().string());
-  require(cache.path_of(kKey) == path, "the file is the one of the key");
-  const auto answer = cache.find<Dim>(kKey);
-  require(answer.solved.has_value() == answer.complaint.empty(), "weights or a complaint");
-  if (!answer.solved) throw InputError(answer.complaint);
-  require(answer.solved->solution.weights.num_points() == answer.solved->domain.num_vertices(),
-          "weights are of the vertices");
-  require_indices_in_range(answer.solved->domain);
-}
-
-template <int Dim>
-std::string kept_weights() {
-  const Folder folder;
-  const app::WeightsCache cache(folder.path(""));
-  app::SolvedDomain<Dim> solved;
-  solved.domain.points = PointList<Dim>::Identity(Dim, Dim + 1);
-  solved.domain.cells = Eigen::Matrix<Index, Dim + 1, 1>::LinSpaced(Dim + 1, 0, Dim);
-  solved.solution.weights = SparseWeights(WeightMatrix::Identity(Dim + 1, Dim + 1));
-  solved.solution.report.coarse_levels.resize(1);
-  cache.store(kKey, solved);
-  return without_hash(get_file(cache.path_of(kKey)));
-}
-
-template <int Dim>
-Reader kept_reader(const std::string& name) {
-  const Folder folder;
-  const auto file = std::filesystem::path(app::WeightsCache(folder.path("")).path_of(kKey));
-  return {name, file.filename().string(), read_kept<Dim>, {kept_weights<Dim>()}, {}, with_hash};
-}
-
 }  // namespace
 
 std::vector<Reader> program_readers() {
@@ -105,9 +65,7 @@ std::vector<Reader> program_readers() {
            "input.png",
            read_silhouette,
            {picture(PNG_FORMAT_RGBA, with_hole), picture(PNG_FORMAT_GA, grey)}},
-          {"report", "input.json", read_report, {kReport, kReportOfRun}},
-          kept_reader<2>("kept_2d"),
-          kept_reader<3>("kept_3d")};
+          {"report", "input.json", read_report, {kReport, kReportOfRun}}};
 }
 
 }  // namespace flbc::fuzz

@@ -69,7 +69,7 @@ std::string without_hash(const std::string& content) {
 std::vector<Reader> all_readers() {
   std::vector<Reader> all;
   for (const auto& some : {model_readers(), mesh_readers(), weight_readers(), program_readers(),
-                           checkpoint_readers(), openmesh_readers()}) {
+                           openmesh_readers()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -53,7 +53,6 @@ std::vector<Reader> model_readers();
 std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
 std::vector<Reader> program_readers();
-std::vector<Reader> checkpoint_readers();
 std::vector<Reader> openmesh_readers();
 
 //! All of them.
@@ -87,7 +86,7 @@ std::string written(const std::string& name, const Write& write) {
   return get_file(folder.path(name));
 }
 
-//! Content followed by its checksum, as states and kept weights are.
+//! Content followed by its checksum, as states are.
 std::string with_hash(std::string content);
 
 //! Content without the checksum that it ends with.

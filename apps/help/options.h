@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Options of commands, and how --help shows them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flbc/names.h"
+
+namespace flbc::app {
+
+//! The group of options that --help leaves out and --help-all shows.
+constexpr const char* kMore = "More options";
+
+//! Formats --help: few options, in groups, with lines that fit a terminal.
+std::shared_ptr<CLI::Formatter> help_formatter();
+
+//! Adds --help-all to a command that has options in the group kMore.
+void add_help_all(CLI::App& command);
+
+//! Adds an option whose value is one of a few words. \param take  stores the word
+CLI::Option* add_choice(CLI::App& command, const std::string& name,
+                        const std::vector<std::string>& words,
+                        const std::function<void(const std::string&)>& take,
+                        const std::string& help);
+
+//! The same for words as they are.
+inline CLI::Option* add_choice(CLI::App& command, const std::string& name,
+                               const std::vector<std::string>& words, std::string& value,
+                               const std::string& help) {
+  return add_choice(command, name, words, [&value](const auto& word) { value = word; }, help);
+}
+
+//! The same for the names of an enumeration. \param words  some of names_of<Enum>()
+template <class Enum>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, Enum& value,
+                        const std::string& help,
+                        const std::vector<std::string>& words = names_of<Enum>()) {
+  const auto take = [&value](const std::string& word) { value = *value_named<Enum>(word); };
+  return add_choice(command, name, words, take, help);
+}
+
+//! Complaint about text that is no number from low to high, for CLI::Option::check().
+std::function<std::string(const std::string&)> in_range(double low, double high);
+
+//! The text with line breaks between words. \param width  maximum number of letters in a line
+//! \param line_break  "\n", and what indents the next line
+std::string wrapped(const std::string& text, std::size_t width, const std::string& line_break);
+
+}  // namespace flbc::app
