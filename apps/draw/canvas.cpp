@@ -34,8 +34,9 @@ cairo_surface_t* create_surface(int width, int height, PictureFormat format, std
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSize ||
       static_cast<double>(width) * height > kLargestArea) {
     throw OptionError("cannot draw a picture of " + std::to_string(width) + " x " +
-                      std::to_string(height) + " pixels; choose a width that gives 1 to " +
-                      std::to_string(static_cast<int>(kLargestArea)) + " pixels");
+                      std::to_string(height) + " pixels; the limit is " +
+                      std::to_string(kLargestSize) + " in each direction and " +
+                      std::to_string(static_cast<int>(kLargestArea)) + " in all");
   }
   if (format == PictureFormat::kPng) {
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);

@@ -301,8 +301,12 @@ TEST(Canvas, JoinedLinesCoverAllSegments) {
       const double to_circle = std::abs(from_center.norm() - 20);
       const Vector<2> to_cross(std::max(0.0, from_center.maxCoeff() - 15), from_center.minCoeff());
       const double distance = std::min({to_circle, to_cross.norm(), (p - Vector<2>(4, 4)).norm()});
-      if (distance < 0.25) EXPECT_LT(image.at(x, y).g, 0.02) << x << ' ' << y;
-      if (distance > 1.75) EXPECT_EQ(image.at(x, y).g, 1) << x << ' ' << y;
+      if (distance < 0.25) {
+        EXPECT_LT(image.at(x, y).g, 0.02) << x << ' ' << y;
+      }
+      if (distance > 1.75) {
+        EXPECT_EQ(image.at(x, y).g, 1) << x << ' ' << y;
+      }
     }
   }
 }
