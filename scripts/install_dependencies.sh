@@ -6,6 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libsuitesparse-dev libopenblas0-serial  # core; OpenBLAS halves factoring
+  libpugixml-dev                          # file formats
   libopenmesh-dev libcgal-dev libtet1.5-dev libnglib-dev  # optional components
   libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev  # the program flbc
   libcpp-httplib-dev                      # flbc view --serve

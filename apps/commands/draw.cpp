@@ -7,12 +7,10 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
-#include "draw/model_view.h"
-#include "draw/picture_file.h"
+#include "draw/plane_picture.h"
 #include "draw/slice_picture.h"
-#include "draw/weight_picture.h"
+#include "draw/view.h"
 #include "files/load.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -45,9 +43,9 @@ constexpr const char* kDisplacement = "displacement";
 constexpr const char* kWeight = "weight";
 constexpr const char* kPlain = "plain";
 
-void check_arguments(const DrawArguments& arguments) {
+void check_arguments(DrawArguments& arguments) {
   draw::validate(arguments.options);
-  draw::picture_format(arguments.output);
+  arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   if (arguments.domain.empty() == arguments.model.empty()) {
     throw OptionError("give either the domain's mesh or --model");
@@ -88,7 +86,7 @@ std::vector<Index> all_of(Index count) {
   return control_points;
 }
 
-draw::Image picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
+std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
   if (arguments.all) {
     return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
@@ -97,7 +95,7 @@ draw::Image picture(const Cage<2>& cage, const DomainMesh<2>& domain, const Weig
                             arguments.control_point, arguments.options);
 }
 
-draw::Image picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
+std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
   if (arguments.all) {
     return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
@@ -130,7 +128,7 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   return posed;
 }
 
-draw::Image picture_of_model(const Cage<2>& cage, const DrawArguments& arguments) {
+std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments) {
   if (!arguments.color.empty() && arguments.color != kWeight) {
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
@@ -154,7 +152,7 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
   return {posed.weights.row(arguments.control_point), arguments.control_point};
 }
 
-draw::Image picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
+std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
   const auto view = parse_view(arguments.view);
   const auto posed = load_posed(cage, arguments);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
@@ -168,7 +166,7 @@ draw::Image picture_of_model(const Cage<3>& cage, const DrawArguments& arguments
 }
 
 template <int Dim>
-draw::Image picture_of_domain(const Cage<Dim>& cage, const DrawArguments& arguments) {
+std::string picture_of_domain(const Cage<Dim>& cage, const DrawArguments& arguments) {
   const auto domain = io::read_domain<Dim>(arguments.domain);
   const auto weights = io::read_weights(arguments.weights);
   check_sizes(weights, cage.size(), domain.num_vertices(),
@@ -179,11 +177,8 @@ draw::Image picture_of_domain(const Cage<Dim>& cage, const DrawArguments& argume
 template <int Dim>
 void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
   check_control_point(arguments.control_point, cage.size());
-  const auto picture = draw::encode_picture(arguments.model.empty()
-                                                ? picture_of_domain(cage, arguments)
-                                                : picture_of_model(cage, arguments),
-                                            draw::picture_format(arguments.output));
-  write_text(arguments.output, picture);
+  write_text(arguments.output, arguments.model.empty() ? picture_of_domain(cage, arguments)
+                                                       : picture_of_model(cage, arguments));
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
@@ -222,7 +217,6 @@ void add_draw_command(CLI::App& app, int&) {
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);
-    arguments->options.layers = draw::has_layers(draw::picture_format(arguments->output));
     std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "draw/picture_file.h"
 #include "draw/plot_picture.h"
 #include "files/load.h"
 #include "flbc/io/files.h"
@@ -76,7 +75,7 @@ std::vector<std::string> names_of_runs(const PlotArguments& arguments) {
 }
 
 void plot(PlotArguments& arguments) {
-  const auto format = draw::picture_format(arguments.output);
+  arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   require_distinct(arguments.reports, {arguments.output});
   if (!arguments.names.empty() && arguments.names.size() != arguments.reports.size()) {
@@ -92,10 +91,8 @@ void plot(PlotArguments& arguments) {
       if (has_points(panel)) panels.push_back(std::move(panel));
     }
   }
-  arguments.options.layers = draw::has_layers(format);
-  const auto picture = draw::encode_picture(
-      draw::draw_plot(names_of_runs(arguments), panels, 2, arguments.options), format);
-  write_text(arguments.output, picture);
+  write_text(arguments.output,
+             draw::draw_plot(names_of_runs(arguments), panels, 2, arguments.options));
 }
 
 }  // namespace

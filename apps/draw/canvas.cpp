@@ -3,248 +3,186 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <map>
+#include <utility>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 
 #include "flbc/errors.h"
 
 namespace flbc::draw {
 namespace {
 
-// How much of a sample is covered by a shape whose border is `inside` samples away.
-double coverage(double inside) {
-  return std::clamp(inside + 0.5, 0.0, 1.0);
+constexpr double kPointsPerPixel = 0.375;  // a PDF of the usual width fits a page's text
+constexpr double kDigitHeight = 0.72;      // in a font of size 1
+constexpr const char* kCreationDate = "2000-01-01T00:00:00Z";
+constexpr int kLargestSize = 32767;   // of Cairo's images
+constexpr double kLargestArea = 4e7;  // in pixels; their rasters take 3 GB
+
+void check(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw IoError(std::string("cannot draw the picture: ") + cairo_status_to_string(status));
 }
 
-Vector<2> sample_position(int x, int y) {
-  return {x + 0.5, y + 0.5};
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
 }
 
-double distance_to(const Segment& segment, const Vector<2>& p) {
-  const Vector<2> direction = segment.b - segment.a;
-  const double squared_length = direction.squaredNorm();
-  const double t = squared_length > 0 ? (p - segment.a).dot(direction) / squared_length : 0.0;
-  return (p - segment.a - std::clamp(t, 0.0, 1.0) * direction).norm();
-}
-
-struct Range {
-  int first;
-  int last;
-};
-
-// The samples between two coordinates, within the picture.
-Range samples_between(double low, double high, int size) {
-  const double limit = size;
-  return {static_cast<int>(std::floor(std::clamp(low, 0.0, limit))),
-          static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1)))};
-}
-
-// The columns that a thick segment can touch in a row: those near the part of the segment that is
-// near the row. Without this a long oblique line would cost its whole bounding box.
-Range columns_near(const Segment& segment, double y, double reach, int width) {
-  const double rise = segment.b.y() - segment.a.y();
-  double t0 = 0;
-  double t1 = 1;
-  if (std::abs(rise) > 1e-9) {
-    t0 = (y - reach - segment.a.y()) / rise;
-    t1 = (y + reach - segment.a.y()) / rise;
-    if (t0 > t1) std::swap(t0, t1);
-    t0 = std::clamp(t0, 0.0, 1.0);
-    t1 = std::clamp(t1, 0.0, 1.0);
+cairo_surface_t* create_surface(int width, int height, PictureFormat format, std::string* bytes) {
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSize ||
+      static_cast<double>(width) * height > kLargestArea) {
+    throw OptionError("cannot draw a picture of " + std::to_string(width) + " x " +
+                      std::to_string(height) + " pixels; the limit is " +
+                      std::to_string(kLargestSize) + " in each direction and " +
+                      std::to_string(static_cast<int>(kLargestArea)) + " in all");
   }
-  const double run = segment.b.x() - segment.a.x();
-  const auto [low, high] = std::minmax({segment.a.x() + t0 * run, segment.a.x() + t1 * run});
-  return samples_between(low - reach, high + reach, width);
+  if (format == PictureFormat::kPng) {
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  }
+  if (format == PictureFormat::kSvg) {
+    auto* surface = cairo_svg_surface_create_for_stream(append, bytes, width, height);
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    return surface;
+  }
+  auto* surface = cairo_pdf_surface_create_for_stream(append, bytes, kPointsPerPixel * width,
+                                                      kPointsPerPixel * height);
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, kCreationDate);
+  return surface;
 }
 
-// Calls visit(x, y, distance to the centre) for the samples of a disc's surroundings.
-template <class Visit>
-void for_each_near(const Vector<2>& center, double reach, int width, int height, Visit&& visit) {
-  const Range rows = samples_between(center.y() - reach, center.y() + reach, height);
-  const Range columns = samples_between(center.x() - reach, center.x() + reach, width);
-  for (int y = rows.first; y <= rows.last; ++y) {
-    for (int x = columns.first; x <= columns.last; ++x) {
-      visit(x, y, (sample_position(x, y) - center).norm());
+void set_color(cairo_t* cairo, Color color, float opacity = 1) {
+  cairo_set_source_rgba(cairo, color.r, color.g, color.b, opacity);
+}
+
+// Without hinting, widths of text are proportional to its height.
+void set_font(cairo_t* cairo, double height) {
+  cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, height / kDigitHeight);
+  auto* options = cairo_font_options_create();
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(cairo, options);
+  cairo_font_options_destroy(options);
+}
+
+// Adds a point, in place of the one before if that is on the straight line to it.
+void add_point(std::vector<Vector<2>>& line, const Vector<2>& p) {
+  constexpr double kThinning = 1e-3;  // pixels
+  if (line.size() > 1) {
+    const Vector<2> step = line.back() - line[line.size() - 2], next = p - line.back();
+    const double cross = step.x() * next.y() - step.y() * next.x();
+    if (step.dot(next) > 0 && std::abs(cross) < kThinning * (step + next).norm()) line.pop_back();
+  }
+  line.push_back(p);
+}
+
+// Segments with the same ends joined to lines, which makes files smaller.
+std::vector<std::vector<Vector<2>>> joined(const std::vector<Segment>& segments) {
+  const auto place = [](const Vector<2>& p) { return std::pair(p.x(), p.y()); };
+  std::multimap<std::pair<double, double>, std::size_t> at;
+  std::vector<bool> used(segments.size(), false);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const auto& [a, b] = segments[k];
+    used[k] = !a.allFinite() || !b.allFinite();
+    if (used[k]) continue;
+    at.emplace(place(a), k);
+    at.emplace(place(b), k);
+  }
+  std::vector<std::vector<Vector<2>>> lines;
+  for (std::size_t first = 0; first < segments.size(); ++first) {
+    if (used[first]) continue;
+    auto& line = lines.emplace_back(1, segments[first].a);
+    for (std::size_t next = first; next < segments.size();) {
+      used[next] = true;
+      const bool forward = segments[next].a == line.back();
+      add_point(line, forward ? segments[next].b : segments[next].a);
+      const auto [begin, end] = at.equal_range(place(line.back()));
+      const auto found = std::find_if(begin, end, [&](const auto& k) { return !used[k.second]; });
+      next = found == end ? segments.size() : found->second;
     }
   }
-}
-
-// Of samples in a layer that no filled area covers.
-constexpr Color kNothing{-1, -1, -1};
-
-// Samples are averaged in blocks of two by two, where there are that many.
-int block_size(int supersampling) {
-  return supersampling % 2 == 0 ? 2 : 1;
-}
-
-std::uint8_t to_channel(float component) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(component, 0.0F, 1.0F)));
-}
-
-std::size_t checked_size(int width, int height, int supersampling) {
-  if (width < 1 || height < 1 || supersampling < 1) {
-    throw OptionError("a picture needs at least one pixel, not " + std::to_string(width) + " x " +
-                      std::to_string(height));
-  }
-  const double samples = static_cast<double>(width) * height * supersampling * supersampling;
-  if (samples * (sizeof(Color) + 1) > 3e9 || std::max(width, height) > 100000) {
-    throw OptionError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                      " pixels is too large to be painted");
-  }
-  return static_cast<std::size_t>(samples);
+  return lines;
 }
 
 }  // namespace
 
-Canvas::Canvas(int width, int height, Color background, int supersampling, Kind kind)
-    : supersampling_(supersampling),
-      width_(width * supersampling),
-      height_(height * supersampling),
-      samples_(checked_size(width, height, supersampling),
-               kind == Kind::kLayers ? kNothing : background),
-      mask_(kind == Kind::kLayers ? 0 : samples_.size(), 0),
-      dirty_{width_, -1, height_, -1},
-      kind_(kind) {
+Canvas::Canvas(int width, int height, PictureFormat format)
+    : width_(width),
+      height_(height),
+      format_(format),
+      surface_(create_surface(width, height, format, &bytes_), cairo_surface_destroy),
+      cairo_(cairo_create(surface_.get()), cairo_destroy) {
+  if (format == PictureFormat::kPdf) cairo_scale(cairo_.get(), kPointsPerPixel, kPointsPerPixel);
+  set_color(cairo_.get(), kWhite);
+  cairo_paint(cairo_.get());
+  cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
 }
 
-void Canvas::touch(const Corners& corners) {
-  if (kind_ == Kind::kPixels) return;
-  for (const Vector<2>& corner : to_samples(corners)) {
-    const Range x = samples_between(corner.x() - 1, corner.x() + 1, width_);
-    const Range y = samples_between(corner.y() - 1, corner.y() + 1, height_);
-    dirty_ = {std::min(dirty_.left, x.first), std::max(dirty_.right, x.last),
-              std::min(dirty_.top, y.first), std::max(dirty_.bottom, y.last)};
-  }
-}
-
-// The areas filled since the last layer, and no more than the rectangle in which they are.
-FilledLayer Canvas::filled_areas() const {
-  const int block = block_size(supersampling_);
-  const int left = dirty_.left / block, right = std::min(dirty_.right / block, width_ / block - 1);
-  const int top = dirty_.top / block, bottom = std::min(dirty_.bottom / block, height_ / block - 1);
-  FilledLayer layer;
-  layer.pixel_size = static_cast<double>(block) / supersampling_;
-  layer.corner = layer.pixel_size * Vector<2>(left, top);
-  layer.width = std::max(0, right - left + 1);
-  layer.height = std::max(0, bottom - top + 1);
-  layer.channels.reserve(std::size_t{4} * layer.width * layer.height);
-  for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      Color sum;
-      int covered = 0;
-      for (int k = 0; k < block * block; ++k) {
-        const auto row = static_cast<std::size_t>(y) * block + k / block;
-        const auto column = static_cast<std::size_t>(x) * block + k % block;
-        const Color& sample = samples_[row * width_ + column];
-        if (sample.r < 0) continue;
-        sum = {sum.r + sample.r, sum.g + sample.g, sum.b + sample.b};
-        ++covered;
-      }
-      const float share = covered > 0 ? 1.0F / static_cast<float>(covered) : 0;
-      const auto alpha = static_cast<float>(covered) / static_cast<float>(block * block);
-      for (const float part : {sum.r * share, sum.g * share, sum.b * share, alpha}) {
-        layer.channels.push_back(to_channel(part));
-      }
-    }
-  }
-  return layer;
-}
-
-// What has been filled before becomes a layer of its own below this one.
-bool Canvas::keep(Layer layer) {
-  if (kind_ == Kind::kPixels) return false;
-  auto filled = filled_areas();
-  if (!filled.channels.empty()) {
-    layers_.emplace_back(std::move(filled));
-    for (int y = dirty_.top; y <= dirty_.bottom; ++y) {
-      const auto row = samples_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
-      std::fill(row + dirty_.left, row + dirty_.right + 1, kNothing);
-    }
-  }
-  dirty_ = {width_, -1, height_, -1};
-  layers_.push_back(std::move(layer));
-  return true;
-}
-
-bool Canvas::keep_text(const Vector<2>& position, std::string_view text, double height,
-                       Color color) {
-  return keep(TextLayer{position, std::string(text), height, color});
-}
-
-Corners Canvas::to_samples(const Corners& corners) const {
-  return {corners[0] * supersampling_, corners[1] * supersampling_, corners[2] * supersampling_};
-}
-
-void Canvas::fill_triangle(const Corners& corners, Color color, float opacity) {
-  touch(corners);
-  for_each_sample(to_samples(corners), width_, height_,
-                  [&](int x, int y, double, double) { blend(x, y, color, opacity); });
+void Canvas::draw_raster(Raster& raster) {
+  if (raster.samples().empty()) return;
+  auto* image = cairo_image_surface_create_for_data(
+      reinterpret_cast<unsigned char*>(raster.samples().data()), CAIRO_FORMAT_ARGB32,
+      raster.width(), raster.height(), 4 * raster.width());
+  cairo_save(cairo_.get());
+  cairo_translate(cairo_.get(), raster.corner().x(), raster.corner().y());
+  cairo_scale(cairo_.get(), 1.0 / Raster::kSamplesPerPixel, 1.0 / Raster::kSamplesPerPixel);
+  cairo_set_source_surface(cairo_.get(), image, 0, 0);
+  cairo_paint(cairo_.get());
+  cairo_restore(cairo_.get());
+  cairo_surface_destroy(image);
 }
 
 void Canvas::draw_segments(const std::vector<Segment>& segments, double width, Color color,
                            float opacity) {
-  if (segments.empty() || keep(LineLayer{segments, width, color, opacity})) return;
-  for (const auto& segment : segments) {
-    cover({segment.a * supersampling_, segment.b * supersampling_}, width / 2 * supersampling_);
+  for (const auto& line : joined(segments)) {
+    cairo_move_to(cairo_.get(), line.front().x(), line.front().y());
+    for (const auto& p : line) cairo_line_to(cairo_.get(), p.x(), p.y());
   }
-  paint_covered(color, opacity);
+  set_color(cairo_.get(), color, opacity);
+  cairo_set_line_width(cairo_.get(), width);
+  cairo_stroke(cairo_.get());
 }
 
-void Canvas::cover(const Segment& segment, double radius) {
-  if (!segment.a.allFinite() || !segment.b.allFinite()) return;
-  const double reach = radius + 1;
-  const auto [low, high] = std::minmax({segment.a.y(), segment.b.y()});
-  const Range rows = samples_between(low - reach, high + reach, height_);
-  for (int y = rows.first; y <= rows.last; ++y) {
-    const Range columns = columns_near(segment, y + 0.5, reach, width_);
-    if (columns.first > columns.last) continue;
-    std::uint8_t* row = &mask_[static_cast<std::size_t>(y) * width_];
-    for (int x = columns.first; x <= columns.last; ++x) {
-      const double covered = coverage(radius - distance_to(segment, sample_position(x, y)));
-      row[x] = std::max(row[x], static_cast<std::uint8_t>(std::lround(255 * covered)));
-    }
-    dirty_ = {std::min(dirty_.left, columns.first), std::max(dirty_.right, columns.last),
-              std::min(dirty_.top, y), std::max(dirty_.bottom, y)};
-  }
+void Canvas::fill_discs(const std::vector<Vector<2>>& centers, double radius, Color color) {
+  std::vector<Segment> points;
+  for (const auto& center : centers) points.push_back({center, center});
+  draw_segments(points, 2 * radius, color);
 }
 
-void Canvas::paint_covered(Color color, float opacity) {
-  for (int y = dirty_.top; y <= dirty_.bottom; ++y) {
-    std::uint8_t* row = &mask_[static_cast<std::size_t>(y) * width_];
-    for (int x = dirty_.left; x <= dirty_.right; ++x) {
-      if (row[x] == 0) continue;
-      blend(x, y, color, opacity * static_cast<float>(row[x]) / 255);
-      row[x] = 0;
-    }
-  }
-  dirty_ = {width_, -1, height_, -1};
+void Canvas::draw_text(const Vector<2>& position, const std::string& text, double height,
+                       Color color) {
+  set_color(cairo_.get(), color);
+  set_font(cairo_.get(), height);
+  cairo_move_to(cairo_.get(), position.x(), position.y());
+  cairo_show_text(cairo_.get(), text.c_str());
+  cairo_new_path(cairo_.get());
 }
 
-void Canvas::fill_disc(const Vector<2>& center, double radius, Color color) {
-  if (keep(DiscLayer{center, radius, color})) return;
-  const double r = radius * supersampling_;
-  for_each_near(center * supersampling_, r + 1, width_, height_, [&](int x, int y, double d) {
-    blend(x, y, color, static_cast<float>(coverage(r - d)));
-  });
+std::string Canvas::encode() {
+  check(cairo_status(cairo_.get()));
+  if (format_ == PictureFormat::kPng) {
+    check(cairo_surface_write_to_png_stream(surface_.get(), append, &bytes_));
+  } else {
+    cairo_show_page(cairo_.get());
+    cairo_surface_finish(surface_.get());
+    check(cairo_surface_status(surface_.get()));
+  }
+  return std::move(bytes_);
 }
 
-Image Canvas::resolve() const {
-  Image image{width(), height(), {}, layers_};
-  if (kind_ == Kind::kLayers) {
-    auto filled = filled_areas();
-    if (!filled.channels.empty()) image.layers.emplace_back(std::move(filled));
-    return image;
-  }
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
-  const float share = 1.0F / static_cast<float>(supersampling_ * supersampling_);
-  for (int y = 0; y < height_; ++y) {
-    const Color* row = &samples_[static_cast<std::size_t>(y) * width_];
-    Color* pixels = &image.pixels[static_cast<std::size_t>(y / supersampling_) * image.width];
-    for (int x = 0; x < width_; ++x) {
-      Color& pixel = pixels[x / supersampling_];
-      pixel = {pixel.r + share * row[x].r, pixel.g + share * row[x].g, pixel.b + share * row[x].b};
-    }
-  }
-  return image;
+double text_width(const std::string& text, double height) {
+  auto* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  auto* cairo = cairo_create(surface);
+  set_font(cairo, height);
+  cairo_text_extents_t extents{};
+  cairo_text_extents(cairo, text.c_str(), &extents);
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return extents.x_advance;
 }
 
 }  // namespace flbc::draw

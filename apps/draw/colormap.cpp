@@ -12,7 +12,7 @@ constexpr Color from_bytes(int r, int g, int b) {
   return {static_cast<float>(r) / 255, static_cast<float>(g) / 255, static_cast<float>(b) / 255};
 }
 
-// Colours at 0, 0.1, ..., 1, chosen in CIE LCh: the lightness L falls at every step from 97 to 25
+// Colors at 0, 0.1, ..., 1, chosen in CIE LCh: the lightness L falls at every step from 97 to 25
 // while the hue turns from blue (250 degrees) to red (22 degrees).
 constexpr std::array<Color, 11> kTable = {
     from_bytes(247, 248, 250), from_bytes(202, 225, 246), from_bytes(149, 205, 243),
@@ -25,7 +25,7 @@ constexpr Color kVeryNegative = from_bytes(104, 20, 168);
 constexpr Color kAboveOne = from_bytes(255, 120, 225);
 constexpr Color kFarAboveOne = from_bytes(235, 0, 170);
 
-// The cubic that passes through b and c with the slopes of their neighbours' connections: it avoids
+// The cubic that passes through b and c with the slopes of their neighbors' connections: it avoids
 // the bands that the eye sees where a linear scale has kinks.
 float cubic(float a, float b, float c, float d, float t) {
   const float slope_b = (c - a) / 2;
@@ -47,7 +47,7 @@ Color smooth_color(double weight) {
   return {cubic(a.r, b.r, c.r, d.r, t), cubic(a.g, b.g, c.g, d.g, t), cubic(a.b, b.b, c.b, d.b, t)};
 }
 
-// A defect of 0.1 or more has the full colour; the root makes small ones visible.
+// A defect of 0.1 or more has the full color; the root makes small ones visible.
 Color defect_color(Color slight, Color severe, double excess) {
   return mix(slight, severe, static_cast<float>(std::sqrt(std::min(1.0, excess / 0.1))));
 }

@@ -56,7 +56,7 @@ PictureLayout plan_picture(const Box& content, const WeightPictureOptions& optio
           ? Box{{margin + width + gap, margin}, {right, margin + height}}
           : Box{{margin, margin + height + gap}, {right, margin + height + strip_height}};
 
-  // Above and below the bar there is room for its title and the colours of defects.
+  // Above and below the bar there is room for its title and the colors of defects.
   const double bar_height = std::min(layout.height - 240 * unit, 620 * unit);
   const double top = (layout.height - bar_height) / 2 + 16 * unit;
   layout.color_bar = {{right + gap, top}, {right + gap + bar_width, top + bar_height}};

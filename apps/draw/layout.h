@@ -36,14 +36,14 @@ Box bounding_box(const PointList<2>& points);
 //! Where room is kept for something beside the drawing.
 enum class Strip { kNone, kBelow, kBeside };
 
-//! A picture with one drawing and, if wanted, a strip of further ones and a colour bar at the
+//! A picture with one drawing and, if wanted, a strip of further ones and a color bar at the
 //! right.
 struct PictureLayout {
   int width;      //!< of the picture in pixels
   int height;     //!< of the picture in pixels
   Box frame;      //!< for the drawing
   Box strip;      //!< meaningless for Strip::kNone
-  Box color_bar;  //!< for the coloured part of the bar
+  Box color_bar;  //!< for the colored part of the bar
 };
 
 //! The width is as demanded. The height of the drawing follows from the content, but is no less

@@ -8,7 +8,7 @@
 
 #include "draw/canvas.h"
 #include "draw/layout.h"
-#include "draw/oblique_view.h"
+#include "draw/view.h"
 
 namespace flbc::draw {
 

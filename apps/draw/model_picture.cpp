@@ -77,9 +77,9 @@ void paint_bar(Canvas& canvas, const Box& bar, const ShownValues& shown, double 
 
 }  // namespace
 
-Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
-                 const ShownValues& shown, const ObliqueView& view,
-                 const WeightPictureOptions& options) {
+std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
+                       const ShownValues& shown, const ObliqueView& view,
+                       const WeightPictureOptions& options) {
   validate(options);
   check(model, places, shown);
   const Box content = common_box(places, view);
@@ -105,19 +105,19 @@ Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
   const double largest = is_lengths(shown) ? shown.values.maxCoeff() : 1;
   const Eigen::VectorXd values =
       largest > 0 ? Eigen::VectorXd(shown.values / largest) : shown.values;
-  Canvas canvas = new_canvas(layout.width, layout.height, options);
+  Canvas canvas(layout.width, layout.height, options.format);
   for (std::size_t k = 0; k < places.size(); ++k) {
     paint_model(canvas,
                 {model, places[k], values, shown.control_point, view, PixelMap(all, layout.frame),
                  shifts[k], std::max(0.6, pixel_unit(options))});
   }
   if (shown_options.color_bar) paint_bar(canvas, layout.color_bar, shown, largest, options);
-  return canvas.resolve();
+  return canvas.encode();
 }
 
-Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
-                       const WeightMatrix& weights, const ObliqueView& view,
-                       const WeightPictureOptions& options) {
+std::string draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
+                             const WeightMatrix& weights, const ObliqueView& view,
+                             const WeightPictureOptions& options) {
   validate(options);
   check(model, {place}, {});
   const auto count = static_cast<int>(place.control_points.cols());
@@ -126,16 +126,15 @@ Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
   }
   const Box content = common_box({place}, view);
   const auto sheet = plan_sheet(content, count, options);
-  Canvas canvas = new_canvas(sheet.width, sheet.height, options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
   for (int i = 0; i < count; ++i) {
     const Eigen::VectorXd values = weights.row(i);
     check_weight(values, static_cast<Index>(place.points.cols()), i, count);
-    paint_model(canvas,
-                {model, place, values, i, view, PixelMap(content, sheet.frames[i]),
-                 Vector<2>::Zero(), std::max(0.4, 0.5 * pixel_unit(options))});
+    paint_model(canvas, {model, place, values, i, view, PixelMap(content, sheet.frames[i]),
+                         Vector<2>::Zero(), std::max(0.4, 0.5 * pixel_unit(options))});
     paint_symbol(canvas, sheet.label(i), i, sheet.label_height);
   }
-  return canvas.resolve();
+  return canvas.encode();
 }
 
 }  // namespace flbc::draw

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Pictures of a model in space and its cage.
+//! Pictures of a model in space and its cage, as the bytes of a file.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "draw/model_painter.h"
@@ -10,7 +11,7 @@
 
 namespace flbc::draw {
 
-//! Quantity shown by the colours of a surface.
+//! Quantity shown by the colors of a surface.
 struct ShownValues {
   Eigen::VectorXd values{};  //!< P, weights of a control point or lengths; empty: a plain surface
   Index control_point = -1;  //!< whose weights they are, -1 for lengths
@@ -21,14 +22,14 @@ struct ShownValues {
 //! \param places  at least one
 //! \throws InputError if sizes and indices do not belong together or a number is not finite,
 //! OptionError as draw_weights()
-Image draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
-                 const ShownValues& shown, const ObliqueView& view,
-                 const WeightPictureOptions& options = {});
-
-//! Draws a sheet of the model coloured by one coordinate function after the other.
-//! \param weights  n x P \throws as draw_model()
-Image draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
-                       const WeightMatrix& weights, const ObliqueView& view,
+std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
+                       const ShownValues& shown, const ObliqueView& view,
                        const WeightPictureOptions& options = {});
+
+//! Draws a sheet of the model colored by one coordinate function after the other.
+//! \param weights  n x P \throws as draw_model()
+std::string draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
+                             const WeightMatrix& weights, const ObliqueView& view,
+                             const WeightPictureOptions& options = {});
 
 }  // namespace flbc::draw

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "draw/picture_options.h"
 
-#include <cmath>
-#include <string>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 
 #include "flbc/errors.h"
 
 namespace flbc::draw {
+
+PictureFormat picture_format(const std::string& path) {
+  auto extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".png") return PictureFormat::kPng;
+  if (extension == ".svg") return PictureFormat::kSvg;
+  if (extension == ".pdf") return PictureFormat::kPdf;
+  throw OptionError(path + ": a picture is written as one of " + kPictureExtensions +
+                    ", not as '" + extension + "'");
+}
 
 void validate(const WeightPictureOptions& options) {
   if (options.width < 200 || options.width > 6000) {

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "draw/layout.h"
-#include "draw/stroke_font.h"
 #include "draw/weight_painter.h"
 #include "flbc/errors.h"
 
@@ -16,11 +15,10 @@ namespace {
 
 constexpr Color kGrid{0.87F, 0.88F, 0.90F};
 
-// Told apart with every common kind of colour blindness (Okabe and Ito 2008).
-constexpr Color kCurveColors[] = {{0.00F, 0.45F, 0.70F}, {0.84F, 0.37F, 0.00F},
-                                  {0.00F, 0.62F, 0.45F}, {0.80F, 0.47F, 0.65F},
-                                  {0.90F, 0.62F, 0.00F}, {0.34F, 0.71F, 0.91F},
-                                  {0.13F, 0.15F, 0.19F}};
+// Told apart with every common kind of color blindness (Okabe and Ito 2008).
+constexpr Color kCurveColors[] = {
+    {0.00F, 0.45F, 0.70F}, {0.84F, 0.37F, 0.00F}, {0.00F, 0.62F, 0.45F}, {0.80F, 0.47F, 0.65F},
+    {0.90F, 0.62F, 0.00F}, {0.34F, 0.71F, 0.91F}, {0.13F, 0.15F, 0.19F}};
 
 Color curve_color(std::size_t run) {
   return kCurveColors[run % (sizeof kCurveColors / sizeof kCurveColors[0])];
@@ -119,7 +117,7 @@ class PanelPainter {
       }
       canvas_.draw_segments(segments, 2.2 * unit_, curve_color(run));
       if (!curves_[run].empty()) {
-        canvas_.fill_disc(pixel(curves_[run].back()), 3.6 * unit_, curve_color(run));
+        canvas_.fill_discs({pixel(curves_[run].back())}, 3.6 * unit_, curve_color(run));
       }
     }
   }
@@ -137,25 +135,24 @@ class PanelPainter {
       const double x = pixel({tick, y_.low}).x();
       grid.push_back({{x, box_.low.y()}, {x, box_.high.y()}});
       const auto text = x_.label(tick);
-      draw_text(canvas_, {x - text_width(text, height) / 2, box_.high.y() + 2 * height}, text,
-                height, kInk);
+      canvas_.draw_text({x - text_width(text, height) / 2, box_.high.y() + 2 * height}, text,
+                        height, kInk);
     }
     for (const double tick : y_.ticks) {
       const double y = pixel({x_.low, tick}).y();
       grid.push_back({{box_.low.x(), y}, {box_.high.x(), y}});
       const auto text = y_.label(tick);
-      draw_text(canvas_, {box_.low.x() - text_width(text, height) - 9 * unit_, y + height / 2},
-                text, height, kInk);
+      canvas_.draw_text({box_.low.x() - text_width(text, height) - 9 * unit_, y + height / 2}, text,
+                        height, kInk);
     }
     canvas_.draw_segments(grid, 1 * unit_, kGrid);
-    canvas_.draw_segments(
-        {{{box_.low.x(), box_.low.y()}, {box_.low.x(), box_.high.y()}},
-         {{box_.low.x(), box_.high.y()}, {box_.high.x(), box_.high.y()}}},
-        1.4 * unit_, kInk);
-    draw_text(canvas_, {box_.low.x(), box_.low.y() - 14 * unit_}, panel_.y_label, 15 * unit_, kInk);
+    canvas_.draw_segments({{{box_.low.x(), box_.low.y()}, {box_.low.x(), box_.high.y()}},
+                           {{box_.low.x(), box_.high.y()}, {box_.high.x(), box_.high.y()}}},
+                          1.4 * unit_, kInk);
+    canvas_.draw_text({box_.low.x(), box_.low.y() - 14 * unit_}, panel_.y_label, 15 * unit_, kInk);
     const auto& label = panel_.x_label;
-    draw_text(canvas_, {box_.high.x() - text_width(label, 15 * unit_), box_.high.y() + 52 * unit_},
-              label, 15 * unit_, kInk);
+    canvas_.draw_text({box_.high.x() - text_width(label, 15 * unit_), box_.high.y() + 52 * unit_},
+                      label, 15 * unit_, kInk);
   }
 
   Canvas& canvas_;
@@ -186,8 +183,8 @@ std::vector<Vector<2>> plan_legend(const std::vector<std::string>& names, double
 
 }  // namespace
 
-Image draw_plot(const std::vector<std::string>& names, const std::vector<PlotPanel>& panels,
-                int columns, const WeightPictureOptions& options) {
+std::string draw_plot(const std::vector<std::string>& names, const std::vector<PlotPanel>& panels,
+                      int columns, const WeightPictureOptions& options) {
   validate(options);
   if (names.empty() || panels.empty() || columns < 1) throw InputError("there is nothing to plot");
   for (const auto& panel : panels) {
@@ -202,19 +199,19 @@ Image draw_plot(const std::vector<std::string>& names, const std::vector<PlotPan
   const Vector<2> low(100 * unit, 52 * unit), rest(130 * unit, 124 * unit);
   const Vector<2> cell(static_cast<double>(options.width) / columns, 400 * unit);
   const auto rows = static_cast<int>((panels.size() + columns - 1) / columns);
-  Canvas canvas =
-      new_canvas(options.width, static_cast<int>(std::lround(top + rows * cell.y())), options);
+  Canvas canvas(options.width, static_cast<int>(std::lround(top + rows * cell.y())),
+                options.format);
   for (std::size_t run = 0; run < names.size(); ++run) {
     const auto& place = legend[run];
     canvas.draw_segments({{place, place + Vector<2>(34 * unit, 0)}}, 3 * unit, curve_color(run));
-    draw_text(canvas, place + Vector<2>(46 * unit, 7 * unit), names[run], 15 * unit, kInk);
+    canvas.draw_text(place + Vector<2>(46 * unit, 7 * unit), names[run], 15 * unit, kInk);
   }
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const auto column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
     const Vector<2> corner = Vector<2>(column * cell.x(), top + row * cell.y()) + low;
     PanelPainter(canvas, panels[k], {corner, corner + cell - rest}, unit).paint();
   }
-  return canvas.resolve();
+  return canvas.encode();
 }
 
 }  // namespace flbc::draw

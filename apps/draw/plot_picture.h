@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Curves in panels.
+//! Curves in panels, as the bytes of a file.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "draw/picture_options.h"
-#include "draw/primitives.h"
+#include "flbc/types.h"
 
 namespace flbc::draw {
 
@@ -20,11 +20,11 @@ struct PlotPanel {
 };
 
 //! Draws panels in rows of `columns`, below a legend with the names of the runs.
-//! \param names  of the runs, which have the same colour in all panels
+//! \param names  of the runs, which have the same color in all panels
 //! \param panels  each with as many curves as there are names
 //! \throws InputError if there is nothing to draw or numbers of curves differ; OptionError as
 //! validate()
-Image draw_plot(const std::vector<std::string>& names, const std::vector<PlotPanel>& panels,
-                int columns, const WeightPictureOptions& options = {});
+std::string draw_plot(const std::vector<std::string>& names, const std::vector<PlotPanel>& panels,
+                      int columns, const WeightPictureOptions& options = {});
 
 }  // namespace flbc::draw

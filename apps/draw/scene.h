@@ -8,13 +8,13 @@
 
 #include "draw/canvas.h"
 #include "draw/layout.h"
-#include "draw/oblique_view.h"
 #include "draw/picture_options.h"
 #include "draw/slice.h"
+#include "draw/view.h"
 
 namespace flbc::draw {
 
-//! View, colours and labels shared by all steps of painting in space.
+//! View, colors and labels shared by all steps of painting in space.
 struct Scene {
   const Cage<3>& cage;
   const std::vector<Slice>& slices;  //!< at least one, parallel, ascending along their normal

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Pictures of coordinate functions in space.
+//! Pictures of coordinate functions in space, as the bytes of a file.
 #pragma once
 
+#include <string>
+
 #include "draw/picture_options.h"
-#include "draw/primitives.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 
@@ -15,13 +16,14 @@ namespace flbc::draw {
 //! red. The planes are those of choose_planes(). \param values  V, the function's value at each
 //! vertex of the mesh \param number_of_slices  1 .. 50 \throws InputError if a value is missing or
 //! not finite, OptionError if there is no such control point or an option is outside its range
-Image draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd& values,
-                  Index control_point, int number_of_slices = 3,
-                  const WeightPictureOptions& options = {});
+std::string draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh,
+                        const Eigen::VectorXd& values, Index control_point,
+                        int number_of_slices = 3, const WeightPictureOptions& options = {});
 
 //! Draws all coordinate functions in this way, as a sheet of small pictures in rows.
 //! \param weights  n x V \throws as draw_slices()
-Image draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh, const WeightMatrix& weights,
-                       int number_of_slices = 3, const WeightPictureOptions& options = {});
+std::string draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh,
+                             const WeightMatrix& weights, int number_of_slices = 3,
+                             const WeightPictureOptions& options = {});
 
 }  // namespace flbc::draw

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/colormap.h"
 #include "draw/isolines.h"
-#include "draw/stroke_font.h"
 #include "flbc/errors.h"
 
 namespace flbc::draw {
@@ -21,30 +22,36 @@ constexpr Color kMeshEdge{0.25F, 0.28F, 0.33F};
 
 void fill_cells(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                 const Eigen::VectorXd& values) {
-  for (Eigen::Index s = 0; s < cells.cols(); ++s) {
-    const auto v = cells.col(s);
-    canvas.fill_triangle({points.col(v[0]), points.col(v[1]), points.col(v[2])},
-                         {values[v[0]], values[v[1]], values[v[2]]}, weight_color);
+  Raster raster = canvas.raster_for(points);
+  for (const auto& v : cells.colwise()) {
+    const Vector<3> corners(values[v[0]], values[v[1]], values[v[2]]);
+    raster.fill({points.col(v[0]), points.col(v[1]), points.col(v[2])}, Vector<3>::Zero(),
+                [&](double b0, double b1, double b2) {
+                  return weight_color(corners.dot(Vector<3>(b0, b1, b2)));
+                });
   }
+  canvas.draw_raster(raster);
 }
 
-// Edges are found once per cell: the canvas unites lines that coincide.
 void draw_mesh_edges(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                      double unit) {
-  std::vector<Segment> edges;
+  std::set<std::pair<Index, Index>> edges;
   for (const auto& v : cells.colwise()) {
-    for (int k = 0; k < 3; ++k) edges.push_back({points.col(v[k]), points.col(v[(k + 1) % 3])});
+    for (int k = 0; k < 3; ++k) edges.insert(std::minmax({v[k], v[(k + 1) % 3]}));
   }
-  canvas.draw_segments(edges, 0.6 * unit, kMeshEdge, 0.35F);
+  std::vector<Segment> segments;
+  for (const auto& [a, b] : edges) segments.push_back({points.col(a), points.col(b)});
+  canvas.draw_segments(segments, 0.6 * unit, kMeshEdge, 0.35F);
 }
 
 void fill_box(Canvas& canvas, const Box& box, double value_at_bottom, double value_at_top) {
-  const Vector<2> low_right(box.high.x(), box.low.y());
-  const Vector<2> high_left(box.low.x(), box.high.y());
-  canvas.fill_triangle({box.low, low_right, high_left},
-                       {value_at_top, value_at_top, value_at_bottom}, weight_color);
-  canvas.fill_triangle({low_right, box.high, high_left},
-                       {value_at_top, value_at_bottom, value_at_bottom}, weight_color);
+  PointList<2> corners(2, 4);
+  corners << box.low.x(), box.high.x(), box.high.x(), box.low.x(),  //
+      box.low.y(), box.low.y(), box.high.y(), box.high.y();
+  CellList<2> halves(3, 2);
+  halves << 0, 0, 1, 2, 2, 3;
+  fill_cells(canvas, corners, halves,
+             Eigen::Vector4d(value_at_top, value_at_top, value_at_bottom, value_at_bottom));
 }
 
 void draw_outline(Canvas& canvas, const Box& box, double width) {
@@ -55,16 +62,15 @@ void draw_outline(Canvas& canvas, const Box& box, double width) {
       width, kInk);
 }
 
-// A patch of the colours that show defects, with its label.
+// A patch of the colors that show defects, with its label.
 void draw_defect_patch(Canvas& canvas, const Box& box, double slight, double severe,
                        const char* label, double unit) {
   fill_box(canvas, box, std::min(slight, severe), std::max(slight, severe));
   draw_outline(canvas, box, 1.2 * unit);
-  draw_text(canvas, {box.high.x() + 11 * unit, box.center().y() + 8 * unit}, label, 16 * unit,
-            kInk);
+  canvas.draw_text({box.high.x() + 11 * unit, box.center().y() + 8 * unit}, label, 16 * unit, kInk);
 }
 
-// The colours from 0 to 1, upright, with isolines and numbers at 0, the middle and the end.
+// The colors from 0 to 1, upright, with isolines and numbers at 0, the middle and the end.
 void paint_scale(Canvas& canvas, const Box& box, int isolines,
                  const std::array<std::string, 3>& labels, double unit) {
   fill_box(canvas, box, 0, 1);
@@ -78,11 +84,11 @@ void paint_scale(Canvas& canvas, const Box& box, int isolines,
   for (int k = 0; k < 3; ++k) {
     const double y = row_of(k / 2.0);
     canvas.draw_segments({{{box.high.x(), y}, {box.high.x() + 6 * unit, y}}}, 1.2 * unit, kInk);
-    draw_text(canvas, {box.high.x() + 13 * unit, y + 9 * unit}, labels[k], 18 * unit, kInk);
+    canvas.draw_text({box.high.x() + 13 * unit, y + 9 * unit}, labels[k], 18 * unit, kInk);
   }
 }
 
-// Two digits, for which there is room beside a scale.
+// Two digits, for which there is room next to a scale.
 std::string short_number(double value) {
   std::ostringstream text;
   text.precision(2);
@@ -91,17 +97,6 @@ std::string short_number(double value) {
 }
 
 }  // namespace
-
-double pixel_unit(const WeightPictureOptions& options) {
-  return options.width / 1200.0;
-}
-
-Canvas new_canvas(int width, int height, const WeightPictureOptions& options) {
-  if (!options.layers) return {width, height, kWhite};
-  // Filled areas get two pixels for each of the picture's, but for pictures that are large anyway.
-  constexpr int kLarge = 2400;
-  return {width, height, kWhite, width > kLarge ? 2 : 4, Canvas::Kind::kLayers};
-}
 
 void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                   const Eigen::VectorXd& values, const WeightPictureOptions& options) {
@@ -117,20 +112,20 @@ void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>&
                        1.5 * unit, kInk, 0.75F);
 }
 
-void paint_dot(Canvas& canvas, const Vector<2>& center, double radius, Color color) {
-  canvas.fill_disc(center, radius * 1.3, kWhite);
-  canvas.fill_disc(center, radius, color);
+void paint_dots(Canvas& canvas, const std::vector<Vector<2>>& centers, double radius, Color color) {
+  canvas.fill_discs(centers, 1.3 * radius, kWhite);
+  canvas.fill_discs(centers, radius, color);
 }
 
 void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height) {
   const std::string subscript = std::to_string(control_point);
   const double small = 0.62 * height;
-  const double gap = 0.2 * height;
+  const double gap = 0.03 * height;
   const double symbol_width = text_width("w", height);
   const double width = symbol_width + gap + text_width(subscript, small);
   const Vector<2> start(position.x() - width / 2, position.y());
-  draw_text(canvas, start, "w", height, kInk);
-  draw_text(canvas, start + Vector<2>(symbol_width + gap, 0.25 * height), subscript, small, kInk);
+  canvas.draw_text(start, "w", height, kInk);
+  canvas.draw_text(start + Vector<2>(symbol_width + gap, 0.25 * height), subscript, small, kInk);
 }
 
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
@@ -158,8 +153,8 @@ void paint_length_bar(Canvas& canvas, const Box& box, double largest,
                       const WeightPictureOptions& options) {
   const double unit = pixel_unit(options);
   const double height = 24 * unit;
-  draw_text(canvas, {box.center().x() - text_width("d", height) / 2, box.low.y() - 26 * unit}, "d",
-            height, kInk);
+  canvas.draw_text({box.center().x() - text_width("d", height) / 2, box.low.y() - 26 * unit}, "d",
+                   height, kInk);
   paint_scale(canvas, box, 0, {"0", short_number(largest / 2), short_number(largest)}, unit);
 }
 

@@ -9,26 +9,16 @@
 
 namespace flbc::draw {
 
-constexpr Color kWhite{1, 1, 1};
-constexpr Color kInk{0.13F, 0.15F, 0.19F};
-constexpr Color kHighlight{0.90F, 0.07F, 0.10F};
-
-//! The size of what is 1 pixel wide in a picture of the usual width.
-double pixel_unit(const WeightPictureOptions& options);
-
-//! A white canvas, of layers if options say so.
-Canvas new_canvas(int width, int height, const WeightPictureOptions& options);
-
-//! Paints a function: its colours, its isolines and, if wanted, the edges of the mesh.
+//! Paints a function: its colors, its isolines and, if wanted, the edges of the mesh.
 //! \param points  2 x V, \param values  V
 void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                   const Eigen::VectorXd& values, const WeightPictureOptions& options);
 
-//! Paints a control point as a dot with a white rim.
-void paint_dot(Canvas& canvas, const Vector<2>& center, double radius, Color color);
+//! Paints control points as dots with a white rim.
+void paint_dots(Canvas& canvas, const std::vector<Vector<2>>& centers, double radius, Color color);
 
-//! Paints the scale of the colours, upright in the box, with its numbers at the right, "w" with the
-//! number of the control point above it, and below and above the scale the colours of weights
+//! Paints the scale of the colors, upright in the box, with its numbers at the right, "w" with the
+//! number of the control point above it, and below and above the scale the colors of weights
 //! outside [0, 1], if `least` and `greatest` say that there are any.
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
                      double greatest, const WeightPictureOptions& options);
@@ -37,7 +27,7 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
 void paint_length_bar(Canvas& canvas, const Box& box, double largest,
                       const WeightPictureOptions& options);
 
-//! Writes "w" with a subscript, centred at the point of the baseline.
+//! Writes "w" with a subscript, centered at the point of the baseline.
 void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height);
 
 //! \throws InputError if the values are not one finite number per vertex, OptionError if there is

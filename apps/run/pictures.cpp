@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "draw/deformation_picture.h"
 #include "draw/model_picture.h"
-#include "draw/model_view.h"
-#include "draw/picture_file.h"
+#include "draw/plane_picture.h"
 #include "draw/slice_picture.h"
-#include "draw/weight_picture.h"
+#include "draw/view.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "report/facts.h"
@@ -31,17 +29,17 @@ Index choose_control_point(const Run<Dim>& run) {
 template <int Dim>
 draw::WeightPictureOptions options_of(const Run<Dim>& run) {
   draw::WeightPictureOptions options;
-  options.layers = run.arguments.pictures != "png";
+  options.format = draw::picture_format("picture." + run.arguments.pictures);
   return options;
 }
 
-draw::Image draw_function(const Run<2>& run, Index control_point) {
+std::string draw_function(const Run<2>& run, Index control_point) {
   return draw::draw_weights(run.cage, run.solver.domain(),
                             run.domain_weights().row(control_point), control_point,
                             options_of(run));
 }
 
-draw::Image draw_function(const Run<3>& run, Index control_point) {
+std::string draw_function(const Run<3>& run, Index control_point) {
   return draw::draw_slices(run.cage, run.solver.domain(),
                            run.domain_weights().row(control_point), control_point, 3,
                            options_of(run));
@@ -52,13 +50,13 @@ draw::ObliqueView usual_view() {
 }
 
 // The shape at rest by the sparse weights.
-draw::Image draw_rest(const Run<2>& run, Index control_point) {
+std::string draw_rest(const Run<2>& run, Index control_point) {
   return draw::draw_weights(
       run.cage, {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
       run.sparse.row(control_point), control_point, options_of(run));
 }
 
-draw::Image draw_rest(const Run<3>& run, Index control_point) {
+std::string draw_rest(const Run<3>& run, Index control_point) {
   return draw::draw_model({gltf::triangles_of_points(run.shape().surface), shown_cage(run).edges},
                           {{run.cage.points, run.shape().points}},
                           {run.sparse.row(control_point), control_point}, usual_view(),
@@ -67,15 +65,14 @@ draw::Image draw_rest(const Run<3>& run, Index control_point) {
 
 template <int Dim>
 void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
-                 const draw::Image& image) {
+                 const std::string& picture) {
   const auto name = std::string(title) + "." + run.arguments.pictures;
-  const auto picture = draw::encode_picture(image, draw::picture_format(name));
   run.folder.add_text(name, facts, picture);
   run.report["pictures"]["files"].push_back(name);
 }
 
 // The shape at rest and in the pose; the mesh of the interior in place of one without triangles.
-draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index control_point) {
+std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index control_point) {
   const auto& shape = run.shape();
   const auto& domain = run.solver.domain();
   const bool is_surface = shape.surface.triangles.cols() > 0;
@@ -89,7 +86,7 @@ draw::Image deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
 
 // The shape at rest and in the pose, coloured by how far it moves; slices through the mesh of the
 // interior in place of one without triangles.
-draw::Image deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
+std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
   const auto& shape = run.shape();
   if (shape.surface.triangles.cols() == 0) {
     const auto& weights = run.domain_weights();

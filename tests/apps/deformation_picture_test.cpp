@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Before and after in one picture: what is seen is measured on the pixels.
-#include "draw/deformation_picture.h"
+#include "draw/plane_picture.h"
 
 #include <cmath>
 #include <limits>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
+#include "support/png_image.h"
 
 namespace flbc::draw {
 namespace {
@@ -31,7 +32,7 @@ struct Scene {
     return {shape.control_points.colwise() + step, shape.points.colwise() + step};
   }
   Image draw(const DrawnShape& after) const {
-    return draw_deformation(facets, triangles, shape, after, values, 2);
+    return decode_png(draw_deformation(facets, triangles, shape, after, values, 2));
   }
 };
 

@@ -7,9 +7,10 @@
 
 #include "draw/colormap.h"
 #include "draw/model_picture.h"
-#include "draw/model_view.h"
+#include "draw/view.h"
 #include "flbc/errors.h"
 #include "support/command_line.h"
+#include "support/png_image.h"
 
 namespace flbc::draw {
 namespace {
@@ -42,7 +43,7 @@ struct Squares {
     model.cage_edges = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}};
   }
   Image draw(const ObliqueView& view) const {
-    return draw_model(model, {place}, shown, view, small_picture());
+    return decode_png(draw_model(model, {place}, shown, view, small_picture()));
   }
 };
 

@@ -68,11 +68,13 @@ TEST_F(PlotCommand, DrawsSeveralRunsInAllFormats) {
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_GT(slurp(output).size(), 3000U);
   }
-  const auto svg = slurp(path("plot.svg"));
+  const auto to_text = "pdftotext " + path("plot.pdf") + " " + path("plot.txt");
+  if (std::system((to_text + " 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "needs pdftotext";
+  const auto shown = slurp(path("plot.txt"));
   for (const char* text : {"splitting", "the paper", "iterations", "seconds", "objective",
                            "residual / threshold", "estimated error (mean squared)",
                            "gap to the certified bound"}) {
-    EXPECT_NE(svg.find(std::string(">") + text + "</text>"), std::string::npos) << text;
+    EXPECT_NE(shown.find(text), std::string::npos) << text;
   }
 }
 

@@ -9,14 +9,11 @@
 #include "flbc/openmesh/mesh_io.h"
 #include "flbc/openmesh/om_file.h"
 #include "flbc/openmesh/state_record.h"
-#include "flbc/openmesh/tet_mesh_file.h"
 #include "flbc/openmesh/wide_property.h"
 #include "fuzz/reader.h"
 
 namespace flbc::fuzz {
 namespace {
-
-using openmesh::TetMesh;
 
 void read_om(const std::string& path) {
   const io::ModelFile file(path);
@@ -98,47 +95,14 @@ std::string record() {
   return openmesh::to_json(record);
 }
 
-// ---- tetrahedral meshes with properties
-
-void read_tet_mesh(const std::string& path) {
-  const auto mesh = openmesh::load_tet_mesh(path);
-  require_indices_in_range(mesh.domain());
-}
-
-template <class Handle>
-auto& add_property(TetMesh& mesh, const char* name) {
-  Handle handle;
-  mesh.add_property(handle, name);
-  mesh.property(handle).set_persistent(true);
-  return mesh.property(handle);
-}
-
-std::string tet_mesh(bool has_properties) {
-  DomainMesh<3> domain;
-  domain.points = PointList<3>::Identity(3, 4);
-  domain.cells = Eigen::Vector4i(0, 1, 2, 3);
-  normalize_and_validate(domain);
-  auto mesh = TetMesh::from(domain);
-  if (has_properties) {
-    add_property<OpenMesh::VPropHandleT<openmesh::Wide<double>>>(mesh, "w").set_shape(1, 4);
-    add_property<OpenMesh::EPropHandleT<std::string>>(mesh, "text")[0] = "abc";
-    add_property<OpenMesh::FPropHandleT<std::vector<double>>>(mesh, "list")[0] = {1, 2, 3};
-    add_property<openmesh::CPropHandleT<int>>(mesh, "number")[0] = 7;
-  }
-  return without_hash(
-      written("a.tet", [&](const std::string& path) { openmesh::save_tet_mesh(path, mesh); }));
-}
-
 }  // namespace
 
 std::vector<Reader> openmesh_readers() {
-  return {
-      {"om", "input.om", read_om, {om_file(false), om_file(true)}},
-      {"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
-      {"rows_single", "input.rows", read_rows<float>, {stored_rows<float>()}},
-      {"influences", "input.pairs", read_influences, {stored_influences()}},
-      {"state_record", "input.json", read_record, {record()}},
-      {"tet_mesh", "input.tet", read_tet_mesh, {tet_mesh(false), tet_mesh(true)}, {}, with_hash}};
+  return {{"om", "input.om", read_om, {om_file(false), om_file(true)}},
+          {"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
+          {"rows_single", "input.rows", read_rows<float>, {stored_rows<float>()}},
+          {"influences", "input.pairs", read_influences, {stored_influences()}},
+          {"state_record", "input.json", read_record, {record()}}};
 }
 
 }  // namespace flbc::fuzz

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <iterator>
 
+#include <pugixml.hpp>
+
 #include "base/messages.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
-#include "text/xml_reader.h"
+#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -29,111 +31,125 @@ template <int Dim>
 class VtuReader {
  public:
   VtuReader(const std::string& path, std::vector<VertexField>* fields)
-      : path_(path), xml_(path, read_file(path)), fields_(fields) {}
+      : path_(path), content_(read_file(path)), fields_(fields) {}
 
   DomainMesh<Dim> read() {
-    if (!xml_.next_tag() || xml_.name() != "VTKFile") {
-      xml_.fail("not a VTK file: the first tag must be <VTKFile>");
+    pugi::xml_document document;
+    const auto parsed = document.load_buffer(content_.data(), content_.size(), pugi::parse_default,
+                                             pugi::encoding_utf8);
+    const auto file = document.document_element();
+    if (file.name() != std::string("VTKFile")) {
+      fail(file, "not a VTK file: the first tag must be <VTKFile>");
     }
-    if (xml_.attribute("type") != "UnstructuredGrid") {
-      xml_.fail("the file has a grid of type " + in_quotes(xml_.attribute("type")) +
-                ", not \"UnstructuredGrid\"");
+    const std::string type = file.attribute("type").value();
+    // Raw data at the end of a file are no XML, and belong to arrays that are refused below.
+    if (!parsed && !file.child("AppendedData")) {
+      fail_at(parsed.offset, std::string("the XML is malformed: ") + parsed.description());
     }
-    while (read_tag()) {
+    if (type != "UnstructuredGrid") {
+      fail(file, "the file has a grid of type " + in_quotes(type) + ", not \"UnstructuredGrid\"");
     }
-    if (num_pieces_ == 0) xml_.fail("the file has no grid");
+    const auto piece = file.child("UnstructuredGrid").child("Piece");
+    if (!piece) fail(file, "the file has no grid");
+    if (const auto second = piece.next_sibling("Piece")) {
+      fail(second, "the grid has more than one piece; only one is supported");
+    }
+    read_piece(piece);
     return mesh();
   }
 
  private:
-  // \return false at the end of the grid
-  bool read_tag() {
-    if (!xml_.next_tag()) xml_.fail("the file ends before </UnstructuredGrid>");
-    const std::string& name = xml_.name();
-    if (name == "UnstructuredGrid") return !xml_.is_end_tag();
-    if (name == "Points" || name == "Cells" || name == "PointData" || name == "CellData" ||
-        name == "FieldData") {
-      section_ = xml_.is_end_tag() ? "" : name;
-    } else if (name == "Piece" && !xml_.is_end_tag()) {
-      if (++num_pieces_ > 1) xml_.fail("the grid has more than one piece; only one is supported");
-      num_points_ = read_attribute("NumberOfPoints");
-      num_cells_ = read_attribute("NumberOfCells");
-    } else if (name == "DataArray" && !xml_.is_end_tag()) {
-      read_array();
-    }
-    return true;
-  }
-
-  std::size_t read_attribute(const std::string& name) {
-    TextReader reader(path_, xml_.attribute(name), {}, line());
-    if (!reader.next_word_on_any_line()) xml_.fail("the tag <Piece> has no attribute " + name);
-    return static_cast<std::size_t>(reader.count(name.c_str(), 0));
-  }
-
-  void read_array() {
-    const std::string name = xml_.attribute("Name");
-    if (section_ == "Points") {
-      points_ = read_numbers(name, 3 * num_points_);
-    } else if (section_ == "Cells") {
-      if (name == "connectivity") connectivity_ = read_integers(name);
-      if (name == "offsets") offsets_ = read_integers(name, num_cells_);
-      if (name == "types") kinds_ = read_integers(name, num_cells_);
-    } else if (section_ == "PointData" && fields_) {
-      const std::string components = xml_.attribute("NumberOfComponents");
-      if (!components.empty() && components != "1") return;  // vectors are no weights
-      const auto values = read_numbers(name, num_points_);
-      fields_->push_back({name, Eigen::Map<const Eigen::VectorXd>(
-                                    values.data(), static_cast<Eigen::Index>(values.size()))});
+  void read_piece(const pugi::xml_node& piece) {
+    num_points_ = read_count(piece, "NumberOfPoints");
+    num_cells_ = read_count(piece, "NumberOfCells");
+    const auto points = piece.child("Points").child("DataArray");
+    if (!points || num_points_ == 0) fail(piece, "the grid has no points");
+    points_ = read_numbers(points, 3 * num_points_);
+    const auto cells_array = [&](const char* name) {
+      const auto array = piece.child("Cells").find_child_by_attribute("DataArray", "Name", name);
+      if (!array) fail(piece, "the cells of the grid have no array " + in_quotes(name));
+      return array;
+    };
+    connectivity_ = read_integers(cells_array("connectivity"));
+    offsets_ = read_integers(cells_array("offsets"), num_cells_);
+    kinds_ = read_integers(cells_array("types"), num_cells_);
+    if (fields_ == nullptr) return;
+    for (const auto& array : piece.child("PointData").children("DataArray")) {
+      const std::string components = array.attribute("NumberOfComponents").value();
+      if (!components.empty() && components != "1") continue;  // vectors are no weights
+      const auto values = read_numbers(array, num_points_);
+      fields_->push_back({array.attribute("Name").value(),
+                          Eigen::Map<const Eigen::VectorXd>(
+                              values.data(), static_cast<Eigen::Index>(values.size()))});
     }
   }
 
-  TextReader array_text(const std::string& name) {
-    if (num_pieces_ == 0) xml_.fail("an array stands outside of <Piece>");
-    const std::string format = xml_.attribute("format");
+  std::size_t read_count(const pugi::xml_node& piece, const char* name) const {
+    TextReader reader(path_, piece.attribute(name).value(), {}, line_of(piece.offset_debug()));
+    if (!reader.next_word_on_any_line()) {
+      fail(piece, std::string("the tag <Piece> has no attribute ") + name);
+    }
+    return static_cast<std::size_t>(reader.count(name, 0));
+  }
+
+  TextReader text_of(const pugi::xml_node& array) const {
+    const std::string format = array.attribute("format").value();
     if (!format.empty() && format != "ascii") {
-      xml_.fail("the array " + in_quotes(name) + " has the format " + in_quotes(format) +
-                "; only \"ascii\" is supported: save the file in ASCII mode");
+      fail(array, "the array " + name_of(array) + " has the format " + in_quotes(format) +
+                      "; only \"ascii\" is supported: save the file in ASCII mode");
     }
-    return xml_.text();
+    const auto text = array.text();
+    return TextReader(path_, text.get(), {}, line_of(text.data().offset_debug()));
   }
 
-  void check_size(const std::string& name, std::size_t found, std::size_t expected) const {
+  void check_size(const pugi::xml_node& array, std::size_t found, std::size_t expected) const {
     if (found == expected) return;
-    xml_.fail("the array " + in_quotes(name) + " has " + std::to_string(found) + " numbers, not " +
-              std::to_string(expected));
+    fail(array, "the array " + name_of(array) + " has " + std::to_string(found) + " numbers, not " +
+                    std::to_string(expected));
   }
 
-  std::vector<double> read_numbers(const std::string& name, std::size_t count) {
-    TextReader reader = array_text(name);
+  std::vector<double> read_numbers(const pugi::xml_node& array, std::size_t count) const {
+    TextReader reader = text_of(array);
     std::vector<double> numbers;
     while (reader.next_word_on_any_line()) numbers.push_back(reader.number());
-    check_size(name, numbers.size(), count);
+    check_size(array, numbers.size(), count);
     return numbers;
   }
 
-  std::vector<std::int64_t> read_integers(const std::string& name) {
-    TextReader reader = array_text(name);
+  std::vector<std::int64_t> read_integers(const pugi::xml_node& array) const {
+    TextReader reader = text_of(array);
     std::vector<std::int64_t> numbers;
     while (reader.next_word_on_any_line()) numbers.push_back(reader.integer());
     return numbers;
   }
-  std::vector<std::int64_t> read_integers(const std::string& name, std::size_t count) {
-    auto numbers = read_integers(name);
-    check_size(name, numbers.size(), count);
+  std::vector<std::int64_t> read_integers(const pugi::xml_node& array, std::size_t count) const {
+    auto numbers = read_integers(array);
+    check_size(array, numbers.size(), count);
     return numbers;
   }
 
-  std::int64_t line() const { return xml_.line(); }
+  static std::string name_of(const pugi::xml_node& array) {
+    return in_quotes(array.attribute("Name").value());
+  }
+
+  std::int64_t line_of(std::ptrdiff_t offset) const {
+    const auto length =
+        std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(content_.size()));
+    return 1 + std::count(content_.begin(), content_.begin() + length, '\n');
+  }
+
+  [[noreturn]] void fail_at(std::ptrdiff_t offset, const std::string& message) const {
+    throw InputError(path_ + ":" + std::to_string(line_of(offset)) + ": " + message);
+  }
+  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const {
+    fail_at(node.offset_debug(), message);
+  }
 
   [[noreturn]] void fail_cell(std::size_t cell, const std::string& defect) const {
     throw InputError(path_ + ": cell " + std::to_string(cell) + ": " + defect);
   }
 
   DomainMesh<Dim> mesh() const {
-    if (points_.size() != 3 * num_points_ || num_points_ == 0) xml_.fail("the grid has no points");
-    if (offsets_.size() != num_cells_ || kinds_.size() != num_cells_) {
-      xml_.fail("the grid has no arrays \"offsets\" and \"types\" of its cells");
-    }
     DomainMesh<Dim> result;
     result.points = points();
     std::vector<Index> corners;
@@ -190,10 +206,8 @@ class VtuReader {
   }
 
   std::string path_;
-  XmlReader xml_;
+  std::string content_;
   std::vector<VertexField>* fields_;
-  std::string section_;
-  int num_pieces_ = 0;
   std::size_t num_points_ = 0;
   std::size_t num_cells_ = 0;
   std::vector<double> points_;

@@ -20,8 +20,8 @@ TetMesh read_tet_mesh(const std::string& path);
 //! \param fields  replaced
 TetMesh read_tet_mesh(const std::string& path, std::vector<io::VertexField>& fields);
 
-//! Writes the same formats (io::write_domain); nothing is lost but properties. Chosen properties,
-//! for example weights of some control points, travel along as fields in .vtu and beside .mesh.
+//! Writes the same formats (io::write_domain) without properties. Numbers per vertex can be stored
+//! as fields in .vtu and next to .mesh; store all weights in .npy (io::write_weights).
 //! \throws IoError; InputError if a number is not finite or a field has not a value per vertex;
 //! OptionError for another extension, or for fields that would be lost
 void write_tet_mesh(const std::string& path, const TetMesh& mesh,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From where a stack of slices is looked at.
+//! From where models and slices are looked at.
 #pragma once
 
 #include <cmath>
@@ -10,6 +10,8 @@
 #include "flbc/types.h"
 
 namespace flbc::draw {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
 
 //! A parallel projection of space on the picture's plane.
 struct ObliqueView {
@@ -33,7 +35,6 @@ struct ObliqueView {
 //! \param axis  0, 1 or 2, the one that the slices are perpendicular to
 //! \param side  a vector to the side from which to look, for example to the control point
 inline ObliqueView view_of_slices(int axis, const Vector<3>& side) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
   // A flat angle with the slices keeps them apart, a steep one shows them undistorted.
   const double elevation = (axis == 1 ? 34 : 20) * kDegree;
   const double turn = (axis == 1 ? 62 : 56) * kDegree;
@@ -43,6 +44,22 @@ inline ObliqueView view_of_slices(int axis, const Vector<3>& side) {
   toward[first] = std::copysign(std::cos(elevation) * std::cos(turn), side[first]);
   toward[second] = std::copysign(std::cos(elevation) * std::sin(turn), side[second]);
   const Vector<3> right = Vector<3>::UnitY().cross(toward).normalized();
+  return {right, toward.cross(right), toward};
+}
+
+//! The view that shows most models well: from the front, the right and above.
+constexpr double kUsualAzimuth = 35;
+constexpr double kUsualElevation = 18;
+
+//! A view by angles in degrees, with the y axis upwards.
+//! \param azimuth  0 = from the front (z), 90 = from the side of x
+//! \param elevation  90 = from above
+inline ObliqueView view_by_angles(double azimuth, double elevation) {
+  const double turn = azimuth * kDegree;
+  const double rise = elevation * kDegree;
+  const Vector<3> toward(std::cos(rise) * std::sin(turn), std::sin(rise),
+                         std::cos(rise) * std::cos(turn));
+  const Vector<3> right(std::cos(turn), 0, -std::sin(turn));
   return {right, toward.cross(right), toward};
 }
 

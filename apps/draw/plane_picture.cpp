@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "draw/plane_picture.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "draw/layout.h"
+#include "draw/weight_painter.h"
+#include "flbc/errors.h"
+
+namespace flbc::draw {
+namespace {
+
+// Dots shrink where control points are dense, so that the polygon remains visible.
+double dot_radius(const Cage<2>& cage, const PixelMap& map, double unit) {
+  double length = 0;
+  for (const auto& facet : cage.facets.colwise()) {
+    length += (cage.points.col(facet[1]) - cage.points.col(facet[0])).norm();
+  }
+  const double average =
+      map.scale() * length / static_cast<double>(std::max<Eigen::Index>(1, cage.facets.cols()));
+  return std::clamp(0.12 * average, 1.5 * unit, 6 * unit);
+}
+
+void paint_cage(Canvas& canvas, const Cage<2>& cage, const PixelMap& map, Index control_point,
+                double unit) {
+  std::vector<Segment> edges;
+  for (const auto& facet : cage.facets.colwise()) {
+    edges.push_back(
+        {map(Vector<2>(cage.points.col(facet[0]))), map(Vector<2>(cage.points.col(facet[1])))});
+  }
+  canvas.draw_segments(edges, 2.6 * unit, kInk);
+  const double radius = dot_radius(cage, map, unit);
+  std::vector<Vector<2>> dots;
+  for (const auto& point : cage.points.colwise()) dots.push_back(map(Vector<2>(point)));
+  paint_dots(canvas, dots, radius, kInk);
+  // Last and largest, so that neighbors never hide it.
+  paint_dots(canvas, {dots[control_point]}, std::max(1.5 * radius, 5 * unit), kHighlight);
+}
+
+// Edges of one triangle only: they show the shape where the function is 0.
+std::vector<Segment> outline_of(const PointList<2>& points, const CellList<2>& triangles) {
+  std::map<std::pair<Index, Index>, int> counts;
+  for (const auto& corners : triangles.colwise()) {
+    for (int k = 0; k < 3; ++k) ++counts[std::minmax({corners[k], corners[(k + 1) % 3]})];
+  }
+  std::vector<Segment> outline;
+  for (const auto& [ends, count] : counts) {
+    if (count == 1) outline.push_back({points.col(ends.first), points.col(ends.second)});
+  }
+  return outline;
+}
+
+void paint_function(Canvas& canvas, const PixelMap& map, const Cage<2>& cage,
+                    const DomainMesh<2>& mesh, const Eigen::VectorXd& values, Index control_point,
+                    const WeightPictureOptions& options, double unit) {
+  const PointList<2> points = map(mesh.points);
+  canvas.draw_segments(outline_of(points, mesh.cells), 2.4 * unit, kInk, 0.8F);
+  paint_weight(canvas, points, mesh.cells, values, options);
+  paint_cage(canvas, cage, map, control_point, unit);
+}
+
+void check_edges(const Cage<2>& cage) {
+  if (cage.facets.size() > 0 &&
+      (cage.facets.minCoeff() < 0 || cage.facets.maxCoeff() >= cage.size())) {
+    throw InputError("an edge of the cage refers to a control point that does not exist");
+  }
+}
+
+void check_shape(const CellList<2>& triangles, const DrawnShape& shape, const DrawnShape& other) {
+  const auto num_points = shape.points.cols();
+  if (num_points != other.points.cols() ||
+      shape.control_points.cols() != other.control_points.cols()) {
+    throw InputError("the shape or its cage has another number of points before than after");
+  }
+  if (!shape.points.allFinite()) throw InputError("a point of the shape is not finite");
+  if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= num_points)) {
+    throw InputError("a triangle of the shape refers to a point that does not exist");
+  }
+}
+
+// All that either shape covers: the cage and what lies outside it.
+Box common_box(const DrawnShape& before, const DrawnShape& after) {
+  PointList<2> all(2, 2 * (before.points.cols() + before.control_points.cols()));
+  all << before.points, before.control_points, after.points, after.control_points;
+  return bounding_box(all);
+}
+
+}  // namespace
+
+std::string draw_weights(const Cage<2>& cage, const DomainMesh<2>& mesh,
+                         const Eigen::VectorXd& values, Index control_point,
+                         const WeightPictureOptions& options) {
+  validate(options);
+  check_edges(cage);
+  check_weight(values, mesh.num_vertices(), control_point, cage.size());
+  const Box content = bounding_box(cage.points);
+  const PictureLayout layout = plan_picture(content, options);
+  Canvas canvas(layout.width, layout.height, options.format);
+  const PixelMap map(content, layout.frame);
+  const double unit = std::max(0.6, pixel_unit(options));
+  paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
+  if (options.color_bar) {
+    paint_color_bar(canvas, layout.color_bar, control_point, values.minCoeff(), values.maxCoeff(),
+                    options);
+  }
+  return canvas.encode();
+}
+
+std::string draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const WeightMatrix& weights,
+                     const std::vector<Index>& control_points,
+                     const WeightPictureOptions& options) {
+  validate(options);
+  check_edges(cage);
+  if (control_points.empty()) throw OptionError("there is no control point to draw");
+  const Box content = bounding_box(cage.points);
+  const int count = static_cast<int>(control_points.size());
+  const auto sheet = plan_sheet(content, count, options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (int k = 0; k < count; ++k) {
+    const Index control_point = control_points[k];
+    check_weight(control_point >= 0 && control_point < weights.rows()
+                     ? Eigen::VectorXd(weights.row(control_point))
+                     : Eigen::VectorXd(),
+                 mesh.num_vertices(), control_point, cage.size());
+    const PixelMap map(content, sheet.frames[k]);
+    paint_function(canvas, map, cage, mesh, weights.row(control_point), control_point, options,
+                   unit);
+    paint_symbol(canvas, sheet.label(k), control_point, sheet.label_height);
+  }
+  return canvas.encode();
+}
+
+std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,
+                             const DrawnShape& before, const DrawnShape& after,
+                             const Eigen::VectorXd& values, Index control_point,
+                             const WeightPictureOptions& options) {
+  validate(options);
+  check_shape(triangles, before, after);
+  check_shape(triangles, after, before);
+  check_weight(values, static_cast<Index>(before.points.cols()), control_point,
+               static_cast<Index>(before.control_points.cols()));
+
+  const Box content = common_box(before, after);
+  const Vector<2> size = content.size();
+  const bool beside = size.x() < 1.6 * size.y();
+  const double gap = 0.06 * size.maxCoeff();
+  const Vector<2> step = beside ? Vector<2>(size.x() + gap, 0) : Vector<2>(0, size.y() + gap);
+  // Both in one plane: the first at the left or above.
+  const Vector<2> first = content.low + (beside ? Vector<2>(0, 0) : step);
+  const Vector<2> second = content.low + (beside ? step : Vector<2>(0, 0));
+  const Box both{content.low, content.high + step};
+
+  const PictureLayout layout = plan_picture(both, options);
+  const PixelMap map(both, layout.frame);
+  const double unit = std::max(0.6, pixel_unit(options));
+  Canvas canvas(layout.width, layout.height, options.format);
+  const auto paint = [&](const DrawnShape& shape, const Vector<2>& place) {
+    const Vector<2> shift = place - content.low;
+    const Cage<2> cage{shape.control_points.colwise() + shift, facets};
+    const DomainMesh<2> mesh{shape.points.colwise() + shift, triangles};
+    check_edges(cage);
+    paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
+  };
+  paint(before, first);
+  paint(after, second);
+  if (options.color_bar) {
+    paint_color_bar(canvas, layout.color_bar, control_point, values.minCoeff(), values.maxCoeff(),
+                    options);
+  }
+  return canvas.encode();
+}
+
+}  // namespace flbc::draw
