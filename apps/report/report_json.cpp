@@ -44,7 +44,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"method", name_of(given.method)},
           {"non_negative", name_of(options.non_negative)},
           {"coarse_to_fine", name_of(options.coarse_to_fine)},
-          {"active", name_of(options.active_pairs)},
+          {"active", name_of(options.active_set)},
           {"certify", options.certify},
           {"phi", name_of(options.phi)},
           {"distances", name_of(options.distances)},
@@ -119,8 +119,8 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["distances"] = {{"source", name_of(report.distances.source)},
                        {"vertices", report.distances.vertices},
                        {"phi_error", report.distances.phi_error}};
-  json["active_pairs"] = {{"density", report.active_pairs.density},
-                          {"growths", report.active_pairs.growths}};
+  json["active_set"] = {{"density", report.active_set.density},
+                          {"growths", report.active_set.growths}};
   json["coarse_levels"] = levels_json(report.coarse_levels);
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;

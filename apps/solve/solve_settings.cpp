@@ -68,7 +68,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "start from coarser meshes of the cage (default: auto, where it saves time)");
   add_choice(command, "--phi", options.phi,
              "growth of the distance weights with distance (default: square)");
-  add_choice(command, "--active", options.active_pairs,
+  add_choice(command, "--active", options.active_set,
              "store and update only weights that may be positive (default: auto, which is on in "
              "3D from 80 control points, unless --certify is given)");
   add_choice(command, "--distances", options.distances,

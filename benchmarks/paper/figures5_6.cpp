@@ -39,7 +39,7 @@ std::string curve(const Context& context, const ResultTable& table, const Curves
   std::string lines;
   for (int iterations = curves.first; iterations <= last; iterations *= curves.factor) {
     options.max_iterations = iterations;
-    const auto [weights, report] = solve(setting.problem, options);
+    const auto [weights, sparse, report] = solve(setting.problem, options);
     auto row = mesh_row(setting);
     add_run(row, method.name, setting.setup_seconds, report);
     row["error"] = number(squared_error(setting.problem, weights, optimum.weights));

@@ -68,7 +68,7 @@ Row compare(const Context& context, const Case& chosen, const LbcProblem<Dim>& p
   options.tolerance = 1e-30;  // never: run to the end
   options.max_iterations = iterations_of(context, chosen, method);
   options.certify = true;
-  const auto [weights, report] = solve(problem, options);
+  const auto [weights, sparse, report] = solve(problem, options);
   const bool off = non_negative == NonNegative::kOff;
   const auto& optimum = off ? reference.without() : reference.with();
   const auto sampled = reference.sampled(weights);

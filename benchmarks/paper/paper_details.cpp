@@ -6,7 +6,7 @@
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "problem/domain_scale.h"
-#include "solver/gradient/gradient_admm.h"
+#include "solver/methods/gradient/gradient_admm.h"
 
 namespace flbc::bench {
 namespace {

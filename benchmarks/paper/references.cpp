@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "flbc/content_hash.h"
+#include "paper/content_hash.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"

@@ -31,7 +31,7 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
   auto options = method.options(setting.problem, context.threads);
   options.max_iterations = context.quick ? kQuickIterations : kMostIterations;
   options.certify = true;
-  const auto [weights, report] = solve(setting.problem, options);
+  const auto [weights, sparse, report] = solve(setting.problem, options);
   const auto optimum = reference(context, setting);
 
   auto row = mesh_row(setting);

@@ -79,7 +79,7 @@ double mean_squared_difference(const SparseWeights& a, const SparseWeights& b) {
 }
 
 //! \param weights  file that a run on all pairs writes and the other one compares with
-std::string measure(const Context& context, const Case& chosen, ActivePairs active,
+std::string measure(const Context& context, const Case& chosen, ActiveSet active,
                     const std::string& weights) {
   omp_set_num_threads(context.threads);
   const auto cage = cage_of(context, chosen);
@@ -87,7 +87,7 @@ std::string measure(const Context& context, const Case& chosen, ActivePairs acti
   SolverOptions options;
   options.threads = context.threads;
   options.tolerance = chosen.tolerance;
-  options.active_pairs = active;
+  options.active_set = active;
   Run run;
   run.seconds = 1e300;
   SparseSolution solution;
@@ -100,8 +100,8 @@ std::string measure(const Context& context, const Case& chosen, ActivePairs acti
   run.control_points = cage.size();
   run.vertices = mesh.num_vertices();
   run.iterations = solution.report.iterations;
-  run.density = solution.report.active_pairs.density;
-  if (active == ActivePairs::kOff) {
+  run.density = solution.report.active_set.density;
+  if (active == ActiveSet::kOff) {
     io::write_weights(weights, solution.weights);
   } else if (chosen.on_all_pairs) {
     run.difference = mean_squared_difference(solution.weights, io::read_sparse_weights(weights));
@@ -114,12 +114,12 @@ std::optional<Row> compare(const Context& context, const Case& chosen) {
   const auto what = "many: " + std::to_string(chosen.control_points) + " control points, " +
                     std::to_string(chosen.vertices) + " vertices, " + number(chosen.tolerance);
   std::printf("%s\n", what.c_str());
-  const auto by = [&](ActivePairs active) {
+  const auto by = [&](ActiveSet active) {
     return in_child(what, [&] { return measure(context, chosen, active, weights); });
   };
-  const auto told_of_all = chosen.on_all_pairs ? by(ActivePairs::kOff) : std::nullopt;
+  const auto told_of_all = chosen.on_all_pairs ? by(ActiveSet::kOff) : std::nullopt;
   const bool failed = chosen.on_all_pairs && !told_of_all;
-  const auto told_of_supports = failed ? std::nullopt : by(ActivePairs::kOn);
+  const auto told_of_supports = failed ? std::nullopt : by(ActiveSet::kOn);
   std::filesystem::remove(weights);
   if (!told_of_supports) return std::nullopt;
   const auto supports = run_of(*told_of_supports);

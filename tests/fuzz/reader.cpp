@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "flbc/byte_archive.h"
 #include "flbc/errors.h"
 
 namespace flbc::fuzz {

@@ -85,8 +85,8 @@ template <int Dim>
 void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& domain) {
   SolverOptions options;
   options.tolerance = 1e-5;
-  for (const auto pairs : {ActivePairs::kOff, ActivePairs::kOn}) {
-    options.active_pairs = pairs;
+  for (const auto pairs : {ActiveSet::kOff, ActiveSet::kOn}) {
+    options.active_set = pairs;
     const auto mesher = openmesh::internal::coarse_mesher(openmesh::internal::linked_mesher<Dim>());
     const auto expected = solve<Dim>(cage, domain, options, mesher);
     auto mesh = mesh_of(domain);
@@ -95,10 +95,10 @@ void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>&
     EXPECT_EQ(report.distances.source, expected.report.distances.source);
     EXPECT_EQ(report.coarse_levels.size(), expected.report.coarse_levels.size());
     EXPECT_EQ(report.state_scalars_per_cell, expected.report.state_scalars_per_cell);
-    EXPECT_EQ(report.active_pairs.density, expected.report.active_pairs.density);
-    EXPECT_EQ(report.active_pairs.density < 1, pairs == ActivePairs::kOn);
+    EXPECT_EQ(report.active_set.density, expected.report.active_set.density);
+    EXPECT_EQ(report.active_set.density < 1, pairs == ActiveSet::kOn);
     EXPECT_LT((openmesh::get_weights(mesh) - expected.weights).cwiseAbs().maxCoeff(), 1e-3);
-    if (pairs == ActivePairs::kOn) continue;
+    if (pairs == ActiveSet::kOn) continue;
     openmesh::PropertyOptions properties;
     properties.keep_state = true;
     const auto kept = openmesh::solve(mesh, cage, options, properties);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The estimate that Method::kValue stops by, on errors that are known because they are made up.
-#include "solver/splitting/error_estimate.h"
+#include "solver/run/error_estimate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
-namespace flbc::splitting {
+namespace flbc {
 namespace {
 
 using Modes = std::vector<std::pair<double, std::complex<double>>>;  // amplitude, factor
@@ -53,10 +54,10 @@ constexpr double kNever = 0;  // a tolerance that is not reached: no residual is
 // Calls `check(iteration, estimate / error)` whenever there is a fresh estimate.
 template <class Run>
 void follow(const Run& run, int last, const std::function<void(int, double)>& check) {
-  constexpr int kSpan = WeightHistory<float>::kSpan;
-  ErrorEstimate estimate(Start::kCold, 3, kNever);
+  constexpr int kSpan = WeightHistory::kSpan;
+  ErrorEstimate estimate(Origin::kCold, 3, kNever);
   for (int k = 1; k <= last; ++k) {
-    const bool look = k >= kSpan && k % WeightHistory<float>::kStep == 0;
+    const bool look = k >= kSpan && k % WeightHistory::kStep == 0;
     const double now =
         estimate(k, run.difference(k, k - 1), look ? run.difference(k, k - kSpan) : -1);
     if (look && k > 2 * kSpan) check(k, now / run.error(k));
@@ -130,8 +131,8 @@ TEST(ErrorEstimate, SeesThroughOscillations) {
 }
 
 TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
-  ErrorEstimate cold(Start::kCold, 3, kNever);
-  ErrorEstimate warm(Start::kNearby, 3, kNever);
+  ErrorEstimate cold(Origin::kCold, 3, kNever);
+  ErrorEstimate warm(Origin::kNearby, 3, kNever);
   const double estimate = cold(1, 1e-9, -1);
   EXPECT_GT(estimate, 1e-7);
   EXPECT_GT(warm(1, 1e-9, -1), estimate);
@@ -141,7 +142,7 @@ TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
 // Errors that shrink as a power of k are k^2 / power^2 times the squared change. What rates tell of
 // them early is less, in 3D as in the models.
 TEST(ErrorEstimate, OfEarlyIterationsIsNoLessThanAPowerTells) {
-  for (const auto start : {Start::kCold, Start::kCoarserMesh}) {
+  for (const auto start : {Origin::kCold, Origin::kCoarserMesh}) {
     for (const double power : {1.0, 1.5}) {
       const PowerRun run{power};
       ErrorEstimate estimate(start, 3, kNever);
@@ -158,7 +159,7 @@ TEST(ErrorEstimate, OfEarlyIterationsIsNoLessThanAPowerTells) {
 }
 
 TEST(ErrorEstimate, KeepsTheLastEstimateBetweenTwoLooks) {
-  ErrorEstimate estimate(Start::kCold, 3, kNever);
+  ErrorEstimate estimate(Origin::kCold, 3, kNever);
   estimate(32, 1e-11, 1e-6);
   const double last = estimate(40, 1e-11, 5e-7);
   EXPECT_EQ(estimate(41, 1e-15, -1), last);
@@ -166,14 +167,14 @@ TEST(ErrorEstimate, KeepsTheLastEstimateBetweenTwoLooks) {
 }
 
 TEST(ErrorEstimate, PassesOnNumbersThatAreNotFinite) {
-  ErrorEstimate estimate(Start::kCold, 3, kNever);
+  ErrorEstimate estimate(Origin::kCold, 3, kNever);
   EXPECT_TRUE(std::isnan(estimate(1, std::nan(""), -1)));
   EXPECT_TRUE(std::isinf(estimate(2, INFINITY, -1)));
 }
 
 TEST(ErrorEstimate, CatchesRunsThatSpeedUpAgain) {
-  ErrorEstimate slow(Start::kCold, 3, kNever);
-  ErrorEstimate fast(Start::kCold, 3, kNever);
+  ErrorEstimate slow(Origin::kCold, 3, kNever);
+  ErrorEstimate fast(Origin::kCold, 3, kNever);
   for (const auto estimate : {&slow, &fast}) {
     (*estimate)(32, 1e-9, 1e-5);
     (*estimate)(40, 1e-9, 1e-6);
@@ -182,7 +183,7 @@ TEST(ErrorEstimate, CatchesRunsThatSpeedUpAgain) {
 }
 
 TEST(ErrorEstimate, DoesNotEndWhereNothingShrinks) {
-  ErrorEstimate estimate(Start::kCold, 3, kNever);
+  ErrorEstimate estimate(Origin::kCold, 3, kNever);
   for (int k = 32; k < 400; k += 8) {
     EXPECT_GT(estimate(k, 1e-12, 1e-8), k > 40 ? 1e-7 : 1e-9);
   }
@@ -207,14 +208,14 @@ int bring_to_the_end(ErrorEstimate& estimate) {
 }
 
 TEST(ErrorEstimate, IsConfirmedByASmallResidual) {
-  ErrorEstimate estimate(Start::kCold, 3, 1e-6);
+  ErrorEstimate estimate(Origin::kCold, 3, 1e-6);
   const int k = bring_to_the_end(estimate);
   EXPECT_LE(estimate(k + 1, 1e-12, -1, 1e-7), 1e-6);
   EXPECT_FALSE(estimate.wants_residual());
 }
 
 TEST(ErrorEstimate, ALargeResidualKeepsARunGoing) {
-  ErrorEstimate estimate(Start::kCold, 3, 1e-6);
+  ErrorEstimate estimate(Origin::kCold, 3, 1e-6);
   const int k = bring_to_the_end(estimate);
   EXPECT_GT(estimate(k + 1, 1e-12, -1, 1e-3), 1e-5);
   EXPECT_FALSE(estimate.wants_residual());  // not again at once
@@ -228,7 +229,7 @@ TEST(ErrorEstimate, ALargeResidualKeepsARunGoing) {
 
 TEST(ErrorEstimate, AResidualCountsMoreTheLongerItStays) {
   const auto hidden = [](int iterations) {
-    ErrorEstimate estimate(Start::kCold, 3, 1e-6);
+    ErrorEstimate estimate(Origin::kCold, 3, 1e-6);
     int k = 40;
     for (; k < iterations; k += 8) estimate(k, 1e-12, 1e-3 * std::pow(0.9, k));
     return estimate(k, 1e-12, 1e-20, 1e-3);
@@ -238,7 +239,7 @@ TEST(ErrorEstimate, AResidualCountsMoreTheLongerItStays) {
 }
 
 TEST(ErrorEstimate, PassesOnResidualsThatAreNotFinite) {
-  ErrorEstimate estimate(Start::kCold, 3, 1e-6);
+  ErrorEstimate estimate(Origin::kCold, 3, 1e-6);
   EXPECT_TRUE(std::isnan(estimate(bring_to_the_end(estimate) + 1, 1e-12, -1, std::nan(""))));
 }
 
@@ -250,18 +251,18 @@ using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(WeightHistoryTest, Scalars);
 
 template <class Scalar>
-typename WeightHistory<Scalar>::ReadRow rows_of(const std::vector<Scalar>& weights,
-                                                std::size_t stride) {
-  return [&weights, stride](Index vertex, Scalar* row) {
+WeightHistory::ReadRow rows_of(const std::vector<Scalar>& weights, std::size_t stride) {
+  return [&weights, stride](Index vertex, double* row) {
     std::copy_n(weights.data() + vertex * stride, stride, row);
   };
 }
 
 TYPED_TEST(WeightHistoryTest, ComparesWithTheWeightsASpanAgo) {
-  using History = WeightHistory<TypeParam>;
+  using History = WeightHistory;
+  constexpr bool kInDouble = std::is_same_v<TypeParam, double>;
   const std::vector<Index> vertices{0, 2, 3};  // vertex 1 is on the boundary
   constexpr std::size_t kStride = 8;
-  History history(vertices, kStride);
+  History history(vertices, kStride, kInDouble);
   std::vector<TypeParam> weights(4 * kStride);
   for (int iteration = 0; iteration <= 200; ++iteration) {
     for (std::size_t v = 0; v < 4; ++v) {
@@ -278,10 +279,11 @@ TYPED_TEST(WeightHistoryTest, ComparesWithTheWeightsASpanAgo) {
 }
 
 TYPED_TEST(WeightHistoryTest, ASampleOfALargeMeshServes) {
-  using History = WeightHistory<TypeParam>;
+  using History = WeightHistory;
+  constexpr bool kInDouble = std::is_same_v<TypeParam, double>;
   std::vector<Index> vertices(100000);
   std::iota(vertices.begin(), vertices.end(), 0);
-  History history(vertices, 8);
+  History history(vertices, 8, kInDouble);
   std::vector<TypeParam> weights(8 * vertices.size());
   const auto rows = rows_of(weights, 8);
   history(0, rows);
@@ -294,4 +296,4 @@ TYPED_TEST(WeightHistoryTest, ASampleOfALargeMeshServes) {
 }
 
 }  // namespace
-}  // namespace flbc::splitting
+}  // namespace flbc

@@ -39,7 +39,7 @@ void expect_promise_kept(const LbcProblem<Dim>& problem, const std::vector<doubl
     options.non_negative = NonNegative::kOff;
     options.linear_solver = linear_solver;
     options.tolerance = tolerance;
-    const auto [weights, report] = solve(problem, options);
+    const auto [weights, sparse, report] = solve(problem, options);
     EXPECT_EQ(report.status, SolveStatus::kConverged);
     const double error = mean_squared_difference(problem.mesh, weights, exact);
     EXPECT_LT(error, kAllowance * tolerance);

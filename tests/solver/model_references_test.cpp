@@ -57,7 +57,7 @@ void expect_optimum(const LbcProblem<Dim>& problem, const ModelReference<Dim>& r
   options.tolerance = 1e-30;  // never: run to the end
   options.max_iterations = expected.iterations;
   options.certify = true;
-  const auto [weights, report] = solve(problem, options);
+  const auto [weights, sparse, report] = solve(problem, options);
   EXPECT_LT(report.objective, optimum.objective * (1 + expected.objective));
   EXPECT_GT(report.objective, optimum.objective * (1 - optimum.gap));
   // The bound is one of non-negative weights.

@@ -75,7 +75,7 @@ void expect_tighter_is_better(const Model& model) {
   options.certify = true;
   options.gap = 0;
   const auto by_default = solve(problem, options);
-  const double tolerance = resolve(options).tolerance;
+  const double tolerance = *resolve(options).tolerance;
   options.tolerance = tolerance / 100;
   options.precision = Precision::kDouble;
   const auto tighter = solve(problem, options);

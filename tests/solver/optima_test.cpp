@@ -14,7 +14,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
-#include "solver/splitting/weight_splitting.h"
+#include "solver/methods/splitting/compact_splitting.h"
 #include "support/judge.h"
 #include "support/reference_optimum.h"
 #include "support/simplex.h"
@@ -107,10 +107,10 @@ TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
     metric.vertex = Eigen::VectorXd::Constant(
         problem.mesh.num_vertices(),
         100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
-    splitting::WeightSplitting<double, kDim> splitting(problem, metric, 300 / per_cell, 1.65);
+    compact::CompactSplitting<double, kDim> splitting(problem, metric, {300 / per_cell, 1.65});
     splitting.start_from_weights(harmonic_coordinates(problem));
-    for (int iteration = 0; iteration < 8000; ++iteration) splitting.iterate();
-    expect_optimal(problem, splitting.weights(), reference.non_negative);
+    splitting.iterate(8000, false);
+    expect_optimal(problem, splitting.all_weights(), reference.non_negative);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distances from a coarser mesh: when they are taken, and what they change.
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ Sample<Dim> sample_of() {
 }
 
 template <int Dim>
-Solution solve_with(Distances distances, double tolerance, Index resolution,
+Solution solve_with(Distances distances, std::optional<double> tolerance, Index resolution,
                     Method method = Method::kValue) {
   const auto sample = sample_of<Dim>();
   SolverOptions options;
@@ -73,7 +74,7 @@ TYPED_TEST(SetUpTest, LeftToItselfItKeepsTheTolerance) {
 TYPED_TEST(SetUpTest, OtherMethodsAreExactUnlessTold) {
   constexpr int kDim = TypeParam::value;
   const auto source = [](Distances distances) {
-    return solve_with<kDim>(distances, 0, 4, Method::kLbc2014).report.distances.source;
+    return solve_with<kDim>(distances, {}, 4, Method::kLbc2014).report.distances.source;
   };
   EXPECT_EQ(source(Distances::kAuto), Distances::kExact);
   EXPECT_EQ(source(Distances::kInterpolated), Distances::kInterpolated);
@@ -90,7 +91,7 @@ TYPED_TEST(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
     SolverOptions options;
     options.method = method;
     options.distances = Distances::kInterpolated;
-    LbcSolver<kDim> solver(sample.cage, sample.mesh, options, never);
+    Solver<kDim> solver(sample.cage, sample.mesh, options, never);
     EXPECT_EQ(solver.problem().phi.size(), 0);
     const auto solution = solver.solve();
     EXPECT_EQ(solver.problem().phi.size(), 0);
@@ -112,7 +113,7 @@ TYPED_TEST(SetUpTest, MethodsThatMinimiseFindThemLater) {
   const auto sample = sample_of<kDim>();
   SolverOptions options;
   options.method = Method::kHarmonic;
-  LbcSolver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<kDim> solver(sample.cage, sample.mesh, options);
   solver.solve();
   SolverOptions minimise;
   minimise.max_iterations = 20;
@@ -131,7 +132,7 @@ TYPED_TEST(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {
   options.tolerance = 1e-4;
   options.distances = Distances::kInterpolated;
   EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
-  EXPECT_THROW(LbcSolver<kDim>(sample.cage, sample.mesh, options), OptionError);
+  EXPECT_THROW(Solver<kDim>(sample.cage, sample.mesh, options), OptionError);
   const CoarseMesher<kDim> fails = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
     throw InputError("too few");
   };

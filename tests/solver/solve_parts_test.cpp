@@ -154,7 +154,8 @@ TYPED_TEST(SolvePartsTest, TotalVariationAddsUp) {
   const auto pair = std::move(pairs<kDim>().front());
   SolverOptions options;
   options.phi = DistanceScheme::kConstant;
-  const auto [weights, report] = solve(pair.whole.cage, pair.whole.mesh, options);
+  const auto [weights, sparse, report] = solve(pair.whole.cage, pair.whole.mesh, options);
+  EXPECT_EQ(sparse.num_points(), 0);
   EXPECT_EQ(report.status, SolveStatus::kConverged);
   EXPECT_NEAR(total_variation(pair.whole.mesh, weights), report.objective,
               1e-10 * report.objective);
@@ -166,13 +167,14 @@ TYPED_TEST(SolvePartsTest, ProgressIsThatOfTheWhole) {
   SolverOptions options;
   std::vector<int> to_come;
   std::vector<double> stages;
-  options.progress = [&](const Progress& progress) {
+  Observer observer;
+  observer.progress = [&](const Progress& progress) {
     to_come.push_back(progress.finer_levels);
     return true;
   };
-  options.stage_progress = [&](Stage, double done) { stages.push_back(done); };
+  observer.stage = [&](Stage, double done) { stages.push_back(done); };
   options.certify = true;
-  solve(pair.whole.cage, pair.whole.mesh, options);
+  solve(pair.whole.cage, pair.whole.mesh, options, {}, observer);
   ASSERT_FALSE(to_come.empty());
   EXPECT_EQ(to_come.front(), 1);
   EXPECT_EQ(to_come.back(), 0);
@@ -181,8 +183,8 @@ TYPED_TEST(SolvePartsTest, ProgressIsThatOfTheWhole) {
   EXPECT_NEAR(*std::max_element(stages.begin(), stages.end()), 1, 1e-12);
 
   int calls = 0;
-  options.progress = [&](const Progress&) { return ++calls < 2; };
-  const auto stopped = solve(pair.whole.cage, pair.whole.mesh, options);
+  observer.progress = [&](const Progress&) { return ++calls < 2; };
+  const auto stopped = solve(pair.whole.cage, pair.whole.mesh, options, {}, observer);
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.criterion, Criterion::kNone);
   EXPECT_TRUE(
@@ -209,7 +211,7 @@ TYPED_TEST(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
   // A cage of one part only.
   expect_refused<kDim>([&] { solve(alone[0].cage, whole.mesh); }, "vertex");
   // Classes that keep a state hold one part.
-  expect_refused<kDim>([&] { LbcSolver<kDim>(whole.cage, whole.mesh); }, "not connected");
+  expect_refused<kDim>([&] { Solver<kDim>(whole.cage, whole.mesh); }, "not connected");
   expect_refused<kDim>([&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); },
                        "2 parts");
 }

@@ -67,7 +67,7 @@ TYPED_TEST(SolverTest, GradientEndsByTheErrorOfItsWeights) {
            {LinearSolver::kDirect, LinearSolver::kMultigrid, LinearSolver::kNone}) {
         SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(static_cast<int>(solver)));
         options.linear_solver = solver;
-        const auto [weights, report] = solve(problem, options);
+        const auto [weights, sparse, report] = solve(problem, options);
         EXPECT_EQ(report.criterion, Criterion::kTolerance);
         EXPECT_LT(mean_squared_difference(problem.mesh, weights, optimum), 3 * tolerance);
         EXPECT_LE(report.primal_residual, 1);
@@ -107,17 +107,19 @@ TYPED_TEST(SolverTest, GradientsAndWeightsAgree) {
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    const auto optimum = [&](Method method, double penalty) {
+    const auto optimum = [&](Method method, std::optional<double> penalty) {
       SolverOptions options;
       options.method = method;
       options.precision = Precision::kDouble;
       options.non_negative = NonNegative::kOff;
-      options.penalty = published_penalty(sample.cage, sample.mesh, method, penalty);
+      if (penalty) {
+        options.penalty = published_penalty(sample.cage, sample.mesh, method, *penalty);
+      }
       options.tolerance = 1e-20;  // never: run to the end
       options.max_iterations = 4000;
       return solve(problem, options).weights;
     };
-    const auto weights = optimum(Method::kValue, 0);
+    const auto weights = optimum(Method::kValue, {});
     const auto gradients = optimum(Method::kPaper, kDim == 2 ? 1e4 : 1e5);
     const double value = testing::objective(problem.mesh, weights, problem.phi.dense());
     EXPECT_NEAR(testing::objective(problem.mesh, gradients, problem.phi.dense()), value,
@@ -174,11 +176,12 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
 
   options.max_iterations = 1000;
   int calls = 0;
-  options.progress = [&](const Progress& progress) {
+  Observer observer;
+  observer.progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.iteration, 10 * ++calls);
     return calls < 3;
   };
-  const auto stopped = solve(sample.cage, sample.mesh, options);
+  const auto stopped = solve(sample.cage, sample.mesh, options, {}, observer);
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.iterations, 30);
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
@@ -194,11 +197,12 @@ TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
     options.threads = threads;
     std::map<Stage, std::vector<double>> told;
     const auto caller = std::this_thread::get_id();
-    options.stage_progress = [&](Stage stage, double done) {
+    Observer observer;
+    observer.stage = [&](Stage stage, double done) {
       EXPECT_EQ(std::this_thread::get_id(), caller);
       told[stage].push_back(done);
     };
-    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, without);
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options, {}, observer).weights, without);
     for (const auto stage : {Stage::kDistances, Stage::kNonNegative, Stage::kCertificate}) {
       const auto& parts = told[stage];
       ASSERT_FALSE(parts.empty());

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/splitting/splitting_data.h"
+#include "solver/methods/splitting/metric.h"
 #include "support/judge.h"
 #include "support/simplex.h"
 #include "support/textbook_lbc2014.h"
@@ -49,7 +49,6 @@ Lbc2014Input<Dim> textbook_input(const LbcProblem<Dim>& problem, const splitting
   input.interior = problem.boundary.interior_vertices();
   input.cell_metric = metric.cell;
   input.vertex_metric = metric.vertex;
-  input.largest_weight = metric.largest_weight;
   input.penalty = penalty;
   input.relaxation = relaxation;
   // The library starts with y = z + u = 0, so that u = -grad w.

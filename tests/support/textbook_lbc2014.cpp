@@ -70,7 +70,7 @@ void TextbookLbc2014<Dim>::iterate() {
   const Eigen::MatrixXd grad = gradients(w);
   // 1. W: nearest matrix within its bounds; Z: shrinkage of each gradient.
   const bool has_w = input_.vertex_metric.size() > 0;
-  W_ = has_w ? Eigen::MatrixXd((w - dual_w_).cwiseMax(0).cwiseMin(input_.largest_weight)) : w;
+  W_ = has_w ? Eigen::MatrixXd((w - dual_w_).cwiseMax(0)) : w;
   Z_ = grad - dual_z_;
   for (Index s = 0; s < input_.mesh.cells.cols(); ++s) {
     const double measure = simplex_measure<Dim>(cell_corners(input_.mesh, s));
@@ -81,8 +81,10 @@ void TextbookLbc2014<Dim>::iterate() {
       z *= z.norm() > threshold ? 1 - threshold / z.norm() : 0.0;
     }
   }
-  primal_residual_ = std::sqrt((z_metric_.asDiagonal() * (Z_ - grad).cwiseAbs2()).sum() +
-                               (w_metric_.asDiagonal() * (W_ - w).cwiseAbs2()).sum());
+  violation_z_ = Z_ - grad;
+  violation_w_ = W_ - w;
+  primal_residual_ = std::sqrt((z_metric_.asDiagonal() * violation_z_.cwiseAbs2()).sum() +
+                               (w_metric_.asDiagonal() * violation_w_.cwiseAbs2()).sum());
   // 2. Y.
   const double alpha = input_.relaxation;
   const Eigen::MatrixXd relaxed_z = alpha * Z_ + (1 - alpha) * grad;

@@ -5,7 +5,6 @@
 //! library's splitting, with which it shares no code.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -26,7 +25,6 @@ struct Lbc2014Input {
   Eigen::VectorXd vertex_metric;    //!< weight of |W - w|^2 per vertex, V; empty: no W
   double penalty = 1;               //!< mu > 0
   double relaxation = 1;            //!< in (0, 2)
-  double largest_weight = std::numeric_limits<double>::infinity();  //!< of W
   Eigen::MatrixXd initial_z_dual{};  //!< scaled dual of Z, n x Dim F (a block per cell)
 };
 
@@ -43,6 +41,13 @@ class TextbookLbc2014 {
   //! Norms of [sqrt(metric) (Z - grad w); sqrt(metric) (W - w)] and of mu times the change of
   //! [sqrt(metric) grad w; sqrt(metric) w] in the last iteration.
   double primal_residual_norm() const { return primal_residual_; }
+  //! The parts of the first one, squared: of one cell, and of W = w at all vertices.
+  double squared_violation_of_cell(Index cell) const {
+    return (z_metric_.asDiagonal() * violation_z_.cwiseAbs2()).middleRows(Dim * cell, Dim).sum();
+  }
+  double squared_violation_of_weights() const {
+    return (w_metric_.asDiagonal() * violation_w_.cwiseAbs2()).sum();
+  }
   double dual_residual_norm() const { return dual_residual_; }
 
  private:
@@ -56,7 +61,7 @@ class TextbookLbc2014 {
   Eigen::VectorXd z_metric_;  // Dim F
   Eigen::VectorXd w_metric_;  // m, zero without W
   Eigen::LDLT<Eigen::MatrixXd> system_;
-  Eigen::MatrixXd Y_, Z_, W_, dual_z_, dual_w_;
+  Eigen::MatrixXd Y_, Z_, W_, dual_z_, dual_w_, violation_z_, violation_w_;
   double primal_residual_ = 0;
   double dual_residual_ = 0;
 };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The iteration on supports: its linear step against a dense solver of the same problem, and its
+// The iteration on the active set: its linear step against a dense solver of the same problem, and its
 // limit against the iteration on all pairs.
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -14,21 +13,22 @@
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "polytope/nearest_point_in_hull.h"
-#include "solver/supports/iterate_on_supports.h"
+#include "solver/methods/active_set/active_set.h"
+#include "solver/plan/choices.h"
+#include "solver/run/run.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
-#include "support/splitting_cases.h"
 
 namespace flbc::testing {
 namespace {
 
-using supports::ControlPoint;
-using supports::SupportLists;
+using active_set::ControlPoint;
+using active_set::ActiveLists;
 
 template <class Dimension>
-class SupportsTest : public ::testing::Test {};
+class ActiveSetTest : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SupportsTest, Dimensions);
+TYPED_TEST_SUITE(ActiveSetTest, Dimensions);
 
 template <int Dim>
 LbcProblem<Dim> make_fine_problem(Shape shape) {
@@ -38,15 +38,15 @@ LbcProblem<Dim> make_fine_problem(Shape shape) {
 
 // The tighter the larger the threshold, as far as each vertex has weights there.
 template <int Dim>
-SupportLists supports_of_harmonic(const LbcProblem<Dim>& problem, double threshold) {
+ActiveLists active_of_harmonic(const LbcProblem<Dim>& problem, double threshold) {
   const WeightMatrix weights = harmonic_coordinates(problem);
-  return supports::supports_of<Dim>(
+  return active_set::active_of<Dim>(
       problem, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, threshold);
 }
 
 template <int Dim>
-std::vector<const supports::Kernel<double, Dim>*> kernels() {
-  const auto list = supported_kernels<supports::Kernel<double, Dim>>();
+std::vector<const active_set::Kernel<double, Dim>*> kernels() {
+  const auto list = supported_kernels<active_set::Kernel<double, Dim>>();
   return {list.kernels, list.kernels + list.size};
 }
 
@@ -58,7 +58,7 @@ struct DenseSpace {
   Eigen::MatrixXd system;  // K for every control point, pairs x pairs
 
   DenseSpace(const LbcProblem<Dim>& problem, const RowMatrix& matrix,
-             const supports::PackedLists& lists, const std::vector<Index>& vertices) {
+             const active_set::PackedLists& lists, const std::vector<Index>& vertices) {
     const Index rows = static_cast<Index>(vertices.size());
     std::vector<std::pair<Index, Index>> pairs;  // row and control point
     for (Index row = 0; row < rows; ++row) {
@@ -93,25 +93,25 @@ struct DenseSpace {
 template <int Dim>
 struct LinearStep {
   RowMatrix matrix;
-  supports::SweepOrder order;
+  active_set::SweepOrder order;
   std::vector<Index> vertices;
-  supports::PackedLists lists;
+  active_set::PackedLists lists;
   AlignedArray<double> bases;
 
-  LinearStep(const LbcProblem<Dim>& problem, const SupportLists& supports) {
+  LinearStep(const LbcProblem<Dim>& problem, const ActiveLists& active) {
     const auto metric = splitting::measure_metric(problem, true);
     matrix = splitting::system_matrix(problem, metric);
-    order = supports::sweep_order(matrix);
+    order = active_set::sweep_order(matrix);
     vertices.resize(matrix.rows());
     Index unknown = 0;
     for (const Index v : problem.boundary.interior_vertices()) {
       vertices[order.position[unknown++]] = v;
     }
     for (const Index v : vertices) {
-      lists.append(supports.of(v).first, supports.of(v).last,
+      lists.append(active.of(v).first, active.of(v).last,
                    static_cast<ControlPoint>(problem.num_control_points()));
     }
-    bases = supports::row_bases<double, Dim>(lists, problem.cage.points, {}, nullptr);
+    bases = active_set::row_bases<double, Dim>(lists, problem.cage.points, {}, nullptr);
   }
 
   Eigen::VectorXd packed(const AlignedArray<double>& numbers) const {
@@ -137,23 +137,23 @@ struct LinearStep {
 };
 
 template <int Dim>
-Eigen::VectorXd cycle_of(supports::SupportMultigrid<double, Dim>& multigrid,
+Eigen::VectorXd cycle_of(active_set::ActiveMultigrid<double, Dim>& multigrid,
                          const LinearStep<Dim>& step, const Eigen::VectorXd& right_side) {
   auto rows = step.padded_rows(right_side);
   multigrid.cycle(rows.data());
   return step.packed(rows);
 }
 
-TYPED_TEST(SupportsTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
+TYPED_TEST(ActiveSetTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
-  const LinearStep<kDim> step(problem, supports_of_harmonic(problem, 0.02));
+  const LinearStep<kDim> step(problem, active_of_harmonic(problem, 0.02));
   const DenseSpace<kDim> space(problem,
                                reordered(step.matrix, step.order.position, step.order.position),
                                step.lists, step.vertices);
   ASSERT_GT(space.basis.cols(), 20);
   for (const auto* kernel : kernels<kDim>()) {
-    supports::SupportMultigrid<double, kDim> multigrid(step.matrix, step.order, step.lists,
+    active_set::ActiveMultigrid<double, kDim> multigrid(step.matrix, step.order, step.lists,
                                                        step.bases, problem.cage.points, *kernel);
     const Eigen::VectorXd a = Eigen::VectorXd::Random(space.system.rows());
     const Eigen::VectorXd b = Eigen::VectorXd::Random(space.system.rows());
@@ -178,60 +178,68 @@ TYPED_TEST(SupportsTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
   }
 }
 
-// A run as solve() makes it, from harmonic coordinates on tight supports.
-template <class Scalar, class Stored, int Dim>
-Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance) {
-  SolveReport report;
+// A run as solve() makes it, from harmonic coordinates on a tight set.
+template <class Scalar, int Dim>
+Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool half) {
   SolverOptions options;
   options.tolerance = tolerance;
+  options.precision = std::is_same_v<Scalar, double> ? Precision::kDouble : Precision::kAuto;
   options = resolve(options);
-  const auto metric = splitting::measure_metric(problem, true);
-  ValueRun<Scalar, Dim> run(problem, metric.cell.sum(), options, false, splitting::Start::kCold,
-                            report);
   const WeightMatrix weights = harmonic_coordinates(problem);
-  DualStart<Dim> start;
+  Start<Dim> start;
   start.penalty = 50;
   start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
   start.flux_density = [n = problem.num_control_points()](Index) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
   };
-  supports::Iteration<Scalar, Dim> iteration(problem, metric, options, run, report);
-  auto last =
-      iteration.template run<Stored>(start, start.penalty, supports_of_harmonic(problem, 0.2),
-                                     {0, std::numeric_limits<int>::max(), 0}, [] {});
-  return {last.weights.dense(), std::move(report)};
+  active_set::Settings settings;
+  settings.penalty = start.penalty;
+  settings.relaxation = *options.relaxation;
+  settings.tolerance = tolerance;
+  settings.half = half;
+  active_set::ActiveSet<Scalar, Dim> iteration(
+      problem, splitting::measure_metric(problem, true), settings, active_of_harmonic(problem, 0.2));
+  iteration.start(start);
+  EstimatedError<Dim> stop(problem, options, Origin::kCold);
+  GapCriterion gap(0);
+  const Observer nobody;
+  const Reporter reporter(nobody);
+  SolveReport report;
+  EXPECT_TRUE(run<Dim>(iteration, {problem, options, stop, gap, reporter}, report));
+  iteration.describe(report);
+  return {iteration.weights().sparse.dense(), {}, std::move(report)};
 }
 
-TYPED_TEST(SupportsTest, GrowsToTheOptimumOfAllPairs) {
+TYPED_TEST(ActiveSetTest, GrowsToTheOptimumOfAllPairs) {
   constexpr int kDim = TypeParam::value;
   for (const auto shape : {Shape::kBox, Shape::kCorner}) {
     const auto problem = make_fine_problem<kDim>(shape);
     SolverOptions options;
-    options.active_pairs = ActivePairs::kOff;
+    options.active_set = ActiveSet::kOff;
     options.precision = Precision::kDouble;
     options.tolerance = 1e-10;
     const auto all = solve(problem, options);
-    const auto restricted = run_on_tight<double, double>(problem, 1e-10);
+    const auto restricted = run_on_tight<double>(problem, 1e-10, false);
     EXPECT_EQ(all.report.status, SolveStatus::kConverged);
     EXPECT_EQ(restricted.report.status, SolveStatus::kConverged);
-    EXPECT_GT(restricted.report.active_pairs.growths, 0);
+    EXPECT_GT(restricted.report.active_set.growths, 0);
     EXPECT_LT(squared_error(problem, restricted.weights, all.weights), 1e-9);
   }
 }
 
-TYPED_TEST(SupportsTest, SolveGivesTheSameOptimum) {
+TYPED_TEST(ActiveSetTest, SolveGivesTheSameOptimum) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
   SolverOptions options;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-10;
-  options.active_pairs = ActivePairs::kOff;
+  options.active_set = ActiveSet::kOff;
   const auto all = solve(problem, options);
-  EXPECT_EQ(all.report.active_pairs.density, 1);
-  options.active_pairs = ActivePairs::kOn;
+  EXPECT_EQ(all.report.active_set.density, 1);
+  options.active_set = ActiveSet::kOn;
   const auto restricted = solve(problem, options);
   EXPECT_EQ(restricted.report.status, SolveStatus::kConverged);
-  EXPECT_LT(restricted.report.active_pairs.density, 1);
+  EXPECT_LT(restricted.report.active_set.density, 1);
   EXPECT_LT(squared_error(problem, restricted.weights, all.weights), 1e-9);
   EXPECT_NEAR(restricted.report.objective, all.report.objective, 1e-5 * all.report.objective);
   const auto judged = judge(problem.cage, problem.mesh, restricted.weights);
@@ -240,20 +248,23 @@ TYPED_TEST(SupportsTest, SolveGivesTheSameOptimum) {
   EXPECT_LT(judged.reproduction_error, 1e-13);
 }
 
-// On supports, where they never were a matrix, and on all pairs.
-TYPED_TEST(SupportsTest, SparseSolutionIsTheSameWithoutZeros) {
+// On an active set, where they never were a matrix, and on all pairs.
+TYPED_TEST(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
   constexpr int kDim = TypeParam::value;
   const auto sample = with_fine_cage<kDim>(Shape::kCorner, 2, kDim == 2 ? 8 : 4);
-  for (const auto choice : {ActivePairs::kOn, ActivePairs::kOff}) {
+  for (const auto choice : {ActiveSet::kOn, ActiveSet::kOff}) {
     SolverOptions options;
-    options.active_pairs = choice;
+    options.active_set = choice;
     options.tolerance = 1e-6;
     const auto dense = solve(sample.cage, sample.mesh, options);
-    const auto sparse = solve_sparse(sample.cage, sample.mesh, options);
-    EXPECT_EQ(sparse.weights.dense(), dense.weights);
-    EXPECT_EQ((sparse.weights.values().size()),
+    options.sparse = true;
+    const auto sparse = solve(sample.cage, sample.mesh, options);
+    EXPECT_EQ(sparse.weights.size(), 0);
+    EXPECT_EQ(dense.sparse_weights.num_points(), 0);
+    EXPECT_EQ(sparse.sparse_weights.dense(), dense.weights);
+    EXPECT_EQ((sparse.sparse_weights.values().size()),
               static_cast<std::size_t>((dense.weights.array() != 0).count()));
-    EXPECT_LT(sparse.weights.values().size(), static_cast<std::size_t>(dense.weights.size()));
+    EXPECT_LT(sparse.sparse_weights.values().size(), static_cast<std::size_t>(dense.weights.size()));
     EXPECT_EQ(sparse.report.iterations, dense.report.iterations);
     EXPECT_NEAR(sparse.report.objective, dense.report.objective, 1e-12 * dense.report.objective);
     EXPECT_EQ(sparse.report.quality.min_weight, dense.report.quality.min_weight);
@@ -263,12 +274,12 @@ TYPED_TEST(SupportsTest, SparseSolutionIsTheSameWithoutZeros) {
   }
 }
 
-TYPED_TEST(SupportsTest, CertificateIsThatOfLastIterationsOnAllPairs) {
+TYPED_TEST(ActiveSetTest, CertificateIsThatOfLastIterationsOnAllPairs) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kBox);
   SolverOptions options;
   options.tolerance = 1e-9;
-  options.active_pairs = ActivePairs::kOn;
+  options.active_set = ActiveSet::kOn;
   options.certify = true;
   const auto solution = solve(problem, options);
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
@@ -276,24 +287,24 @@ TYPED_TEST(SupportsTest, CertificateIsThatOfLastIterationsOnAllPairs) {
   EXPECT_LT(solution.report.certificate.relative_gap, 1e-2);
 }
 
-TYPED_TEST(SupportsTest, NumberOfThreadsDoesNotMatter) {
+TYPED_TEST(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kStar);
   const auto weights_by = [&](int count) {
     const ThreadScope threads(count);
-    return run_on_tight<float, compact::Half>(problem, 1e-6).weights;
+    return run_on_tight<float>(problem, 1e-6, true).weights;
   };
   const auto one = weights_by(1);
   EXPECT_EQ(weights_by(2), one);
   EXPECT_EQ(weights_by(3), one);
 }
 
-TYPED_TEST(SupportsTest, LowerPrecisionsFollowDouble) {
+TYPED_TEST(ActiveSetTest, LowerPrecisionsFollowDouble) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
-  const auto exact = run_on_tight<double, double>(problem, 1e-9).weights;
-  const auto single = run_on_tight<float, float>(problem, 1e-8).weights;
-  const auto half = run_on_tight<float, compact::Half>(problem, 1e-6).weights;
+  const auto exact = run_on_tight<double>(problem, 1e-9, false).weights;
+  const auto single = run_on_tight<float>(problem, 1e-8, false).weights;
+  const auto half = run_on_tight<float>(problem, 1e-6, true).weights;
   // Tolerances are per control point, and may be missed by a factor of two.
   const double per_vertex = 2 * problem.num_control_points();
   EXPECT_LT(squared_error(problem, single, exact), 1e-8 * per_vertex);
@@ -301,11 +312,11 @@ TYPED_TEST(SupportsTest, LowerPrecisionsFollowDouble) {
 }
 
 // Whether a vertex is a combination of its control points with weights that are not negative.
-TYPED_TEST(SupportsTest, EveryVertexHasWeightsOnItsSupport) {
+TYPED_TEST(ActiveSetTest, EveryVertexHasWeightsOnItsSupport) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kStar);
   // Nothing is above this threshold: all that is there is what boundaries and feasibility ask for.
-  const auto lists = supports_of_harmonic(problem, 2);
+  const auto lists = active_of_harmonic(problem, 2);
   for (const Index v : problem.boundary.interior_vertices()) {
     const auto list = lists.of(v);
     PointList<kDim> points(kDim, list.last - list.first);
@@ -317,10 +328,10 @@ TYPED_TEST(SupportsTest, EveryVertexHasWeightsOnItsSupport) {
 }
 
 // Pair by pair, over all pairs of vertices of a cell.
-TYPED_TEST(SupportsTest, EndsAreWhereANeighbourLacksTheControlPoint) {
+TYPED_TEST(ActiveSetTest, EndsAreWhereANeighbourLacksTheControlPoint) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kCorner);
-  const auto lists = supports_of_harmonic(problem, 0.1);
+  const auto lists = active_of_harmonic(problem, 0.1);
   const auto holds = [&](Index v, ControlPoint i) {
     const auto list = lists.of(v);
     return std::find(list.first, list.last, i) != list.last;
@@ -341,25 +352,25 @@ TYPED_TEST(SupportsTest, EndsAreWhereANeighbourLacksTheControlPoint) {
   double expected = 0;
   for (const auto& [v, i] : ends) expected += weight_of(v, i) * weight_of(v, i);
   const auto in_list = [&](Index v, Index place) { return weight_of(v, lists.of(v).first[place]); };
-  EXPECT_NEAR(supports::squared_at_ends(problem, lists, in_list), expected, 1e-10 * expected);
-  const auto larger = supports::grown(problem, lists, 0, in_list);
+  EXPECT_NEAR(active_set::squared_at_ends(problem, lists, in_list), expected, 1e-10 * expected);
+  const auto larger = active_set::grown(problem, lists, 0, in_list);
   EXPECT_GT(larger.items.size(), lists.items.size());
-  EXPECT_EQ(supports::grown(problem, lists, 1e9, in_list).items, lists.items);
+  EXPECT_EQ(active_set::grown(problem, lists, 1e9, in_list).items, lists.items);
 }
 
 // Near weights above the threshold it stays as it is, elsewhere it is zero.
-TYPED_TEST(SupportsTest, FluxIsHandedOnWhereWeightsAre) {
+TYPED_TEST(ActiveSetTest, FluxIsHandedOnWhereWeightsAre) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kStar);
   const Index n = problem.num_control_points();
   const WeightMatrix weights = harmonic_coordinates(problem);
-  DualStart<kDim> start;
+  Start<kDim> start;
   start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
   start.flux_density = [&](Index s) {
     return Eigen::Matrix<double, Eigen::Dynamic, kDim>::Constant(n, kDim, s + 1).eval();
   };
   constexpr double kThreshold = 0.1;
-  const auto handed_on = supports::where_weights_are(problem, start, kThreshold);
+  const auto handed_on = active_set::where_weights_are(problem, start, kThreshold);
   Index zeros = 0;
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
     const auto density = handed_on(s);
@@ -376,12 +387,12 @@ TYPED_TEST(SupportsTest, FluxIsHandedOnWhereWeightsAre) {
   EXPECT_GT(zeros, 0);
 }
 
-TEST(Supports, AreForManyControlPointsIn3D) {
-  const auto serve = [](const auto& problem, ActivePairs choice, bool certify) {
+TEST(ActiveSetChoice, AreForManyControlPointsIn3D) {
+  const auto serve = [](const auto& problem, ActiveSet choice, bool certify) {
     SolverOptions options;
-    options.active_pairs = choice;
+    options.active_set = choice;
     options.certify = certify;
-    return supports::serve(problem, resolve(options));
+    return plan::active_set(plan::sizes_of(problem), resolve(options));
   };
   const auto few = make_fine_problem<3>(Shape::kBox);
   ASSERT_LT(few.num_control_points(), 80);
@@ -391,12 +402,12 @@ TEST(Supports, AreForManyControlPointsIn3D) {
   };
   const auto many = many_on(16);
   ASSERT_GE(many.num_control_points(), 80);
-  EXPECT_FALSE(serve(many_on(8), ActivePairs::kAuto, false));
-  EXPECT_FALSE(serve(few, ActivePairs::kAuto, false));
-  EXPECT_TRUE(serve(many, ActivePairs::kAuto, false));
-  EXPECT_FALSE(serve(many, ActivePairs::kAuto, true));
-  EXPECT_FALSE(serve(many, ActivePairs::kOff, false));
-  EXPECT_TRUE(serve(few, ActivePairs::kOn, true));
+  EXPECT_FALSE(serve(many_on(8), ActiveSet::kAuto, false));
+  EXPECT_FALSE(serve(few, ActiveSet::kAuto, false));
+  EXPECT_TRUE(serve(many, ActiveSet::kAuto, false));
+  EXPECT_FALSE(serve(many, ActiveSet::kAuto, true));
+  EXPECT_FALSE(serve(many, ActiveSet::kOff, false));
+  EXPECT_TRUE(serve(few, ActiveSet::kOn, true));
 }
 
 }  // namespace
