@@ -86,27 +86,6 @@ TEST(TetMeshFile, KeepsElementsAndProperties) {
   EXPECT_EQ(io::read_file(file()), bytes);
 }
 
-TEST(TetMeshFile, ASolveGoesOnFromIt) {
-  const auto sample = make_sample<3>(Shape::kCorner, 2, 0.2);
-  for (const auto method : {Method::kValue, Method::kGradient}) {
-    auto mesh = TetMesh::from(sample.mesh);
-    SolverOptions options;
-    options.method = method;
-    options.tolerance = 1e-20;
-    options.max_iterations = 20;
-    openmesh::PropertyOptions properties;
-    properties.keep_state = true;
-    properties.persistent = true;
-    openmesh::solve(mesh, sample.cage, options, properties);
-    openmesh::save_tet_mesh(file(), mesh);
-    auto loaded = openmesh::load_tet_mesh(file());
-    EXPECT_EQ(openmesh::get_weights(loaded), openmesh::get_weights(mesh));
-    EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
-    EXPECT_TRUE(openmesh::solve(loaded, sample.cage, options, properties).resumed);
-    EXPECT_EQ(openmesh::get_weights(loaded), openmesh::get_weights(mesh));
-  }
-}
-
 TEST(TetMeshFile, KeepsSparseWeights) {
   const auto sample = make_sample<3>(Shape::kCorner, 2, 0.2);
   auto mesh = TetMesh::from(sample.mesh);

@@ -30,10 +30,6 @@ struct WideProperty : ::testing::Test {
   using OfMesh = OpenMesh::MPropHandleT<Numbers>;
 
   typename Case::Mesh mesh_ = testing::make_squares<typename Case::Mesh>();
-
-  static bool aligned(const OpenMesh::PropertyT<Numbers>& rows) {
-    return reinterpret_cast<std::uintptr_t>(rows.data()) % 64 == 0;
-  }
 };
 TYPED_TEST_SUITE(WideProperty, testing::WideCases);
 
@@ -44,12 +40,10 @@ TYPED_TEST(WideProperty, HasOneRowOfNothingAtFirst) {
   EXPECT_EQ(rows.n_elements(), this->mesh_.n_vertices());
   EXPECT_EQ(rows.components(), 1U);
   EXPECT_EQ(rows.width(), 0U);
-  EXPECT_EQ(rows.stride(), 0U);
   EXPECT_EQ(rows.bytes(), 0U);
-  EXPECT_EQ(rows.data(), nullptr);
 }
 
-TYPED_TEST(WideProperty, LaysRowsOutElementMajorInPaddedRows) {
+TYPED_TEST(WideProperty, LaysRowsOutElementMajor) {
   using Scalar = typename TypeParam::Scalar;
   typename TestFixture::Faces handle;
   this->mesh_.add_property(handle, "rows");
@@ -57,18 +51,19 @@ TYPED_TEST(WideProperty, LaysRowsOutElementMajorInPaddedRows) {
   for (const std::size_t width : {1, 7, 8, 9, 16, 31}) {
     rows.set_shape(3, width);
     ASSERT_EQ(rows.n_elements(), this->mesh_.n_faces());
-    EXPECT_EQ(rows.stride() % 8, 0U);
-    EXPECT_GE(rows.stride(), width);
-    EXPECT_LT(rows.stride(), width + 8);
-    EXPECT_EQ(rows.bytes(), rows.n_elements() * 3 * rows.stride() * sizeof(Scalar));
-    EXPECT_TRUE(this->aligned(rows));
+    EXPECT_EQ(rows.bytes(), rows.n_elements() * 3 * width * sizeof(Scalar));
     EXPECT_TRUE(is_zero(rows, 0, rows.n_elements()));
     const std::size_t e = 5, c = 2, i = width - 1;
     this->mesh_.property(handle, OpenMesh::FaceHandle(5))(c, i) = Scalar(0.5);
-    EXPECT_EQ(rows.data()[(e * 3 + c) * rows.stride() + i], Scalar(0.5));
+    EXPECT_EQ(rows.data()[(e * 3 + c) * width + i], Scalar(0.5));
     EXPECT_EQ(rows[5].row(2)[i], Scalar(0.5));
     rows[5][i] = Scalar(0.25);
     EXPECT_EQ(rows[5](0, i), Scalar(0.25));
+    const auto matrix = std::as_const(rows)[5].matrix();
+    ASSERT_EQ(matrix.rows(), 3);
+    ASSERT_EQ(matrix.cols(), static_cast<Eigen::Index>(width));
+    EXPECT_EQ(matrix(0, matrix.cols() - 1), Scalar(0.25));
+    EXPECT_EQ(matrix(2, matrix.cols() - 1), Scalar(0.5));
   }
   rows.set_shape(0, 5);
   EXPECT_EQ(rows.bytes(), 0U);
@@ -95,7 +90,6 @@ TYPED_TEST(WideProperty, GivesNewElementsZeroRows) {
   for (int k = 0; k < 100; ++k) {
     this->mesh_.add_vertex(typename TypeParam::Mesh::Point(50, 50, 0));
     ASSERT_EQ(rows.n_elements(), this->mesh_.n_vertices());
-    ASSERT_TRUE(this->aligned(rows));
     ASSERT_TRUE(is_zero(rows, old, rows.n_elements()));
   }
   // Also where there were numbers before.
@@ -140,10 +134,9 @@ TYPED_TEST(WideProperty, ClearsItsRowsAndKeepsItsShape) {
   auto& rows = this->mesh_.property(handle);
   rows.clear();
   EXPECT_EQ(rows.n_elements(), 0U);
-  EXPECT_EQ(rows.data(), nullptr);
   EXPECT_EQ(rows.width(), 9U);
   rows.resize(4);
-  EXPECT_EQ(rows.bytes(), 4 * 2 * 16 * sizeof(typename TypeParam::Scalar));
+  EXPECT_EQ(rows.bytes(), 4 * 2 * 9 * sizeof(typename TypeParam::Scalar));
   EXPECT_TRUE(is_zero(rows, 0, 4));
 }
 
@@ -235,7 +228,6 @@ TYPED_TEST(WideProperty, ClonesWithNameAndPersistence) {
   EXPECT_TRUE(clone->persistent());
   EXPECT_EQ(clone->n_elements(), rows.n_elements());
   auto& copy = dynamic_cast<Property&>(*clone);
-  EXPECT_TRUE(this->aligned(copy));
   EXPECT_TRUE(is_filled(std::as_const(copy)[4], key(this->mesh_, OpenMesh::VertexHandle(4)), 2, 9));
   copy.set_shape(1, 1);
   expect_filled(this->mesh_, handle, 2, 9);

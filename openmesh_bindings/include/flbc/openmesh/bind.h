@@ -89,19 +89,14 @@ auto as_cage(const AnyCage& cage) {
   }
 }
 
-inline std::string name_of_rest(const std::string& weights) {
-  return weights + ":rest";
-}
-
 template <class Mesh>
 void keep_rest(Mesh& mesh, const std::string& weights, bool persistent) {
   auto& rest = get_property<Wide<double>>(mesh, name_of_rest(weights));
   rest.set_shape(1, static_cast<std::size_t>(kPointSize<Mesh>));
   for (const auto vertex : mesh.vertices()) {
     const auto& point = mesh.point(vertex);
-    const auto row = rest[vertex.idx()];
     for (int d = 0; d < kPointSize<Mesh>; ++d) {
-      row[static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
+      rest[vertex.idx()][static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
     }
   }
   if (persistent) rest.set_persistent(true);

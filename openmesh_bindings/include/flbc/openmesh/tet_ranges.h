@@ -52,6 +52,7 @@ class ElementRange {
     explicit iterator(int index = 0) : index_(index) {}
     Handle operator*() const { return Handle(index_); }
     iterator& operator++() { return ++index_, *this; }
+    iterator operator+(int count) const { return iterator(index_ + count); }
     iterator operator++(int) { return iterator(index_++); }
     bool operator==(const iterator& other) const { return index_ == other.index_; }
     bool operator!=(const iterator& other) const { return index_ != other.index_; }
