@@ -8,6 +8,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "flbc/openmesh/bind.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/scratch.h"
@@ -253,6 +254,17 @@ TEST(LbcFile, WeightsAndGradientsSurvive) {
   for (const auto face : mesh.faces()) {
     EXPECT_EQ(again.property(gradients, face).matrix(), mesh.property(expected, face).matrix());
   }
+}
+
+TEST(LbcProperties, WhatBelongedToOlderWeightsIsRemoved) {
+  const auto sample = make_sample<3>(Shape::kCorner, 3, 0.2);
+  auto mesh = TetMesh::from(sample.mesh);
+  openmesh::bind(mesh, sample.cage, sample.mesh);
+  EXPECT_NO_THROW(openmesh::restore_rest(mesh));
+  openmesh::solve(mesh, sample.cage);
+  EXPECT_THROW(openmesh::restore_rest(mesh), InputError);
+  OpenMesh::VPropHandleT<openmesh::Influences> influences;
+  EXPECT_FALSE(mesh.get_property_handle(influences, openmesh::kWeights));
 }
 
 TEST(LbcPlane, MeshesOutOfAPlaneAreNamed) {

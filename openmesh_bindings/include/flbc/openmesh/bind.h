@@ -28,8 +28,8 @@ using flbc::OutsidePoints;
 
 //! Options of bind().
 struct BindOptions {
-  //! Vertices of the mesh of the cage's interior; 0 = as few as cells of good shape take. If the
-  //! default is too few for a cage, it gets as many as it takes.
+  //! Vertices of the mesh of the interior; 0: the minimum that element quality allows. If the
+  //! default is too few for a cage, it is increased automatically.
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< that of the program, too
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The domain of a solve as a mesh of OpenMesh's, or a TetMesh, has it: vertices, cells and facets
-//! keep the numbers of their handles, so that properties of the mesh are arrays of the solver.
+//! The domain of a solve from a mesh of OpenMesh, or a TetMesh. Vertices, cells, and facets keep the
+//! numbers of their handles.
 #pragma once
 
 #include <string>

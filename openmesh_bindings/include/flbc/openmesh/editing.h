@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Coordinates on a mesh of OpenMesh's, or a TetMesh, that follow a cage while its rest shape is
+//! Coordinates on a mesh of OpenMesh, or a TetMesh, that follow a cage while its rest shape is
 //! being edited.
 #pragma once
 

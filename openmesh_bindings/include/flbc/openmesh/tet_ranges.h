@@ -24,7 +24,7 @@ struct HandleIterator {
   using reference = HandleType;
 };
 
-//! Of what an entry of a vertex's list tells: the cell with this corner, ...
+//! What an entry of the list of a vertex refers to: the cell with this corner, ...
 struct CellOfCorner {
   using Handle = CellHandle;
   Handle operator()(int corner) const { return Handle(corner / 4); }
