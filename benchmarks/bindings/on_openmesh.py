@@ -48,7 +48,7 @@ def frames(context):
                 yield {"model": name, "users_side": side, **row}
 
 
-ITERATIONS = ("iterating on a mesh's properties instead of plain arrays: seconds of the last pair, "
+ITERATIONS = ("the gradient ADMM on the mesh itself and on arrays: seconds of the last pair, "
               f"median ratio of {PROPERTY_PAIRS} pairs", iterations)
 TOPOLOGY = (f"finding edges, faces and neighbours of tetrahedra: seconds, the best of {REPETITIONS}",
             topology)

@@ -7,6 +7,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
+#include <flbc/io/mesh_io.h>
 #include <flbc/io/model_file.h>
 #include <flbc/openmesh/lbc.h>
 
@@ -21,18 +22,10 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: colour_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off\n";
     return 1;
   }
-  // Exact coordinates: OpenMesh's own readers of text formats keep single precision only, with
-  // which boundary vertices would lie a little beside the cage.
+  // Exact coordinates: the readers of OpenMesh keep single precision.
   const auto cage =
       std::get<flbc::Cage<2>>(flbc::io::to_cage(flbc::io::read_polygons(argv[1]), argv[1]));
-  Mesh mesh;
-  const auto shape = flbc::io::read_polygons(argv[2]);
-  for (const auto& point : shape.points) mesh.add_vertex(Mesh::Point(point[0], point[1], 0));
-  for (const auto& face : shape.polygons) {
-    mesh.add_face(Mesh::VertexHandle(face[0]), Mesh::VertexHandle(face[1]),
-                  Mesh::VertexHandle(face[2]));
-  }
-
+  auto mesh = flbc::openmesh::to_mesh<Mesh>(flbc::io::read_domain<2>(argv[2]));
   const auto report = flbc::openmesh::solve(mesh, cage);
 
   OpenMesh::VProp<flbc::openmesh::Wide<double>> weights(mesh, flbc::openmesh::kWeights);

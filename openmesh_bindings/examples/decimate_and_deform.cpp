@@ -49,10 +49,7 @@ int main(int argc, char** argv) try {
   // Coordinates on a mesh of the cage's interior, interpolated at the model's vertices.
   const auto domain = flbc::tetrahedralize(cage, {2000});
   const auto solution = flbc::solve(cage, domain);
-  flbc::PointList<3> points(3, model.n_vertices());
-  for (const auto v : model.vertices()) {
-    points.col(v.idx()) << model.point(v)[0], model.point(v)[1], model.point(v)[2];
-  }
+  const auto points = flbc::openmesh::points_of<3>(model);
   flbc::openmesh::set_weights(
       model, flbc::interpolate(domain, solution.weights, flbc::locate_points(domain, points)));
 

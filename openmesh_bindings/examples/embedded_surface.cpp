@@ -27,11 +27,8 @@ int main(int argc, char** argv) try {
   Model model;
   if (!OpenMesh::IO::read_mesh(model, argv[2])) return 4;
 
-  flbc::MeshingOptions<3> meshing;  // as few vertices as cells of good shape take
-  meshing.embedded_points.resize(3, model.n_vertices());
-  for (const auto v : model.vertices()) {
-    meshing.embedded_points.col(v.idx()) << model.point(v)[0], model.point(v)[1], model.point(v)[2];
-  }
+  flbc::MeshingOptions<3> meshing;  // the minimum that element quality allows
+  meshing.embedded_points = flbc::openmesh::points_of<3>(model);
   auto mesh = flbc::openmesh::TetMesh::from(flbc::tetrahedralize(cage, meshing));
   const auto report = flbc::openmesh::solve(mesh, cage);
 

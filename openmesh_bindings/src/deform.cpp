@@ -21,7 +21,7 @@ template <int Dim>
 Vector<Dim> place_of(const RowBlock<double>& weights, std::int64_t p,
                      const Eigen::Matrix<double, Eigen::Dynamic, Dim>& coordinates) {
   const Eigen::Map<const Eigen::VectorXd> row(
-      weights.data() + static_cast<std::size_t>(p) * weights.stride(), coordinates.rows());
+      weights.data() + static_cast<std::size_t>(p) * weights.width(), coordinates.rows());
   Vector<Dim> place;
   for (int d = 0; d < Dim; ++d) place[d] = coordinates.col(d).dot(row);
   return place;
@@ -31,7 +31,7 @@ std::size_t numbers_in(const InfluenceBlock& weights) {
   return weights.size() * weights.most();
 }
 std::size_t numbers_in(const RowBlock<double>& weights) {
-  return weights.size() * weights.stride();
+  return weights.size() * weights.width();
 }
 std::size_t control_points_of(const InfluenceBlock& weights) {
   return weights.num_control_points();

@@ -19,7 +19,8 @@ struct PairsHeader {
 };
 constexpr std::size_t kPairsHeaderBytes = kPairsMagic.size() + sizeof(PairsHeader);
 
-PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& name, Count elements) {
+PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& name,
+                              Count elements) {
   std::array<char, kPairsMagic.size()> magic{};
   std::array<Count, 4> fields{};
   if (!read_numbers(in, magic.data(), magic.size(), false)) {
@@ -70,8 +71,8 @@ std::size_t stored_size(const InfluenceBlock& block) {
   return kPairsHeaderBytes + block.size() * block.most() * kPairBytes;
 }
 
-std::size_t store_influences(std::ostream& out, bool swap, const std::string& name,
-                             const InfluenceBlock& block) {
+std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
+                        const InfluenceBlock& block) {
   const std::size_t size = stored_size(block);
   require_storable(name, size);
   const std::array<Count, 4> fields = {block.num_control_points(), block.most(), block.size(),
@@ -86,8 +87,8 @@ std::size_t store_influences(std::ostream& out, bool swap, const std::string& na
   return out.good() ? size : 0;
 }
 
-std::size_t restore_influences(std::istream& in, bool swap, const std::string& name,
-                               InfluenceBlock& block) {
+std::size_t restore_block(std::istream& in, bool swap, const std::string& name,
+                          InfluenceBlock& block) {
   const auto header = read_pairs_header(in, swap, name, block.size());
   try {
     block = read_pairs(in, swap, name, header);

@@ -22,9 +22,8 @@ void refuse_without_weights(const std::string& name) {
 }
 
 WeightMatrix to_matrix(const RowBlock<double>& rows) {
-  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
-      rows.data(), static_cast<Eigen::Index>(rows.width()), static_cast<Eigen::Index>(rows.size()),
-      Eigen::OuterStride<>(static_cast<Eigen::Index>(rows.stride())));
+  return Eigen::Map<const Eigen::MatrixXd>(rows.data(), static_cast<Eigen::Index>(rows.width()),
+                                           static_cast<Eigen::Index>(rows.size()));
 }
 
 WeightMatrix to_matrix(const InfluenceBlock& block) {
@@ -70,6 +69,9 @@ std::string name_of_cage(const std::string& weights) {
 }
 std::string name_of_offset(const std::string& weights) {
   return weights + ":offset";
+}
+std::string name_of_rest(const std::string& weights) {
+  return weights + ":rest";
 }
 
 }  // namespace flbc::openmesh::internal

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/wide_property.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "number_stream.h"
 
@@ -57,22 +60,20 @@ RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
                            const RowsHeader& header) {
   const auto left = bytes_left(in);
   if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
-  if (header.data_bytes == 0) {
-    RowBlock<Scalar> rows(header.components, header.width);
-    rows.resize(header.elements);
-    return rows;
-  }
-  // One row at a time, so that a stream of unknown length gets memory for what it has.
-  RowBlock<Scalar> rows(1, header.width);
-  const std::size_t count = header.elements * header.components;
-  if (left) rows.reserve(count);
-  for (std::size_t r = 0; r < count; ++r) {
-    rows.resize(r + 1);
-    if (!read_numbers(in, rows[r].data(), header.width, swap)) {
-      refuse_stored(name, "the file ends in its element " + std::to_string(r / header.components));
+  // Some numbers at a time, so that a stream of unknown length gets memory for what it has.
+  constexpr std::size_t kAtOnce = 1 << 16;
+  const std::size_t count = header.data_bytes / sizeof(Scalar);
+  std::vector<Scalar> numbers;
+  if (left) numbers.reserve(count);
+  for (std::size_t done = 0; done < count; done = numbers.size()) {
+    const std::size_t more = std::min(count - done, kAtOnce);
+    numbers.resize(done + more);
+    if (!read_numbers(in, numbers.data() + done, more, swap)) {
+      refuse_stored(name, "the file ends in it");
     }
   }
-  rows.regroup(header.components);
+  RowBlock<Scalar> rows(header.components, header.width);
+  rows.assign(header.elements, std::move(numbers));
   return rows;
 }
 
@@ -84,8 +85,8 @@ std::size_t stored_size(const RowBlock<Scalar>& rows) {
 }
 
 template <class Scalar>
-std::size_t store_rows(std::ostream& out, bool swap, const std::string& name,
-                       const RowBlock<Scalar>& rows) {
+std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
+                        const RowBlock<Scalar>& rows) {
   const std::size_t size = stored_size(rows);
   require_storable(name, size);
   const auto header = header_of(rows);
@@ -93,19 +94,13 @@ std::size_t store_rows(std::ostream& out, bool swap, const std::string& name,
                                        header.elements, header.data_bytes};
   write_numbers(out, kRowsMagic.data(), kRowsMagic.size(), false);
   write_numbers(out, fields.data(), fields.size(), swap);
-  if (header.data_bytes > 0) {
-    for (std::size_t e = 0; e < rows.size(); ++e) {
-      for (std::size_t c = 0; c < rows.components(); ++c) {
-        write_numbers(out, rows[e].row(c), rows.width(), swap);
-      }
-    }
-  }
+  write_numbers(out, rows.data(), rows.size() * rows.element_size(), swap);
   return out.good() ? size : 0;
 }
 
 template <class Scalar>
-std::size_t restore_rows(std::istream& in, bool swap, const std::string& name,
-                         RowBlock<Scalar>& rows) {
+std::size_t restore_block(std::istream& in, bool swap, const std::string& name,
+                          RowBlock<Scalar>& rows) {
   const auto header = read_rows_header<Scalar>(in, swap, name, rows.size());
   try {
     rows = read_rows<Scalar>(in, swap, name, header);
@@ -115,11 +110,11 @@ std::size_t restore_rows(std::istream& in, bool swap, const std::string& name,
   return stored_size(rows);
 }
 
-#define FLBC_INSTANTIATE(Scalar)                                           \
-  template std::size_t stored_size(const RowBlock<Scalar>&);               \
-  template std::size_t store_rows(std::ostream&, bool, const std::string&, \
-                                  const RowBlock<Scalar>&);                \
-  template std::size_t restore_rows(std::istream&, bool, const std::string&, RowBlock<Scalar>&);
+#define FLBC_INSTANTIATE(Scalar)                                            \
+  template std::size_t stored_size(const RowBlock<Scalar>&);                \
+  template std::size_t store_block(std::ostream&, bool, const std::string&, \
+                                   const RowBlock<Scalar>&);                \
+  template std::size_t restore_block(std::istream&, bool, const std::string&, RowBlock<Scalar>&);
 FLBC_INSTANTIATE(float)
 FLBC_INSTANTIATE(double)
 #undef FLBC_INSTANTIATE

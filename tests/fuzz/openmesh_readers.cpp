@@ -8,7 +8,6 @@
 #include "flbc/openmesh/influences.h"
 #include "flbc/openmesh/mesh_io.h"
 #include "flbc/openmesh/om_file.h"
-#include "flbc/openmesh/state_record.h"
 #include "flbc/openmesh/wide_property.h"
 #include "fuzz/reader.h"
 
@@ -48,7 +47,7 @@ void read_rows(const std::string& path) {
   std::istringstream in(get_file(path));
   openmesh::RowBlock<Scalar> rows;
   rows.resize(kElements);
-  openmesh::restore_rows(in, false, "rows", rows);
+  openmesh::restore_block(in, false, "rows", rows);
   require(rows.size() == kElements, "there are as many elements as before");
 }
 
@@ -56,7 +55,7 @@ void read_influences(const std::string& path) {
   std::istringstream in(get_file(path));
   openmesh::InfluenceBlock block;
   block.resize(kElements);
-  openmesh::restore_influences(in, false, "influences", block);
+  openmesh::restore_block(in, false, "influences", block);
   require(block.size() == kElements, "there are as many elements as before");
   for (std::size_t j = 0; j < block.size() * block.most(); ++j) {
     require(block.control_points()[j] < block.num_control_points(), "control points in range");
@@ -68,7 +67,7 @@ std::string stored_rows() {
   openmesh::RowBlock<Scalar> rows(2, 3);
   rows.resize(kElements);
   std::ostringstream out;
-  openmesh::store_rows(out, false, "rows", rows);
+  openmesh::store_block(out, false, "rows", rows);
   return out.str();
 }
 
@@ -76,23 +75,10 @@ std::string stored_influences() {
   openmesh::InfluenceBlock block(5, 2);
   block.resize(kElements);
   std::ostringstream out;
-  openmesh::store_influences(out, false, "influences", block);
+  openmesh::store_block(out, false, "influences", block);
   return out.str();
 }
 
-void read_record(const std::string& path) {
-  const auto record = openmesh::parse_state_record(get_file(path));
-  if (record.method.empty()) throw InputError(path + ": no record");
-  const auto again = openmesh::parse_state_record(openmesh::to_json(record));
-  require(openmesh::find_mismatch(record, again).empty(), "a record is written and read back");
-}
-
-std::string record() {
-  openmesh::StateRecord record;
-  record.method = "value";
-  record.penalty = 10;
-  record.control_points = 7;
-  return openmesh::to_json(record);
 }
 
 }  // namespace
@@ -101,8 +87,7 @@ std::vector<Reader> openmesh_readers() {
   return {{"om", "input.om", read_om, {om_file(false), om_file(true)}},
           {"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
           {"rows_single", "input.rows", read_rows<float>, {stored_rows<float>()}},
-          {"influences", "input.pairs", read_influences, {stored_influences()}},
-          {"state_record", "input.json", read_record, {record()}}};
+          {"influences", "input.pairs", read_influences, {stored_influences()}}};
 }
 
 }  // namespace flbc::fuzz

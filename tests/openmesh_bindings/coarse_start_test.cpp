@@ -61,13 +61,6 @@ TEST(CoarseStart, IsThereInSpace) {
   options.coarse_to_fine = CoarseToFine::kOn;
   options.coarse_levels.coarsest = 20;
   EXPECT_FALSE(openmesh::solve(mesh, sample.cage, options).coarse_levels.empty());
-  // A state to go on from is a better start.
-  openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  const auto resumed = openmesh::solve(mesh, sample.cage, options, properties);
-  EXPECT_TRUE(resumed.resumed);
-  EXPECT_TRUE(resumed.coarse_levels.empty());
 }
 
 template <int Dim>
@@ -79,8 +72,7 @@ auto mesh_of(const DomainMesh<Dim>& domain) {
   }
 }
 
-// What saves time in solve() of a cage and a mesh has a place here, too, unless the state is to be
-// kept as properties of the mesh.
+// All that saves time in solve() of a cage and a mesh is used here, too.
 template <int Dim>
 void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& domain) {
   SolverOptions options;
@@ -98,16 +90,10 @@ void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>&
     EXPECT_EQ(report.active_set.density, expected.report.active_set.density);
     EXPECT_EQ(report.active_set.density < 1, pairs == ActiveSet::kOn);
     EXPECT_LT((openmesh::get_weights(mesh) - expected.weights).cwiseAbs().maxCoeff(), 1e-3);
-    if (pairs == ActiveSet::kOn) continue;
-    openmesh::PropertyOptions properties;
-    properties.keep_state = true;
-    const auto kept = openmesh::solve(mesh, cage, options, properties);
-    EXPECT_GT(kept.state_scalars_per_cell, report.state_scalars_per_cell);
-    EXPECT_LT(mean_squared_difference(openmesh::get_weights(mesh), expected.weights), 2e-5);
   }
 }
 
-TEST(CoarseStart, WithoutAStateItSolvesAsOnArrays) {
+TEST(CoarseStart, SolvesAsOnArrays) {
   const auto cage = star();
   expect_solve_of_cage_and_mesh(cage, triangulate(cage, {9000}));
   const auto sample = make_sample<3>(Shape::kCorner, 12, 0.1);
@@ -115,19 +101,16 @@ TEST(CoarseStart, WithoutAStateItSolvesAsOnArrays) {
   expect_solve_of_cage_and_mesh(sample.cage, sample.mesh);
 }
 
-// Nothing of a state is lost by a solve that could not begin.
-TEST(CoarseStart, AStateOutlivesASolveThatCouldNotBegin) {
+TEST(CoarseStart, WeightsOutliveASolveThatCouldNotBegin) {
   const auto sample = make_sample<3>(Shape::kBox, 4);
   auto mesh = openmesh::TetMesh::from(sample.mesh);
-  openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  SolverOptions options;
-  options.method = Method::kGradient;
-  openmesh::solve(mesh, sample.cage, options, properties);
+  openmesh::solve(mesh, sample.cage);
+  const auto weights = openmesh::get_weights(mesh);
   auto moved = sample.cage;
   moved.points(0, 0) -= 0.5;
   EXPECT_THROW(openmesh::solve(mesh, moved), InputError);
-  EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
+  EXPECT_EQ(openmesh::get_weights(mesh), weights);
+  EXPECT_EQ(openmesh::get_rest_cage(mesh), sample.cage.points);
 }
 
 }  // namespace

@@ -123,14 +123,14 @@ TEST(InfluencesProperty, DamagedFilesAreNamed) {
   auto mesh = make_squares<DoubleTri>();
   const auto& block = mesh.property(add_influences(mesh)).data_vector();
   std::stringstream out;
-  const auto size = openmesh::store_influences(out, false, "w", block);
+  const auto size = openmesh::store_block(out, false, "w", block);
   const std::string bytes = out.str();
   ASSERT_EQ(bytes.size(), size);
   const auto restore = [&](const std::string& damaged) {
     openmesh::InfluenceBlock read;
     read.resize(block.size());
     std::istringstream in(damaged);
-    EXPECT_EQ(openmesh::restore_influences(in, false, "w", read), damaged.size());
+    EXPECT_EQ(openmesh::restore_block(in, false, "w", read), damaged.size());
   };
   restore(bytes);
   for (const std::size_t length : {0, 5, 20, 60, static_cast<int>(size) - 1}) {

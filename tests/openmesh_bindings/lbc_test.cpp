@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solving on meshes of OpenMesh's and on TetMesh: the same results as on plain arrays, kept in
-// properties.
+// Solving on meshes of OpenMesh and on TetMesh: the same results as on plain arrays, in properties.
 #include "flbc/openmesh/lbc.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +8,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include "flbc/published_penalty.h"
-#include "support/hollow_sample.h"
+#include "flbc/openmesh/bind.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/scratch.h"
@@ -91,65 +89,6 @@ TYPED_TEST(LbcTest, EqualsTheSolveOnArrays) {
   }
 }
 
-template <class Mesh, class T>
-bool has_cell_property(const Mesh& mesh, const std::string& name) {
-  typename openmesh::PropertyHandles<Mesh>::template Cell<T> handle;
-  return mesh.get_property_handle(handle, name);
-}
-
-TYPED_TEST(LbcTest, StateIsKeptOnlyIfAskedFor) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  auto mesh = build<TypeParam>(sample.mesh);
-  SolverOptions options;
-  options.max_iterations = 10;
-  openmesh::solve(mesh, sample.cage, options);
-  EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
-  openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  EXPECT_TRUE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
-  options.method = Method::kGradient;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  EXPECT_TRUE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:gradient")));
-  typename openmesh::PropertyHandles<TypeParam>::template Facet<Wide<float>> facets;
-  EXPECT_TRUE(mesh.get_property_handle(facets, "flbc:integrability_dual"));
-}
-
-// A run interrupted and gone on with equals one in one piece, bit by bit: the state is complete,
-// and what the properties hold is what the iteration works on.
-TYPED_TEST(LbcTest, ResumesWhereItStopped) {
-  constexpr int kDimension = kDim<TypeParam>;
-  for (const auto& sample : {make_sample<kDimension>(Shape::kCorner, 3, 0.2),
-                             make_sample<kDimension>(Shape::kRing, 2)}) {
-    for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient}) {
-      for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
-        SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
-        SolverOptions options;
-        options.method = method;
-        options.precision = precision;
-        options.penalty = method == Method::kGradient ? 1e-6 : 0.02;
-        options.tolerance = 1e-20;
-        openmesh::PropertyOptions properties;
-        properties.keep_state = true;
-        const auto run = [&](TypeParam& mesh, int iterations) {
-          options.max_iterations = iterations;
-          openmesh::solve(mesh, sample.cage, options, properties);
-          return openmesh::get_weights(mesh);
-        };
-        auto whole = build<TypeParam>(sample.mesh);
-        auto parts = build<TypeParam>(sample.mesh);
-        const auto expected = run(whole, 40);
-        const auto first = run(parts, 25);
-        EXPECT_GT((first - expected).cwiseAbs().maxCoeff(), 0);
-        EXPECT_EQ((run(parts, 15) - expected).cwiseAbs().maxCoeff(), 0);
-        properties.restart = true;
-        EXPECT_EQ((run(parts, 25) - first).cwiseAbs().maxCoeff(), 0);
-      }
-    }
-  }
-}
-
 template <class Action>
 void expect_refused(const std::string& words, const Action& action) {
   try {
@@ -160,169 +99,46 @@ void expect_refused(const std::string& words, const Action& action) {
   }
 }
 
-TYPED_TEST(LbcTest, RefusesAStateThatBelongsToSomethingElse) {
+template <class Mesh>
+using CellRows = typename openmesh::Elements<Mesh>::template CellProperty<Wide<double>>;
+
+// On each cell the weights of all methods differ by gradient times edge, in the unit of the mesh.
+TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kBox, 3, 0.2);
+  auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
+  sample.mesh.points *= 4;
+  sample.cage.points *= 4;
   auto mesh = build<TypeParam>(sample.mesh);
-  SolverOptions options;
-  options.max_iterations = 10;
+  const auto cells = openmesh::make_domain(mesh).mesh.cells;
+  CellRows<TypeParam> handle;
   openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  openmesh::solve(mesh, sample.cage, options, properties);
-
-  Index inner = 0;
-  const auto topology = build_topology(sample.mesh);
-  const auto on_boundary = boundary_vertices(topology, sample.mesh.num_vertices());
-  while (on_boundary[inner]) ++inner;
-  const auto vertex = OpenMesh::VertexHandle(inner);
-  const auto place = mesh.point(vertex);
-  auto moved = place;
-  moved[0] += static_cast<std::decay_t<decltype(moved[0])>>(0.001);
-  mesh.set_point(vertex, moved);
-  expect_refused("points have moved",
-                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
-  mesh.set_point(vertex, place);
-
-  auto cage = sample.cage;
-  cage.points(0, 0) += 1e-9;
-  expect_refused("cage has changed", [&] { openmesh::solve(mesh, cage, options, properties); });
-  properties.restart = true;
-  EXPECT_NO_THROW(openmesh::solve(mesh, cage, options, properties));
-}
-
-TYPED_TEST(LbcTest, ReportsWhetherItWentOn) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kBox, 3, 0.2);
-  auto mesh = build<TypeParam>(sample.mesh);
-  SolverOptions options;
-  options.max_iterations = 10;
-  openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  const auto expect = [&](bool resumed, const std::string& reason) {
-    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
-    EXPECT_EQ(report.resumed, resumed) << report.restart;
-    EXPECT_EQ(report.restart, reason);
-  };
-  expect(false, "there is no state");
-  expect(true, "");
-  properties.restart = true;
-  expect(false, "it was asked for");
-  properties.restart = false;
-  options.phi = DistanceScheme::kLinear;
-  expect(false, "the phi was square, is linear");
-  options.precision = Precision::kDouble;
-  expect(false, "the precision was single, is double");
-  options.method = Method::kGradient;
-  expect(false, "the method was value, non-negative, is gradient");
-  expect(true, "");
-  properties.keep_state = false;
-  expect(true, "");
-  expect(false, "there is no state");
-}
-
-// The duals that solve the problem do not depend on the penalty: whoever is at the optimum stays
-// there under another one.
-TYPED_TEST(LbcTest, GoesOnUnderAnotherPenaltyOrRefuses) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  SolverOptions options;
-  options.method = Method::kGradient;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-6;
-  options.max_iterations = 200000;
-  const double penalty =
-      published_penalty(sample.cage, sample.mesh, Method::kGradient, kDimension == 2 ? 1000 : 3000);
-  options.penalty = penalty;
-  openmesh::PropertyOptions properties;
-  properties.keep_state = true;
-  auto mesh = build<TypeParam>(sample.mesh);
-  const auto first = openmesh::solve(mesh, sample.cage, options, properties);
-  ASSERT_EQ(first.status, SolveStatus::kConverged);
-  const auto weights = openmesh::get_weights(mesh);
-  options.tolerance = 1e-5;
-  for (const double factor : {4., 0.5, 0.}) {
-    options.penalty = factor * penalty;
-    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
-    EXPECT_TRUE(report.resumed);
-    EXPECT_EQ(report.status, SolveStatus::kConverged);
-    EXPECT_LE(report.iterations, first.iterations / 4 + options.check_interval);
-    EXPECT_LT(mean_squared_difference(sample.mesh, openmesh::get_weights(mesh), weights), 1e-5);
-  }
-
-  options.method = Method::kValue;
-  options.tolerance = 0;
-  options.penalty = 0.02;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  options.penalty = 0.04;
-  expect_refused("under another penalty",
-                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
-  options.penalty = 0;
-  EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
-}
-
-// What an exception leaves half done is no state to go on from.
-TYPED_TEST(LbcTest, AnInterruptedRunLeavesNoState) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kBox, 3, 0.2);
-  for (const auto method : {Method::kValue, Method::kGradient}) {
-    auto mesh = build<TypeParam>(sample.mesh);
+  properties.gradients = true;
+  for (const auto method : {Method::kValue, Method::kGradient, Method::kHarmonic}) {
     SolverOptions options;
     options.method = method;
-    options.tolerance = 1e-20;
-    options.max_iterations = 20;
-    openmesh::PropertyOptions properties;
-    properties.keep_state = true;
     openmesh::solve(mesh, sample.cage, options, properties);
+    ASSERT_TRUE(mesh.get_property_handle(handle, openmesh::gradients_name()));
     const auto weights = openmesh::get_weights(mesh);
-    auto interrupted = options;
-    interrupted.progress = [](const Progress&) -> bool { throw SolverError("interrupted"); };
-    EXPECT_THROW(openmesh::solve(mesh, sample.cage, interrupted, properties), SolverError);
-    EXPECT_EQ(openmesh::get_weights(mesh), weights);
-    EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:splitting_state")));
-    EXPECT_FALSE((has_cell_property<TypeParam, Wide<float>>(mesh, "flbc:gradient")));
-    const auto report = openmesh::solve(mesh, sample.cage, options, properties);
-    EXPECT_FALSE(report.resumed);
-    EXPECT_EQ(report.restart, "the run that left the state did not come to its end");
-    EXPECT_EQ(openmesh::get_weights(mesh), weights);
+    for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
+      const Eigen::MatrixXd gradients = mesh.property(handle)[s].matrix();
+      ASSERT_EQ(gradients.rows(), kDimension);
+      const Index first = cells(0, s);
+      for (int k = 1; k <= kDimension; ++k) {
+        const Vector<kDimension> edge =
+            sample.mesh.points.col(cells(k, s)) - sample.mesh.points.col(first);
+        const Eigen::VectorXd difference = weights.col(cells(k, s)) - weights.col(first);
+        EXPECT_LT((gradients.transpose() * edge - difference).cwiseAbs().maxCoeff(),
+                  kExact<TypeParam> ? 1e-13 : 1e-4);
+      }
+    }
   }
-}
-
-TYPED_TEST(LbcTest, PhiIsAPropertyOnRequest) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  auto mesh = build<TypeParam>(sample.mesh);
-  openmesh::PropertyOptions properties;
-  properties.phi = "phi";
-  SolverOptions options;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  const auto weights = openmesh::get_weights(mesh);
-  typename openmesh::PropertyHandles<TypeParam>::template Cell<Wide<double>> handle;
-  ASSERT_TRUE(mesh.get_property_handle(handle, "phi"));
-  auto& phi = mesh.property(handle);
-  // What was left is what was used, whatever the options say.
-  options.phi = DistanceScheme::kConstant;
-  properties.keep_state = true;
-  properties.restart = true;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  properties.restart = false;
-  EXPECT_TRUE(openmesh::solve(mesh, sample.cage, options, properties).resumed);
-  properties.restart = true;
-  openmesh::solve(mesh, sample.cage, options, properties);
-  EXPECT_EQ(openmesh::get_weights(mesh), weights);
-  // A user's own: constant, which the options have as well.
-  for (std::size_t s = 0; s < phi.n_elements(); ++s) {
-    for (std::size_t i = 0; i < phi.width(); ++i) phi[static_cast<int>(s)][i] = 1;
-  }
-  openmesh::solve(mesh, sample.cage, options, properties);
-  const auto constant = openmesh::get_weights(mesh);
-  properties.phi.clear();
-  openmesh::solve(mesh, sample.cage, options, properties);
-  EXPECT_EQ(openmesh::get_weights(mesh), constant);
-  EXPECT_GT((constant - weights).cwiseAbs().maxCoeff(), 1e-3);
-  properties.phi = "phi";
-  phi[2][1] = -1;
-  expect_refused("for cell 2, control point 1",
-                 [&] { openmesh::solve(mesh, sample.cage, options, properties); });
+  // Weights that are replaced take their gradients along; they can be made of any weights.
+  openmesh::solve(mesh, sample.cage);
+  EXPECT_FALSE(mesh.get_property_handle(handle, openmesh::gradients_name()));
+  openmesh::set_gradients(mesh);
+  EXPECT_TRUE(mesh.get_property_handle(handle, openmesh::gradients_name()));
+  openmesh::set_influences(mesh, SparseWeights(openmesh::get_weights(mesh)));
+  EXPECT_FALSE(mesh.get_property_handle(handle, openmesh::gradients_name()));
 }
 
 TYPED_TEST(LbcTest, OtherFormsOfTheWeights) {
@@ -416,43 +232,39 @@ TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
   EXPECT_GE(judgement.min_weight, 0);
 }
 
-// Weights and state live on in an .om file, to the bit, and a loaded mesh goes on where it was.
-TEST(LbcFile, StateAndWeightsSurvive) {
+TEST(LbcFile, WeightsAndGradientsSurvive) {
   const auto sample = make_sample<2>(Shape::kRing, 3, 0.2);
-  for (const auto method : {Method::kValue, Method::kGradient}) {
-    auto mesh = build<DoubleMesh>(sample.mesh);
-    SolverOptions options;
-    options.method = method;
-    options.tolerance = 1e-20;
-    options.max_iterations = 30;
-    options.penalty = method == Method::kGradient ? 1e-6 : 0.02;
-    openmesh::PropertyOptions properties;
-    properties.keep_state = true;
-    properties.persistent = true;
-    openmesh::solve(mesh, sample.cage, options, properties);
-    const std::string path = scratch_path("lbc_state.om");
-    ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
-    DoubleMesh loaded;
-    ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
-    EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
-              0);
-    openmesh::solve(mesh, sample.cage, options, properties);
-    // What is loaded and saved again is still there.
-    ASSERT_TRUE(OpenMesh::IO::write_mesh(loaded, path));
-    DoubleMesh again;
-    ASSERT_TRUE(OpenMesh::IO::read_mesh(again, path));
-    EXPECT_EQ(openmesh::get_rest_cage(again), sample.cage.points);
-    EXPECT_TRUE(openmesh::solve(again, sample.cage, options, properties).resumed);
-    const auto report = openmesh::solve(loaded, sample.cage, options, properties);
-    EXPECT_EQ(openmesh::get_weights(again), openmesh::get_weights(loaded));
-    EXPECT_EQ(report.iterations, 30);
-    EXPECT_EQ((openmesh::get_weights(loaded) - openmesh::get_weights(mesh)).cwiseAbs().maxCoeff(),
-              0);
-    properties.restart = true;
-    const auto resumed = openmesh::get_weights(loaded);
-    openmesh::solve(loaded, sample.cage, options, properties);
-    EXPECT_GT((openmesh::get_weights(loaded) - resumed).cwiseAbs().maxCoeff(), 0);
+  auto mesh = build<DoubleMesh>(sample.mesh);
+  openmesh::PropertyOptions properties;
+  properties.gradients = true;
+  properties.persistent = true;
+  openmesh::solve(mesh, sample.cage, {}, properties);
+  const std::string path = scratch_path("lbc.om");
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
+  // What is loaded and saved again is still there.
+  DoubleMesh loaded, again;
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(loaded, path));
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(again, path));
+  EXPECT_EQ(openmesh::get_weights(again), openmesh::get_weights(mesh));
+  EXPECT_EQ(openmesh::get_rest_cage(again), sample.cage.points);
+  OpenMesh::FPropHandleT<Wide<double>> gradients, expected;
+  ASSERT_TRUE(mesh.get_property_handle(expected, openmesh::gradients_name()));
+  ASSERT_TRUE(again.get_property_handle(gradients, openmesh::gradients_name()));
+  for (const auto face : mesh.faces()) {
+    EXPECT_EQ(again.property(gradients, face).matrix(), mesh.property(expected, face).matrix());
   }
+}
+
+TEST(LbcProperties, WhatBelongedToOlderWeightsIsRemoved) {
+  const auto sample = make_sample<3>(Shape::kCorner, 3, 0.2);
+  auto mesh = TetMesh::from(sample.mesh);
+  openmesh::bind(mesh, sample.cage, sample.mesh);
+  EXPECT_NO_THROW(openmesh::restore_rest(mesh));
+  openmesh::solve(mesh, sample.cage);
+  EXPECT_THROW(openmesh::restore_rest(mesh), InputError);
+  OpenMesh::VPropHandleT<openmesh::Influences> influences;
+  EXPECT_FALSE(mesh.get_property_handle(influences, openmesh::kWeights));
 }
 
 TEST(LbcPlane, MeshesOutOfAPlaneAreNamed) {

@@ -2,7 +2,6 @@
 // Wide properties do in memory what other properties of OpenMesh do.
 #include "flbc/openmesh/wide_property.h"
 
-#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -30,10 +29,6 @@ struct WideProperty : ::testing::Test {
   using OfMesh = OpenMesh::MPropHandleT<Numbers>;
 
   typename Case::Mesh mesh_ = testing::make_squares<typename Case::Mesh>();
-
-  static bool aligned(const OpenMesh::PropertyT<Numbers>& rows) {
-    return reinterpret_cast<std::uintptr_t>(rows.data()) % 64 == 0;
-  }
 };
 TYPED_TEST_SUITE(WideProperty, testing::WideCases);
 
@@ -44,12 +39,10 @@ TYPED_TEST(WideProperty, HasOneRowOfNothingAtFirst) {
   EXPECT_EQ(rows.n_elements(), this->mesh_.n_vertices());
   EXPECT_EQ(rows.components(), 1U);
   EXPECT_EQ(rows.width(), 0U);
-  EXPECT_EQ(rows.stride(), 0U);
   EXPECT_EQ(rows.bytes(), 0U);
-  EXPECT_EQ(rows.data(), nullptr);
 }
 
-TYPED_TEST(WideProperty, LaysRowsOutElementMajorInPaddedRows) {
+TYPED_TEST(WideProperty, LaysRowsOutElementMajor) {
   using Scalar = typename TypeParam::Scalar;
   typename TestFixture::Faces handle;
   this->mesh_.add_property(handle, "rows");
@@ -57,18 +50,19 @@ TYPED_TEST(WideProperty, LaysRowsOutElementMajorInPaddedRows) {
   for (const std::size_t width : {1, 7, 8, 9, 16, 31}) {
     rows.set_shape(3, width);
     ASSERT_EQ(rows.n_elements(), this->mesh_.n_faces());
-    EXPECT_EQ(rows.stride() % 8, 0U);
-    EXPECT_GE(rows.stride(), width);
-    EXPECT_LT(rows.stride(), width + 8);
-    EXPECT_EQ(rows.bytes(), rows.n_elements() * 3 * rows.stride() * sizeof(Scalar));
-    EXPECT_TRUE(this->aligned(rows));
+    EXPECT_EQ(rows.bytes(), rows.n_elements() * 3 * width * sizeof(Scalar));
     EXPECT_TRUE(is_zero(rows, 0, rows.n_elements()));
     const std::size_t e = 5, c = 2, i = width - 1;
     this->mesh_.property(handle, OpenMesh::FaceHandle(5))(c, i) = Scalar(0.5);
-    EXPECT_EQ(rows.data()[(e * 3 + c) * rows.stride() + i], Scalar(0.5));
+    EXPECT_EQ(rows.data()[(e * 3 + c) * width + i], Scalar(0.5));
     EXPECT_EQ(rows[5].row(2)[i], Scalar(0.5));
     rows[5][i] = Scalar(0.25);
     EXPECT_EQ(rows[5](0, i), Scalar(0.25));
+    const auto matrix = std::as_const(rows)[5].matrix();
+    ASSERT_EQ(matrix.rows(), 3);
+    ASSERT_EQ(matrix.cols(), static_cast<Eigen::Index>(width));
+    EXPECT_EQ(matrix(0, matrix.cols() - 1), Scalar(0.25));
+    EXPECT_EQ(matrix(2, matrix.cols() - 1), Scalar(0.5));
   }
   rows.set_shape(0, 5);
   EXPECT_EQ(rows.bytes(), 0U);
@@ -95,7 +89,6 @@ TYPED_TEST(WideProperty, GivesNewElementsZeroRows) {
   for (int k = 0; k < 100; ++k) {
     this->mesh_.add_vertex(typename TypeParam::Mesh::Point(50, 50, 0));
     ASSERT_EQ(rows.n_elements(), this->mesh_.n_vertices());
-    ASSERT_TRUE(this->aligned(rows));
     ASSERT_TRUE(is_zero(rows, old, rows.n_elements()));
   }
   // Also where there were numbers before.
@@ -111,28 +104,10 @@ TYPED_TEST(WideProperty, GivesNewElementsZeroRows) {
   }
 }
 
-TYPED_TEST(WideProperty, ReservesWithoutLosingRowsAndThenStaysInPlace) {
+TYPED_TEST(WideProperty, ReservesWithoutLosingRows) {
   const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 1, 11);
   this->mesh_.reserve(5000, 5000, 5000);
   expect_filled(this->mesh_, handle, 1, 11);
-  auto& rows = this->mesh_.property(handle);
-  const auto* const data = rows.data();
-  while (rows.n_elements() < 5000) rows.push_back();
-  EXPECT_EQ(rows.data(), data);
-  rows.reserve(10);
-  EXPECT_EQ(rows.n_elements(), 5000U);
-  EXPECT_EQ(rows.data(), data);
-}
-
-TYPED_TEST(WideProperty, MovesSeldomWhenItGrowsByOne) {
-  const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 1, 3);
-  std::set<const void*> places;
-  for (int k = 0; k < 4000; ++k) {
-    this->mesh_.add_vertex(typename TypeParam::Mesh::Point(50, 50, 0));
-    this->mesh_.property(handle).push_back();
-    places.insert(this->mesh_.property(handle).data());
-  }
-  EXPECT_LE(places.size(), 12U);
 }
 
 TYPED_TEST(WideProperty, ClearsItsRowsAndKeepsItsShape) {
@@ -140,10 +115,9 @@ TYPED_TEST(WideProperty, ClearsItsRowsAndKeepsItsShape) {
   auto& rows = this->mesh_.property(handle);
   rows.clear();
   EXPECT_EQ(rows.n_elements(), 0U);
-  EXPECT_EQ(rows.data(), nullptr);
   EXPECT_EQ(rows.width(), 9U);
   rows.resize(4);
-  EXPECT_EQ(rows.bytes(), 4 * 2 * 16 * sizeof(typename TypeParam::Scalar));
+  EXPECT_EQ(rows.bytes(), 4 * 2 * 9 * sizeof(typename TypeParam::Scalar));
   EXPECT_TRUE(is_zero(rows, 0, 4));
 }
 
@@ -235,7 +209,6 @@ TYPED_TEST(WideProperty, ClonesWithNameAndPersistence) {
   EXPECT_TRUE(clone->persistent());
   EXPECT_EQ(clone->n_elements(), rows.n_elements());
   auto& copy = dynamic_cast<Property&>(*clone);
-  EXPECT_TRUE(this->aligned(copy));
   EXPECT_TRUE(is_filled(std::as_const(copy)[4], key(this->mesh_, OpenMesh::VertexHandle(4)), 2, 9));
   copy.set_shape(1, 1);
   expect_filled(this->mesh_, handle, 2, 9);

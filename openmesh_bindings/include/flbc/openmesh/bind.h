@@ -27,8 +27,8 @@ using flbc::OutsidePoints;
 
 //! Options of bind().
 struct BindOptions {
-  //! Vertices of the mesh of the cage's interior; 0 = as few as cells of good shape take. If the
-  //! default is too few for a cage, it gets as many as it takes.
+  //! Vertices of the mesh of the interior; 0: the minimum that element quality allows. If the
+  //! default is too few for a cage, it is increased automatically.
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< that of the program, too
 
@@ -88,19 +88,14 @@ auto as_cage(const AnyCage& cage) {
   }
 }
 
-inline std::string name_of_rest(const std::string& weights) {
-  return weights + ":rest";
-}
-
 template <class Mesh>
 void keep_rest(Mesh& mesh, const std::string& weights, bool persistent) {
   auto& rest = get_property<Wide<double>>(mesh, name_of_rest(weights));
   rest.set_shape(1, static_cast<std::size_t>(kPointSize<Mesh>));
   for (const auto vertex : mesh.vertices()) {
     const auto& point = mesh.point(vertex);
-    const auto row = rest[vertex.idx()];
     for (int d = 0; d < kPointSize<Mesh>; ++d) {
-      row[static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
+      rest[vertex.idx()][static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
     }
   }
   if (persistent) rest.set_persistent(true);

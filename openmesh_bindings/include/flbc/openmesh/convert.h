@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From meshes of OpenMesh's to cages, domains and matrices, and back. Elements keep their numbers;
+//! From meshes of OpenMesh to cages, domains, and matrices, and back. Elements keep their numbers;
 //! coordinates are exact unless the mesh's points have single precision.
 #pragma once
 
@@ -94,7 +94,7 @@ namespace internal {
 Cage<3> cage_of_polygons(const PointList<3>& points,
                          const std::vector<std::vector<Index>>& polygons);
 
-//! The control points of a cage with one loop in their order round it, anticlockwise.
+//! The control points of a cage with one loop in their order around it, counterclockwise.
 //! \throws InputError if the cage is defective or has several loops
 std::vector<Index> loop_of(const Cage<2>& cage);
 
@@ -144,8 +144,8 @@ std::vector<OpenMesh::VertexHandle> outline_vertices(const Mesh& mesh) {
   return vertices;
 }
 
-//! The boundary loops of a mesh in a plane as a cage; inner ones are holes. Facets go round as the
-//! faces do. \throws InputError if the mesh has deleted elements or is not in a plane z = const
+//! The boundary loops of a mesh in a plane as a cage; inner ones are holes. Facets have the
+//! orientation of the faces. \throws InputError if the mesh has deleted elements or is not in a plane z = const
 template <class Mesh>
 Cage<2> to_outline(const Mesh& mesh) {
   internal::refuse_deleted_elements(mesh);
@@ -160,7 +160,7 @@ Cage<2> to_outline(const Mesh& mesh) {
   }
   std::vector<Eigen::Matrix<Index, 2, 1>> facets;
   for (const auto vertex : vertices) {
-    // The halfedges without a face go round the other way.
+    // The halfedges without a face have the opposite orientation.
     for (const auto halfedge : mesh.vih_range(vertex)) {
       if (!mesh.is_boundary(halfedge)) continue;
       facets.emplace_back(control_point[vertex.idx()],

@@ -21,8 +21,8 @@ struct DeformOptions {
   //! Update the normals that the mesh has of its vertices, halfedges and faces.
   bool normals = false;
 
-  //! At most so many threads; 0 = as many as OpenMP offers. Less than four million weights, half a
-  //! million vertices with 8 influences, take one whatever this says: waking others may cost more.
+  //! Maximum number of threads; 0: as many as OpenMP offers. Below four million weights, which are
+  //! half a million vertices with 8 influences, one thread does the work, because that is faster.
   int threads = 0;
 };
 

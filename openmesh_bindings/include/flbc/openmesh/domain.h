@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The domain of a solve as a mesh of OpenMesh's, or a TetMesh, has it: vertices, cells and facets
-//! keep the numbers of their handles, so that properties of the mesh are arrays of the solver.
+//! The domain of a solve from a mesh of OpenMesh, or a TetMesh. Vertices, cells, and facets keep the
+//! numbers of their handles.
 #pragma once
 
 #include <string>
@@ -9,18 +9,12 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 
+#include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/openmesh/tet_mesh.h"
+#include "flbc/openmesh/elements.h"
 
 namespace flbc::openmesh {
-
-//! Dimension of the domain that a mesh type stands for: 2 for triangle meshes, 3 for TetMesh.
-template <class Mesh>
-inline constexpr int kDimension = 2;
-//! Tetrahedral meshes.
-template <>
-inline constexpr int kDimension<TetMesh> = 3;
 
 //! A mesh of the interior with its facets.
 template <int Dim>
@@ -131,5 +125,16 @@ Domain<2> make_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
 
 //! The faces of a tetrahedral mesh.
 Domain<3> make_domain(const TetMesh& mesh);
+
+//! The domain of a mesh, whose boundary vertices are moved onto the cage if they are within 1e-6 of
+//! its size: text formats and default points of OpenMesh have single precision.
+//! \throws InputError as make_domain()
+template <class Mesh, int Dim>
+Domain<Dim> snapped_domain(const Mesh& mesh, const Cage<Dim>& cage) {
+  constexpr double kSinglePrecision = 1e-6;
+  auto domain = make_domain(mesh);
+  snap_to_cage(cage, domain.topology, kSinglePrecision, domain.mesh);
+  return domain;
+}
 
 }  // namespace flbc::openmesh

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Coordinates on a mesh of OpenMesh's, or a TetMesh, that follow a cage while its rest shape is
+//! Coordinates on a mesh of OpenMesh, or a TetMesh, that follow a cage while its rest shape is
 //! being edited.
 #pragma once
 
@@ -32,13 +32,13 @@ class EditableMesh {
   //! \param mesher  makes coarser meshes of the cage (see EditableCoordinates); {} for none. By
   //! default that of the component which the program links, as in solve()
   //! \throws InputError if mesh and cage do not belong together; OptionError, SolverError
-  EditableMesh(Mesh& mesh, const Cage<kDim>& cage, const SolverOptions& options = {},
-               std::string weights = kWeights,
-               const MesherArgument<kDim>& mesher =
-                   internal::coarse_mesher(internal::linked_mesher<kDim>()))
+  EditableMesh(
+      Mesh& mesh, const Cage<kDim>& cage, const SolverOptions& options = {},
+      std::string weights = kWeights,
+      const MesherArgument<kDim>& mesher = internal::coarse_mesher(internal::linked_mesher<kDim>()))
       : mesh_(mesh),
         weights_(std::move(weights)),
-        coordinates_(cage, domain_of(mesh, cage), options, mesher) {
+        coordinates_(cage, snapped_domain(mesh, cage).mesh, options, mesher) {
     set_weights(mesh_, coordinates_.solution().weights, weights_);
     set_rest_cage(mesh_, cage.points, weights_);
   }
@@ -69,12 +69,6 @@ class EditableMesh {
   EditableCoordinates<kDim>& coordinates() { return coordinates_; }
 
  private:
-  static DomainMesh<kDim> domain_of(const Mesh& mesh, const Cage<kDim>& cage) {
-    auto domain = make_domain(mesh);
-    snap_to_cage(cage, domain.topology, internal::kSinglePrecision, domain.mesh);
-    return std::move(domain.mesh);
-  }
-
   const SolveReport& left_on_mesh() {
     set_weights(mesh_, coordinates_.solution().weights, weights_);
     return coordinates_.solution().report;

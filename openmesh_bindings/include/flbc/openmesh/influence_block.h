@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "flbc/errors.h"
+#include "flbc/openmesh/row_block.h"
 
 namespace flbc::openmesh {
 
@@ -90,58 +90,49 @@ class InfluencesView {
 //! e * most() and following of control_points() and weights(). New pairs are 0.
 class InfluenceBlock {
  public:
-  InfluenceBlock() = default;
+  InfluenceBlock() : InfluenceBlock(0, 0) {}
   //! No elements yet. \param num_control_points  n \param most  pairs per element
   InfluenceBlock(std::size_t num_control_points, std::size_t most)
-      : num_control_points_(num_control_points), most_(most) {}
+      : num_control_points_(num_control_points), control_points_(1, most), weights_(1, most) {}
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return weights_.size(); }
   std::size_t num_control_points() const { return num_control_points_; }
-  std::size_t most() const { return most_; }
+  std::size_t most() const { return weights_.width(); }
   std::uint32_t* control_points() { return control_points_.data(); }
   const std::uint32_t* control_points() const { return control_points_.data(); }
   double* weights() { return weights_.data(); }
   const double* weights() const { return weights_.data(); }
 
   InfluencesView<double> operator[](std::size_t e) {
-    return {control_points() + e * most_, weights() + e * most_, most_};
+    return {control_points() + e * most(), weights() + e * most(), most()};
   }
   InfluencesView<const double> operator[](std::size_t e) const {
-    return {control_points() + e * most_, weights() + e * most_, most_};
+    return {control_points() + e * most(), weights() + e * most(), most()};
   }
 
   void reserve(std::size_t elements) {
-    control_points_.reserve(elements * most_);
-    weights_.reserve(elements * most_);
+    control_points_.reserve(elements);
+    weights_.reserve(elements);
   }
   void resize(std::size_t elements) {
-    control_points_.resize(elements * most_);
-    weights_.resize(elements * most_);
-    size_ = elements;
+    control_points_.resize(elements);
+    weights_.resize(elements);
   }
   //! Keeps the shape, frees the memory.
-  void clear() { *this = InfluenceBlock(num_control_points_, most_); }
-
+  void clear() { *this = InfluenceBlock(num_control_points_, most()); }
   void swap(std::size_t first, std::size_t second) {
-    if (first == second) return;
-    const auto swap_in = [&](auto& numbers) {
-      const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first * most_);
-      std::swap_ranges(begin, begin + static_cast<std::ptrdiff_t>(most_),
-                       numbers.begin() + static_cast<std::ptrdiff_t>(second * most_));
-    };
-    swap_in(control_points_);
-    swap_in(weights_);
+    control_points_.swap(first, second);
+    weights_.swap(first, second);
   }
   void copy(std::size_t from, std::size_t to) {
-    if (from != to) (*this)[to] = (*this)[from];
+    control_points_.copy(from, to);
+    weights_.copy(from, to);
   }
 
  private:
-  std::size_t num_control_points_ = 0;
-  std::size_t most_ = 0;
-  std::size_t size_ = 0;
-  std::vector<std::uint32_t> control_points_;
-  std::vector<double> weights_;
+  std::size_t num_control_points_;
+  RowBlock<std::uint32_t> control_points_;
+  RowBlock<double> weights_;
 };
 
 }  // namespace flbc::openmesh

@@ -1,151 +1,149 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The memory of a wide property: rows of numbers for all elements, in one aligned block.
+//! The memory of a wide property: rows of numbers for all elements, in one block.
 #pragma once
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
-#include <memory>
 #include <new>
+#include <string>
 #include <type_traits>
-#include <utility>
+#include <vector>
 
-#include "flbc/openmesh/rows_view.h"
-#include "base/padded_rows.h"
+#include <Eigen/Core>
+
+#include "flbc/errors.h"
 
 namespace flbc::openmesh {
 
-//! Like a std::vector whose elements are `components` rows of `width` numbers each: element e,
-//! component c, number i is at data()[(e * components() + c) * stride() + i]. New numbers are zero,
-//! padding stays zero, and the block is aligned to 64 bytes.
+//! `components` rows of `width` numbers, one after the other: a reference to the numbers of one
+//! element, as those of std::vector<bool> are. A copy of the view refers to the same numbers.
+//! Assigning to it copies the numbers, as copy_property() and copy_to() of OpenMesh expect. Valid
+//! until the property changes its number of elements or its shape.
+//! \tparam Scalar  the numbers, const for numbers that may only be read
 template <class Scalar>
-class RowBlock {
-  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>);
-
+class RowsView {
  public:
-  static constexpr std::size_t kAlignment = 64;
+  RowsView(Scalar* data, std::size_t components, std::size_t width)
+      : data_(data), components_(components), width_(width) {}
+  RowsView(const RowsView& rows) = default;
 
-  RowBlock() = default;
-  //! No elements yet. \throws std::bad_alloc if already one could not be addressed
-  RowBlock(std::size_t components, std::size_t width) : components_(components), width_(width) {
-    if (width > kMostNumbers) throw std::bad_alloc();
-    stride_ = padded(width);
-    if (stride_ > 0 && components > kMostNumbers / stride_) throw std::bad_alloc();
+  //! A view for writing converts to one for reading.
+  template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Scalar>>>
+  RowsView(const RowsView<Other>& rows) : RowsView(rows.data(), rows.components(), rows.width()) {}
+
+  //! Copies the numbers. \throws InputError if the views differ in shape
+  RowsView& operator=(const RowsView& rows) {
+    if (this != &rows) assign(rows);
+    return *this;
   }
-  RowBlock(const RowBlock& block) : RowBlock(block.components_, block.width_) {
-    reallocate(block.size_);
-    size_ = block.size_;
-    copy_numbers(block.data_, size_ * element_size(), data_);
-  }
-  RowBlock(RowBlock&& block) noexcept { exchange_with(block); }
-  RowBlock& operator=(RowBlock block) noexcept {
-    exchange_with(block);
+  template <class Other>
+  RowsView& operator=(const RowsView<Other>& rows) {
+    assign(rows);
     return *this;
   }
 
-  std::size_t size() const { return size_; }
-  std::size_t capacity() const { return capacity_; }
   std::size_t components() const { return components_; }
   std::size_t width() const { return width_; }
-  std::size_t stride() const { return stride_; }
-  //! Numbers of one element with their padding.
-  std::size_t element_size() const { return components_ * stride_; }
-  Scalar* data() { return data_; }
-  const Scalar* data() const { return data_; }
+  Scalar* data() const { return data_; }
+  Scalar* row(std::size_t component) const { return data_ + component * width_; }
+
+  //! Number i < width() of a component.
+  Scalar& operator()(std::size_t component, std::size_t i) const {
+    assert(component < components_ && i < width_);
+    return row(component)[i];
+  }
+
+  //! Number i of the first component.
+  Scalar& operator[](std::size_t i) const { return (*this)(0, i); }
+
+  //! The numbers as a matrix of Eigen, components x width.
+  auto matrix() const {
+    using Matrix =
+        Eigen::Matrix<std::remove_const_t<Scalar>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Mapped = std::conditional_t<std::is_const_v<Scalar>, const Matrix, Matrix>;
+    return Eigen::Map<Mapped>(data_, static_cast<Eigen::Index>(components_),
+                              static_cast<Eigen::Index>(width_));
+  }
+
+ private:
+  void assign(const RowsView<const Scalar>& rows) {
+    static_assert(!std::is_const_v<Scalar>, "these numbers may only be read");
+    if (rows.components() != components_ || rows.width() != width_) {
+      throw InputError("rows of " + std::to_string(rows.components()) + " x " +
+                       std::to_string(rows.width()) + " numbers cannot be copied to rows of " +
+                       std::to_string(components_) + " x " + std::to_string(width_));
+    }
+    if (rows.data() != data_) std::copy_n(rows.data(), components_ * width_, data_);
+  }
+
+  Scalar* data_;
+  std::size_t components_, width_;
+};
+
+//! Like a std::vector whose elements are `components` rows of `width` numbers each: number i of
+//! component c of element e is at data()[(e * components() + c) * width() + i]. New numbers are 0.
+template <class Scalar>
+class RowBlock {
+ public:
+  RowBlock() = default;
+  //! No elements yet. \throws std::bad_alloc if one element would exceed the address space
+  RowBlock(std::size_t components, std::size_t width) : components_(components), width_(width) {
+    if (width > 0 && components > kMostNumbers / width) throw std::bad_alloc();
+  }
+
+  std::size_t size() const { return size_; }
+  std::size_t components() const { return components_; }
+  std::size_t width() const { return width_; }
+  std::size_t element_size() const { return components_ * width_; }  //!< numbers per element
+  Scalar* data() { return numbers_.data(); }
+  const Scalar* data() const { return numbers_.data(); }
 
   RowsView<Scalar> operator[](std::size_t e) {
-    return {data_ + e * element_size(), components_, width_, stride_};
+    return {data() + e * element_size(), components_, width_};
   }
   RowsView<const Scalar> operator[](std::size_t e) const {
-    return {data_ + e * element_size(), components_, width_, stride_};
+    return {data() + e * element_size(), components_, width_};
   }
 
-  void reserve(std::size_t elements) {
-    if (elements > capacity_) reallocate(elements);
-  }
-
-  //! Grows by doubling, because OpenMesh makes room for every new element with a call of its own.
+  void reserve(std::size_t elements) { numbers_.reserve(numbers_of(elements)); }
   void resize(std::size_t elements) {
-    if (elements > capacity_) reallocate(std::max(elements, grown_capacity()));
-    if (elements < size_) set_zero(elements, size_);
+    numbers_.resize(numbers_of(elements));
     size_ = elements;
   }
-
   //! Keeps the shape, frees the memory.
   void clear() { *this = RowBlock(components_, width_); }
 
-  //! Makes elements of so many rows of what are elements of one row each.
-  void regroup(std::size_t components) {
-    assert(components_ == 1 && components > 0 && size_ % components == 0);
-    components_ = components;
-    size_ /= components;
-    capacity_ /= components;
+  //! Takes the numbers of all elements. \param numbers  element_size() per element
+  void assign(std::size_t elements, std::vector<Scalar> numbers) {
+    assert(numbers.size() == numbers_of(elements));
+    numbers_ = std::move(numbers);
+    size_ = elements;
   }
 
   void swap(std::size_t first, std::size_t second) {
     if (first == second) return;
-    Scalar* const numbers = data_ + first * element_size();
-    std::swap_ranges(numbers, numbers + element_size(), data_ + second * element_size());
+    Scalar* const numbers = data() + first * element_size();
+    std::swap_ranges(numbers, numbers + element_size(), data() + second * element_size());
   }
   void copy(std::size_t from, std::size_t to) {
-    if (from == to) return;
-    copy_numbers(data_ + from * element_size(), element_size(), data_ + to * element_size());
+    if (from != to) std::copy_n((*this)[from].data(), element_size(), (*this)[to].data());
   }
 
  private:
   static constexpr std::size_t kMostNumbers =
-      std::numeric_limits<std::size_t>::max() / 4 / sizeof(Scalar);
+      std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar);
 
-  std::size_t grown_capacity() const { return capacity_ <= kMostNumbers ? 2 * capacity_ : 0; }
-
-  static void copy_numbers(const Scalar* from, std::size_t count, Scalar* to) {
-    if (count > 0) std::memcpy(to, from, count * sizeof(Scalar));
-  }
-  void set_zero(std::size_t first, std::size_t last) {
-    std::fill(data_ + first * element_size(), data_ + last * element_size(), Scalar(0));
+  std::size_t numbers_of(std::size_t elements) const {
+    if (element_size() > 0 && elements > kMostNumbers / element_size()) throw std::bad_alloc();
+    return elements * element_size();
   }
 
-  // Numbers from size_ to the capacity are zero, always. calloc gives large blocks without touching
-  // them: their pages come to exist where and when they are first used.
-  void reallocate(std::size_t capacity) {
-    if (element_size() > 0 && capacity > kMostNumbers / element_size()) throw std::bad_alloc();
-    std::size_t bytes = capacity * element_size() * sizeof(Scalar);
-    std::unique_ptr<void, Free> memory;
-    void* data = nullptr;
-    if (bytes > 0) {
-      std::size_t space = bytes + kAlignment - 1;
-      memory.reset(std::calloc(space, 1));
-      if (!memory) throw std::bad_alloc();
-      data = memory.get();
-      std::align(kAlignment, bytes, data, space);
-    }
-    copy_numbers(data_, size_ * element_size(), static_cast<Scalar*>(data));
-    memory_ = std::move(memory);
-    data_ = static_cast<Scalar*>(data);
-    capacity_ = capacity;
-  }
-
-  void exchange_with(RowBlock& block) noexcept {
-    std::swap(memory_, block.memory_);
-    std::swap(data_, block.data_);
-    std::swap(size_, block.size_);
-    std::swap(capacity_, block.capacity_);
-    std::swap(components_, block.components_);
-    std::swap(width_, block.width_);
-    std::swap(stride_, block.stride_);
-  }
-
-  struct Free {
-    void operator()(void* memory) const { std::free(memory); }
-  };
-  std::unique_ptr<void, Free> memory_;
-  Scalar* data_ = nullptr;  // the first aligned place in memory_
-  std::size_t size_ = 0, capacity_ = 0;
-  std::size_t components_ = 1, width_ = 0, stride_ = 0;
+  std::vector<Scalar> numbers_;
+  std::size_t size_ = 0;
+  std::size_t components_ = 1, width_ = 0;
 };
 
 }  // namespace flbc::openmesh

@@ -61,7 +61,7 @@ class TetConnectivity {
     return few<VertexHandle, 2>(edge_vertices_, edge);
   }
 
-  //! The cells round a vertex, ascending.
+  //! The cells around a vertex, ascending.
   ListRange<internal::CellOfCorner> vc_range(VertexHandle vertex) const {
     return {next_corner_.data(), last_corner_[place(vertex)]};
   }
@@ -90,7 +90,7 @@ class TetConnectivity {
   //! The edge between two vertices, or an invalid handle; walks the edges at the first one.
   EdgeHandle find_edge(VertexHandle a, VertexHandle b) const;
 
-  //! The face of three vertices, or an invalid handle; walks the cells round the first one.
+  //! The face of three vertices, or an invalid handle; walks the cells around the first one.
   FaceHandle find_face(VertexHandle a, VertexHandle b, VertexHandle c) const;
 
  protected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Handles of tetrahedra and of their properties, beside OpenMesh's own.
+//! Handles of tetrahedra and of their properties, next to those of OpenMesh.
 #pragma once
 
 #include <functional>

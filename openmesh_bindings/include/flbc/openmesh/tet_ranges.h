@@ -24,7 +24,7 @@ struct HandleIterator {
   using reference = HandleType;
 };
 
-//! Of what an entry of a vertex's list tells: the cell with this corner, ...
+//! What an entry of the list of a vertex refers to: the cell with this corner, ...
 struct CellOfCorner {
   using Handle = CellHandle;
   Handle operator()(int corner) const { return Handle(corner / 4); }
@@ -52,6 +52,7 @@ class ElementRange {
     explicit iterator(int index = 0) : index_(index) {}
     Handle operator*() const { return Handle(index_); }
     iterator& operator++() { return ++index_, *this; }
+    iterator operator+(int count) const { return iterator(index_ + count); }
     iterator operator++(int) { return iterator(index_++); }
     bool operator==(const iterator& other) const { return index_ == other.index_; }
     bool operator!=(const iterator& other) const { return index_ != other.index_; }

@@ -16,6 +16,7 @@
 #include "flbc/cage.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/openmesh/elements.h"
 #include "flbc/openmesh/influences.h"
 #include "flbc/openmesh/wide_property.h"
 
@@ -23,6 +24,11 @@ namespace flbc::openmesh {
 
 //! Name of the property of weights.
 inline constexpr const char* kWeights = "flbc:weights";
+
+//! Name of the property of their gradients (gradients.h).
+inline std::string gradients_name(const std::string& weights = kWeights) {
+  return weights + ":gradients";
+}
 
 namespace internal {
 
@@ -58,8 +64,29 @@ WeightMatrix to_matrix(const InfluenceBlock& block);
 //! \param most  pairs per point; 0 = as many as the point with the most of them has
 InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
 
+//! Finds a wide property or adds it, and gives it a shape. \return whether it was there with this
+//! shape; else its numbers are 0
+template <class Mesh, class Handle>
+bool attach_rows(Mesh& mesh, Handle& handle, const std::string& name, std::size_t components,
+                 std::size_t width, bool persistent) {
+  const bool is_there = mesh.get_property_handle(handle, name);
+  if (!is_there) mesh.add_property(handle, name);
+  const auto attach = [&](auto& property) {
+    property.set_persistent(persistent);
+    if (property.components() == components && property.width() == width) return is_there;
+    property.set_shape(components, width);
+    return false;
+  };
+  if constexpr (std::is_same_v<typename Handle::Handle, OpenMesh::MeshHandle>) {
+    return attach(mesh.mproperty(handle));
+  } else {
+    return attach(mesh.property(handle));
+  }
+}
+
 std::string name_of_cage(const std::string& weights);
 std::string name_of_offset(const std::string& weights);
+std::string name_of_rest(const std::string& weights);
 
 //! Removes what was under this name, in the other form than T, and what belonged to it.
 template <class T, class Mesh>
@@ -67,6 +94,8 @@ void make_way_for(Mesh& mesh, const std::string& name) {
   if constexpr (!std::is_same_v<T, Influences>) remove_property<Influences>(mesh, name);
   if constexpr (!std::is_same_v<T, Wide<double>>) remove_property<Wide<double>>(mesh, name);
   remove_property<Wide<double>>(mesh, name_of_offset(name));
+  typename Elements<Mesh>::template CellProperty<Wide<double>> gradients;
+  if (mesh.get_property_handle(gradients, gradients_name(name))) mesh.remove_property(gradients);
 }
 
 //! Offsets of points outside the cage from their weights' place: a row of Dim numbers per
@@ -97,10 +126,7 @@ void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& nam
   internal::make_way_for<Wide<double>>(mesh, name);
   auto& rows = internal::get_property<Wide<double>>(mesh, name);
   rows.set_shape(1, static_cast<std::size_t>(weights.rows()));
-  for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-    Eigen::Map<Eigen::VectorXd>(rows.data() + static_cast<std::size_t>(v) * rows.stride(),
-                                weights.rows()) = weights.col(v);
-  }
+  Eigen::Map<WeightMatrix>(rows.data(), weights.rows(), weights.cols()) = weights;
   if (persistent) rows.set_persistent(true);
 }
 
@@ -189,11 +215,7 @@ void set_rest_cage(Mesh& mesh, const PointList<Dim>& control_points,
   if (!mesh.get_property_handle(handle, name)) mesh.add_property(handle, name);
   auto& property = mesh.mproperty(handle);
   property.set_shape(static_cast<std::size_t>(control_points.cols()), Dim);
-  for (Eigen::Index i = 0; i < control_points.cols(); ++i) {
-    for (int d = 0; d < Dim; ++d) {
-      property[0](static_cast<std::size_t>(i), static_cast<std::size_t>(d)) = control_points(d, i);
-    }
-  }
+  property[0].matrix() = control_points.transpose();
   if (persistent) property.set_persistent(true);
 }
 
@@ -202,15 +224,7 @@ template <class Mesh>
 Eigen::MatrixXd get_rest_cage(const Mesh& mesh, const std::string& weights = kWeights) {
   OpenMesh::MPropHandleT<Wide<double>> handle;
   if (!mesh.get_property_handle(handle, internal::name_of_cage(weights))) return {};
-  const auto rows = mesh.mproperty(handle)[0];
-  Eigen::MatrixXd cage(static_cast<Eigen::Index>(rows.width()),
-                       static_cast<Eigen::Index>(rows.components()));
-  for (Eigen::Index i = 0; i < cage.cols(); ++i) {
-    for (Eigen::Index d = 0; d < cage.rows(); ++d) {
-      cage(d, i) = rows(static_cast<std::size_t>(i), static_cast<std::size_t>(d));
-    }
-  }
-  return cage;
+  return mesh.mproperty(handle)[0].matrix().transpose();
 }
 
 }  // namespace flbc::openmesh

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Properties of OpenMesh meshes whose elements all have the same number of numbers, in one block.
+//! The tools of OpenMesh copy, sort, save and load them like any other property.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <utility>
+
+#include <OpenMesh/Core/System/config.h>
+#include <OpenMesh/Core/Utils/Property.hh>
+#include <OpenMesh/Core/Utils/PropertyCreator.hh>
+
+// Specializes PropertyT, whose interface changed in 9.0.
+#if OM_VERSION < 0x90000
+#error "flbc's bindings need OpenMesh 9.0 or later"
+#endif
+
+namespace flbc::openmesh {
+
+//! The block behind properties with this value type: a type `Block`, whose operator[] gives a view
+//! of an element, and the name `kName` of the type in .om files.
+template <class Value>
+struct BlockOf;
+
+//! Types that OpenMesh asks for.
+template <class V>
+struct BlockTypes {
+  using Value = V;
+  using value_type = V;
+  using vector_type = typename BlockOf<V>::Block;
+  using reference = decltype(std::declval<vector_type&>()[0]);
+  using const_reference = decltype(std::declval<const vector_type&>()[0]);
+};
+
+//! Base of PropertyT<V>. Next to the block there are functions stored_size(block),
+//! store_block(out, swap, name, block) and restore_block(in, swap, name, block).
+template <class V>
+class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
+ public:
+  using typename BlockTypes<V>::vector_type;
+  using typename BlockTypes<V>::reference;
+  using typename BlockTypes<V>::const_reference;
+
+  explicit BlockProperty(const std::string& name = "<unknown>",
+                         const std::string& internal_type_name = "<unknown>")
+      : OpenMesh::BaseProperty(name, internal_type_name) {}
+
+  //! Element e. No range check, as everywhere in OpenMesh.
+  reference operator[](int e) {
+    assert(static_cast<std::size_t>(e) < n_elements());
+    return block_[static_cast<std::size_t>(e)];
+  }
+  const_reference operator[](int e) const {
+    assert(static_cast<std::size_t>(e) < n_elements());
+    return block_[static_cast<std::size_t>(e)];
+  }
+
+  //! For PropertyManager, which swaps it; keep its number of elements.
+  vector_type& data_vector() { return block_; }
+  const vector_type& data_vector() const { return block_; }
+
+  // The synchronized array. New elements are 0; clear() frees the memory and keeps the shape.
+  void reserve(std::size_t elements) override { block_.reserve(elements); }
+  void resize(std::size_t elements) override { block_.resize(elements); }
+  void clear() override { block_.clear(); }
+  void push_back() override { block_.resize(block_.size() + 1); }
+  void swap(std::size_t first, std::size_t second) override { block_.swap(first, second); }
+  void copy(std::size_t from, std::size_t to) override { block_.copy(from, to); }
+  OpenMesh::BaseProperty* clone() const override {
+    return new OpenMesh::PropertyT<V>(static_cast<const OpenMesh::PropertyT<V>&>(*this));
+  }
+
+  // .om files.
+  void set_persistent(bool yes) override { this->template check_and_set_persistent<V>(yes); }
+  std::string get_storage_name() const override { return BlockOf<V>::kName; }
+  std::size_t n_elements() const override { return block_.size(); }
+  //! Always unknown: OpenMesh asks before it reads a property, and its shape is in the file.
+  std::size_t element_size() const override { return UnknownSize; }
+  std::size_t size_of(std::size_t /*elements*/) const override { return UnknownSize; }
+  //! Bytes in an .om file.
+  std::size_t size_of() const override { return stored_size(block_); }
+  std::size_t store(std::ostream& out, bool swap_bytes) const override {
+    return store_block(out, swap_bytes, name(), block_);
+  }
+  //! A property read from a file is written into the next one.
+  std::size_t restore(std::istream& in, bool swap_bytes) override {
+    const std::size_t bytes = restore_block(in, swap_bytes, name(), block_);
+    set_persistent(true);
+    return bytes;
+  }
+
+ protected:
+  //! Gives all elements another shape and sets them to 0. If this throws, nothing has changed.
+  void set_block_shape(std::size_t components, std::size_t width) {
+    vector_type block(components, width);
+    block.resize(block_.size());
+    block_ = std::move(block);
+  }
+
+ private:
+  vector_type block_;
+};
+
+//! Tells OpenMesh that such properties can be saved, and under which name.
+template <class V>
+struct BlockBinary {
+  using value_type = V;
+  static const bool is_streamable = true;
+  static std::size_t size_of() { return OpenMesh::IO::UnknownSize; }
+  static std::size_t size_of(const value_type&) { return OpenMesh::IO::UnknownSize; }
+  static std::string type_identifier() { return BlockOf<V>::kName; }
+};
+
+//! Makes the properties of a file in a mesh that has none of their name. This is what
+//! OM_REGISTER_PROPERTY_TYPE makes, once per program instead of once per source file; its variables
+//! are named by their line only and could collide with those of another header.
+template <class V>
+class BlockCreator : public OpenMesh::PropertyCreatorImpl<BlockCreator<V>> {
+ public:
+  using type = V;
+  BlockCreator() { OpenMesh::PropertyCreationManager::instance().register_property_creator(this); }
+  std::string type_string() override { return BlockOf<V>::kName; }
+};
+
+}  // namespace flbc::openmesh

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The gradient ADMM of the paper (4.2.1 in 2D, 4.2.3 in 3D), step by step on a mesh.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "flbc/harmonic.h"
+#include "flbc/openmesh/gradient_problem.h"
+#include "flbc/openmesh/gradients.h"
+#include "flbc/openmesh/weights.h"
+#include "flbc/recovery.h"
+
+namespace flbc::openmesh {
+
+//! Options of GradientAdmm.
+struct GradientAdmmOptions {
+  double penalty = 0;     //!< mu > 0, in length^(Dim + 1) of the mesh; 0: chosen from the mesh
+  double relaxation = 1;  //!< over-relaxation in (0, 2); 1 is the iteration of the paper
+  DistanceScheme phi = DistanceScheme::kSquare;  //!< growth of phi with the geodesic distance
+  std::string weights = kWeights;                //!< name of the property for recovered weights
+  bool persistent = false;                       //!< whether .om files keep state and weights
+};
+
+//! Minimizes sum_s sum_i phi A |g| (7) over a gradient g per cell and control point, subject to the
+//! barycentric conditions (8), the boundary values (9), and integrability (10). Copies of the
+//! gradients, X on boundary facets, Y on interior facets, and Z on cells, satisfy one condition
+//! each; u = lambda / mu is the scaled dual of a copy.
+//!
+//!     X-step   x = g - u, its tangential part replaced by h       boundary facets (9)
+//!     Y-step   y = g - u, its tangential part averaged            interior facets (10)
+//!     Z-step   z = g - u, shortened by phi A / mu                 cells (7)
+//!     G-step   g = mean of x + u, y + u, z + u, projected on (8)  cells (11)
+//!
+//! Each step updates its dual lambda relative to the extrapolated gradient e = 2 g - (g before)
+//! (docs/method.md, section 7). Then the dual is a tangential vector per facet or a vector of
+//! length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be stored. The
+//! gradients are those of the paper, iterate by iterate; tests/support/textbook_admm.h is the
+//! version with all copies. If the boundary has several components, each one after the first adds a
+//! period constraint (section 8).
+//!
+//! The state is in the properties named below, in the units of the mesh. A new object on a mesh
+//! that has them resumes. A state for another cage with as many control points, or another penalty,
+//! is a valid start: the iteration converges from any. The elements of the mesh must not change
+//! meanwhile.
+//! \tparam Mesh  a TriMesh of OpenMesh in the plane, or a TetMesh
+template <class Mesh>
+class GradientAdmm {
+ public:
+  static constexpr const char* kGradient = "flbc:admm:gradient";          // Dim rows of n per cell
+  static constexpr const char* kExtrapolated = "flbc:admm:extrapolated";  // Dim rows of n per cell
+  static constexpr const char* kCellDual = "flbc:admm:cell_dual";         // Dim rows of n per cell
+  static constexpr const char* kFacetDual = "flbc:admm:facet_dual";       // Dim rows of n per facet
+  static constexpr const char* kPeriodDual = "flbc:admm:period_dual";     // a row of n per period
+
+  static constexpr int kDim = kDimension<Mesh>;
+  using Cell = typename Elements<Mesh>::Cell;
+  using Facet = typename Elements<Mesh>::Facet;
+  using Rows = VectorRows<kDim>;
+
+  //! Norms of r_p and r_d of the paper; with over-relaxation, r_p at the extrapolated gradients.
+  struct Residuals {
+    double primal, dual;
+  };
+
+  //! Resumes from the state on the mesh, or starts from harmonic coordinates if there is none.
+  //! \throws InputError if mesh and cage do not belong together; OptionError, SolverError
+  GradientAdmm(Mesh& mesh, const Cage<kDim>& cage, const GradientAdmmOptions& options = {})
+      : mesh_(mesh),
+        options_(options),
+        problem_(make_gradient_problem(cage, snapped_domain(mesh, cage), options.phi)),
+        n_(cage.size()),
+        mu_(options.penalty > 0 ? options.penalty : problem_.penalty),
+        alpha_(options.relaxation),
+        M_(static_cast<double>(kDim + 2 + problem_.periods.size())) {
+    if (!(options.penalty >= 0 && alpha_ > 0 && alpha_ < 2)) {
+      throw OptionError("GradientAdmm: invalid option; use a penalty >= 0, a relaxation in (0, 2)");
+    }
+    resumed_ = attach(gradient_, kGradient, kDim) & attach(extrapolated_, kExtrapolated, kDim) &
+               attach(cell_dual_, kCellDual, kDim) & attach(facet_dual_, kFacetDual, kDim) &
+               attach(period_dual_, kPeriodDual, problem_.periods.size());
+    if (!resumed_) restart();
+  }
+
+  //! Drops the state and starts from harmonic coordinates.
+  void restart() {
+    const auto weights = harmonic_coordinates(problem_.base);
+    for (const Cell cell : Elements<Mesh>::cells(mesh_)) {
+      gradient(cell) = internal::gradients_on_cell(problem_.base.mesh, cell.idx(), weights);
+      rows(extrapolated_, cell) = gradient(cell);
+      cell_dual(cell).setZero();
+    }
+    for (const Facet facet : Elements<Mesh>::facets(mesh_)) facet_dual(facet).setZero();
+    period_duals().setZero();
+    resumed_ = false;
+  }
+
+  //! \return residuals of the last iteration \throws SolverError if it diverges
+  Residuals iterate(int count = 1) {
+    Change change;
+    for (int k = 0; k < count; ++k) {
+      change = x_step();
+      change += y_step();
+      change += z_step();
+      change += period_step();
+      change += g_step();
+    }
+    if (!std::isfinite(change.dual + change.gradient)) {
+      throw SolverError("GradientAdmm: the state on the mesh is not finite; call restart()");
+    }
+    // The duals here lead those of the paper by a part that the G-step removes (method.md, 7).
+    const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
+    return {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
+  }
+
+  //! Writes the weights whose gradients are nearest to the present ones as a property.
+  void recover_weights() {
+    const CellFieldView<double, kDim> gradients{mesh_.property(gradient_).data(),
+                                                static_cast<std::size_t>(n_), n_};
+    set_weights(mesh_, integrate_least_squares(problem_.base, gradients), options_.weights,
+                options_.persistent);
+    set_rest_cage(mesh_, problem_.base.cage.points, options_.weights, options_.persistent);
+  }
+
+  bool resumed() const { return resumed_; }  //!< whether it started from a state on the mesh
+  double penalty() const { return mu_; }     //!< as in GradientAdmmOptions
+
+  //! The state on an element, Dim x n: gradients, the dual of (7), and the dual of (9) or (10),
+  //! positive on the first side of the facet.
+  Eigen::Map<Rows> gradient(Cell cell) const { return rows(gradient_, cell); }
+  Eigen::Map<Rows> cell_dual(Cell cell) const { return rows(cell_dual_, cell); }
+  Eigen::Map<Rows> facet_dual(Facet facet) const { return rows(facet_dual_, facet); }
+
+ private:
+  using CellRows = typename Elements<Mesh>::template CellProperty<Wide<double>>;
+  using FacetRows = typename Elements<Mesh>::template FacetProperty<Wide<double>>;
+
+  // Squared changes in one iteration, for the residuals.
+  struct Change {
+    double dual = 0, gradient = 0, lead = 0;
+    Change& operator+=(const Change& other) {
+      dual += other.dual, gradient += other.gradient, lead += other.lead;
+      return *this;
+    }
+  };
+
+  Change x_step() {
+    return for_all(Elements<Mesh>::facets(mesh_), [&](Facet facet, Rows& sum, Rows& projected) {
+      const auto& h = problem_.slope[static_cast<std::size_t>(facet.idx())];
+      if (h.size() == 0) return Change{};
+      sum = facet_dual(facet) + mu_ * (h - rows(extrapolated_, sides(facet)[0]));
+      projected.noalias() = tangent_projector(facet).lazyProduct(sum);
+      return move(facet_dual(facet), projected, 1);
+    });
+  }
+
+  Change y_step() {
+    return for_all(Elements<Mesh>::facets(mesh_), [&](Facet facet, Rows& sum, Rows& projected) {
+      const auto [first, second] = sides(facet);
+      if (!second.is_valid()) return Change{};
+      sum = rows(extrapolated_, second) - rows(extrapolated_, first);
+      sum = facet_dual(facet) + (mu_ / 2) * sum;
+      projected.noalias() = tangent_projector(facet).lazyProduct(sum);
+      return move(facet_dual(facet), projected, 2);
+    });
+  }
+
+  Change z_step() {
+    constexpr double kTiny = std::numeric_limits<double>::min();
+    return for_all(Elements<Mesh>::cells(mesh_), [&](Cell cell, Rows& clipped, Rows& squares) {
+      clipped = cell_dual(cell) - mu_ * rows(extrapolated_, cell);
+      squares = clipped.cwiseAbs2();
+      for (int d = 1; d < kDim; ++d) squares.row(0) += squares.row(d);
+      const auto radius = problem_.radius.col(cell.idx()).transpose().array();
+      auto shrink = squares.row(0).array();
+      shrink = radius / shrink.max(radius.square() + kTiny).sqrt();
+      for (int d = 0; d < kDim; ++d) clipped.row(d).array() *= shrink;
+      return move(cell_dual(cell), clipped, 1);
+    });
+  }
+
+  Change g_step() {
+    return for_all(Elements<Mesh>::cells(mesh_), [&](Cell cell, Rows& mean, Rows& step) {
+      mean = cell_dual(cell);
+      for (const Facet facet : Elements<Mesh>::facets_of(mesh_, cell)) {
+        mean += (sides(facet)[0] == cell ? 1 : -1) * facet_dual(facet);
+      }
+      for (std::size_t p = 0; p < problem_.periods.size(); ++p) {
+        mean += problem_.periods[p].field.col(cell.idx()) * period_duals().row(p);
+      }
+      auto g = gradient(cell), e = rows(extrapolated_, cell);
+      mean = g + mean / (mu_ * M_);
+      const Eigen::Matrix<double, kDim, kDim + 1> excess =
+          mean.lazyProduct(problem_.basis) - problem_.target;
+      mean.noalias() -= excess.lazyProduct(problem_.basis.transpose());
+      step = mean - g;
+      const Change change{0, step.squaredNorm(), (e - mean).squaredNorm()};
+      e = mean + step;
+      g += alpha_ * step;
+      return change;
+    });
+  }
+
+  // Blocks of cells are summed in a fixed order: the result must not depend on the threads.
+  Change period_step() {
+    constexpr int kBlocks = 64;
+    const std::int64_t num_cells = problem_.base.mesh.num_cells();
+    Change change;
+    for (std::size_t p = 0; p < problem_.periods.size(); ++p) {
+      const auto& period = problem_.periods[p];
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n_, kBlocks);
+#pragma omp parallel for schedule(static)
+      for (int b = 0; b < kBlocks; ++b) {
+        for (auto s = b * num_cells / kBlocks; s < (b + 1) * num_cells / kBlocks; ++s) {
+          const Cell cell(static_cast<int>(s));
+          sums.col(b) += rows(extrapolated_, cell).transpose() * period.field.col(s);
+        }
+      }
+      const Eigen::RowVectorXd step = period.values - sums.rowwise().sum().transpose();
+      period_duals().row(p) += alpha_ * mu_ * step;
+      change.dual += step.squaredNorm();
+    }
+    return change;
+  }
+
+  // Moves a dual toward `target`, which becomes the difference.
+  Change move(Eigen::Map<Rows> dual, Rows& target, int sides) const {
+    target -= dual;
+    dual += alpha_ * target;
+    return {sides * target.squaredNorm() / (mu_ * mu_), 0, 0};
+  }
+
+  // The sum of what `step` returns for all elements of a range of the mesh, in parallel. Each
+  // thread lends it two matrices to work with.
+  template <class Range, class Step>
+  Change for_all(const Range& range, const Step& step) const {
+    Change sum;
+    auto first = range.begin();
+    const int count = (*range.end()).idx();
+#pragma omp parallel
+    {
+      Change part;
+      Rows a(kDim, n_), b(kDim, n_);
+#pragma omp for schedule(static)
+      for (int k = 0; k < count; ++k) part += step(*(first + k), a, b);
+#pragma omp critical
+      sum += part;
+    }
+    return sum;
+  }
+
+  // b b^T of an edge b, I - n n^T of a triangle with normal n.
+  Eigen::Matrix<double, kDim, kDim> tangent_projector(Facet facet) const {
+    const auto corners = Elements<Mesh>::corners(mesh_, facet);
+    const auto point = [&](int k) { return problem_.base.mesh.points.col(corners[k].idx()); };
+    const Vector<kDim> edge = point(1) - point(0);
+    if constexpr (kDim == 2) {
+      return edge * edge.transpose() / edge.squaredNorm();
+    } else {
+      const Vector<3> normal = edge.cross(Vector<3>(point(2) - point(0)));
+      return Eigen::Matrix3d::Identity() - normal * normal.transpose() / normal.squaredNorm();
+    }
+  }
+
+  template <class Handle>
+  Eigen::Map<Rows> rows(Handle handle, typename Handle::Handle element) const {
+    return Eigen::Map<Rows>(mesh_.property(handle, element).data(), kDim, n_);
+  }
+  auto sides(Facet facet) const {
+    return Elements<Mesh>::sides(mesh_, facet);
+  }
+  auto period_duals() const {
+    return mesh_.mproperty(period_dual_)[0].matrix();
+  }
+
+  template <class Handle>
+  bool attach(Handle& handle, const char* name, std::size_t components) {
+    return internal::attach_rows(mesh_, handle, name, components, static_cast<std::size_t>(n_),
+                                 options_.persistent);
+  }
+
+  Mesh& mesh_;
+  const GradientAdmmOptions options_;
+  const GradientProblem<kDim> problem_;
+  const Index n_;  // control points
+  const double mu_, alpha_;
+  const double M_;  // copies of a gradient
+  bool resumed_ = false;
+  CellRows gradient_, extrapolated_, cell_dual_;
+  FacetRows facet_dual_;
+  OpenMesh::MPropHandleT<Wide<double>> period_dual_;
+};
+
+}  // namespace flbc::openmesh

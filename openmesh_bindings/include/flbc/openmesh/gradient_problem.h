@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What is constant during the iteration of GradientAdmm, in the units of the mesh.
+#pragma once
+
+#include <vector>
+
+#include "flbc/lbc_problem.h"
+#include "flbc/openmesh/domain.h"
+
+namespace flbc::openmesh {
+
+//! A vector per control point, a row of n numbers per coordinate.
+template <int Dim>
+using VectorRows = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::RowMajor>;
+
+//! If the boundary has several components, (8)-(10) leave one constant per control point and
+//! further component open (docs/method.md, section 8). One condition each fixes it:
+//! sum_s field_s . g_i(s) = values_i.
+template <int Dim>
+struct PeriodConstraint {
+  PointList<Dim> field;       //!< Dim x F, with norm 1
+  Eigen::RowVectorXd values;  //!< n
+};
+
+//! The minimization problem (7)-(11) of the paper for n control points and F cells.
+template <int Dim>
+struct GradientProblem {
+  LbcProblem<Dim> base;                //!< not scaled
+  Eigen::MatrixXd radius;              //!< n x F, phi A
+  std::vector<VectorRows<Dim>> slope;  //!< per facet, empty inside: tangential gradients h of (9)
+  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis;  //!< Q: orthonormal columns, span [1; c]
+  Eigen::Matrix<double, Dim, Dim + 1> target;            //!< g Q for every g that satisfies (8)
+  std::vector<PeriodConstraint<Dim>> periods;
+  double penalty;  //!< mu that needs few iterations, length^(Dim + 1)
+};
+
+//! \param domain  its facets are those of the mesh
+//! \throws InputError if mesh and cage do not belong together; SolverError
+template <int Dim>
+GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
+                                           DistanceScheme phi);
+
+}  // namespace flbc::openmesh

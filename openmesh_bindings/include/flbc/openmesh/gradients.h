@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Gradients of weights as a property of the cells.
+#pragma once
+
+#include <string>
+
+#include <Eigen/LU>
+
+#include "flbc/openmesh/domain.h"
+#include "flbc/openmesh/weights.h"
+
+namespace flbc::openmesh {
+
+namespace internal {
+
+//! The gradients of piecewise linear functions on a cell. \param weights  n x V \return Dim x n
+template <int Dim>
+Eigen::Matrix<double, Dim, Eigen::Dynamic> gradients_on_cell(const DomainMesh<Dim>& mesh,
+                                                             Index cell,
+                                                             const WeightMatrix& weights) {
+  const auto vertices = mesh.cells.col(cell);
+  Eigen::Matrix<double, Dim, Dim> edges;
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> differences(Dim, weights.rows());
+  for (int k = 0; k < Dim; ++k) {
+    edges.row(k) = mesh.points.col(vertices[k + 1]) - mesh.points.col(vertices[0]);
+    differences.row(k) = weights.col(vertices[k + 1]) - weights.col(vertices[0]);
+  }
+  return edges.inverse() * differences;
+}
+
+template <int Dim, class Mesh>
+void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const WeightMatrix& weights,
+                   const std::string& name, bool persistent) {
+  typename Elements<Mesh>::template CellProperty<Wide<double>> handle;
+  attach_rows(mesh, handle, name, Dim, static_cast<std::size_t>(weights.rows()), persistent);
+  for (Index s = 0; s < domain.num_cells(); ++s) {
+    mesh.property(handle)[s].matrix() = gradients_on_cell(domain, s, weights);
+  }
+}
+
+}  // namespace internal
+
+//! Attaches the gradients of the weights of this name to the cells, as Wide<double>: Dim rows of n
+//! numbers, in 1 / units of the mesh where it is now. Their name is gradients_name(weights); they
+//! are removed when the weights are replaced.
+//! \param mesh  a TriMesh in the plane, or a TetMesh \param persistent  whether .om files keep them
+//! \throws InputError if the mesh has no weights of this name, or make_domain() refuses it
+template <class Mesh>
+void set_gradients(Mesh& mesh, const std::string& weights = kWeights, bool persistent = false) {
+  internal::set_gradients(mesh, make_domain(mesh).mesh, get_weights(mesh, weights),
+                          gradients_name(weights), persistent);
+}
+
+}  // namespace flbc::openmesh
