@@ -1,47 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vector pictures of the program, as other programs read them.
 #include <cmath>
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include "support/command_line.h"
+#include "support/png_image.h"
 
 namespace flbc::testing {
 namespace {
 
-struct Pixels {
-  int width = 0;
-  int height = 0;
-  std::vector<png_byte> bytes{};
-};
-
-Pixels read_png(const std::string& path) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  Pixels pixels;
-  if (png_image_begin_read_from_file(&header, path.c_str()) == 0) return pixels;
-  header.format = PNG_FORMAT_RGB;
-  pixels.bytes.resize(PNG_IMAGE_SIZE(header));
-  if (png_image_finish_read(&header, nullptr, pixels.bytes.data(), 0, nullptr) == 0) return {};
-  pixels.width = static_cast<int>(header.width);
-  pixels.height = static_cast<int>(header.height);
-  return pixels;
-}
+using draw::Color;
+using draw::Image;
 
 // Blocks of so many pixels become one.
-Pixels averaged(const Pixels& fine, int scale) {
-  Pixels coarse{fine.width / scale, fine.height / scale, {}};
+Image averaged(const Image& fine, int scale) {
+  Image coarse{fine.width / scale, fine.height / scale, {}};
+  const float share = 1.0F / static_cast<float>(scale * scale);
   for (int y = 0; y < coarse.height; ++y) {
-    for (int x = 0; x < 3 * coarse.width; ++x) {
-      int sum = 0;
+    for (int x = 0; x < coarse.width; ++x) {
+      Color& sum = coarse.pixels.emplace_back();
       for (int k = 0; k < scale * scale; ++k) {
-        const int column = x / 3 * scale + k % scale, row = y * scale + k / scale;
-        sum += fine.bytes[3 * (static_cast<std::size_t>(row) * fine.width + column) + x % 3];
+        const Color part = fine.at(x * scale + k % scale, y * scale + k / scale);
+        sum = {sum.r + share * part.r, sum.g + share * part.g, sum.b + share * part.b};
       }
-      coarse.bytes.push_back(static_cast<png_byte>(sum / (scale * scale)));
     }
   }
   return coarse;
@@ -92,20 +76,22 @@ class VectorPictures : public CommandLineTest {
   // and counts channels that differ clearly.
   // \param scale  of the other picture: fine lines are never thinner than its pixels
   void expect_same_picture(const std::string& other, int scale = 1) const {
-    const auto a = read_png(path("p.png")), b = averaged(read_png(path(other)), scale);
+    const auto a = draw::decode_png(slurp(path("p.png")));
+    const auto b = averaged(draw::decode_png(slurp(path(other))), scale);
     ASSERT_EQ(a.width, b.width) << other;
     ASSERT_EQ(a.height, b.height) << other;
     double sum = 0, ink = 0;
     int clear = 0;
-    for (std::size_t k = 0; k < a.bytes.size(); ++k) {
-      const int difference = std::abs(a.bytes[k] - b.bytes[k]);
-      sum += difference;
-      ink += 255 - a.bytes[k];
-      clear += difference > 64;
+    for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+      const Color p = a.pixels[k], q = b.pixels[k];
+      for (const auto& [u, v] : {std::pair(p.r, q.r), {p.g, q.g}, {p.b, q.b}}) {
+        sum += static_cast<double>(std::abs(u - v));
+        ink += static_cast<double>(1 - u);
+        clear += std::abs(u - v) > 0.25F;
+      }
     }
-    const auto count = static_cast<double>(a.bytes.size());
     EXPECT_LT(sum, 0.15 * ink) << other;
-    EXPECT_LT(clear / count, 0.02) << other;
+    EXPECT_LT(clear / (3.0 * static_cast<double>(a.pixels.size())), 0.02) << other;
   }
 
   void expect_all_formats_agree(const std::string& arguments, const std::string& label) const {
@@ -179,10 +165,9 @@ TEST_F(VectorPictures, UnknownFormatsAreNamed) {
 }
 
 TEST_F(VectorPictures, OfARunAsWell) {
-  const auto result =
-      run("run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
-          " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " +
-          path("out"));
+  const auto result = run(
+      "run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
+      " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " + path("out"));
   ASSERT_EQ(result.status, 0) << result.errors;
   for (const char* name : {"out/function.svg", "out/model.svg"}) {
     expect_well_formed(slurp(path(name)));
