@@ -65,7 +65,7 @@ HistoryRecorder::HistoryRecorder(const SolverOptions& options)
     : start_(std::chrono::steady_clock::now()) {
   const auto resolved = resolve(options);
   const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
-  if (estimates) tolerance_ = resolved.tolerance;
+  if (estimates) tolerance_ = *resolved.tolerance;
 }
 
 void HistoryRecorder::note(const Progress& progress) {

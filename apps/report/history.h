@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/observer.h"
 #include "flbc/report.h"
 
 namespace flbc::app {

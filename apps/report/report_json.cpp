@@ -27,7 +27,7 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
 // As published: what was given, or what the method always takes; 0 = chosen from the mesh.
 double penalty_asked_for(const SolveReport& report, const SolveSettings& settings) {
   const bool is_fixed = report.method == Method::kGradient || report.method == Method::kPaper;
-  return is_fixed && settings.penalty == 0 ? report.published_penalty : settings.penalty;
+  return is_fixed && !settings.penalty ? report.published_penalty : settings.penalty.value_or(0);
 }
 
 // All options used: those left to the method are given as it chose them.
@@ -49,13 +49,13 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"phi", name_of(options.phi)},
           {"distances", name_of(options.distances)},
           {"linear_solver", name_of(options.linear_solver)},
-          {"recovery", name_of(options.recovery)},
+          {"recovery", name_of(options.gradient.recovery)},
           {"precision", name_of(options.precision)},
-          {"tolerance", options.tolerance},
+          {"tolerance", *options.tolerance},
           {"gap", *options.gap},
           {"max_iterations", options.max_iterations},
           {"penalty", penalty_asked_for(report, settings)},
-          {"relaxation", options.relaxation},
+          {"relaxation", *options.relaxation},
           {"threads", options.threads}};
 }
 

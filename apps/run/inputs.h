@@ -10,7 +10,7 @@
 #include "files/movable_model.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
-#include "flbc/edge_list.h"
+#include "flbc/types.h"
 #include "gltf/skin.h"
 #include "gltf/surface.h"
 #include "poses/poses.h"

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Of one answer: long enough to converge after most moves, short enough to be interrupted.
-constexpr EditBudget kBudget{0, 0.25};
+constexpr Budget kBudget{0, 0.25};
 
 template <int Dim>
 PointList<Dim> points_in(const Json& request, Index count) {
@@ -40,18 +40,19 @@ Reshaping<Dim>::Reshaping(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Po
                           const SolverOptions& options, const CoarseMesher<Dim>& mesher)
     : model_(std::move(model)),
       center_(view::page_center<Dim>(cage.points)),
-      coordinates_(cage, mesh, options, mesher) {
+      solver_(cage, mesh, options, mesher) {
+  solver_.solve();
 }
 
 template <int Dim>
 const PointList<Dim>& Reshaping<Dim>::points() const {
-  return model_.cols() > 0 ? model_ : coordinates_.mesh().points;
+  return model_.cols() > 0 ? model_ : solver_.mesh().points;
 }
 
 template <int Dim>
 WeightMatrix Reshaping<Dim>::weights() const {
-  const auto& mesh = coordinates_.mesh();
-  const auto& of_mesh = coordinates_.solution().weights;
+  const auto& mesh = solver_.mesh();
+  const auto& of_mesh = solver_.solution().weights;
   const auto most = view::kMostInfluences;
   if (model_.cols() == 0) {
     return view::limit_influences<Dim>(cage().points, mesh.points, of_mesh, most);
@@ -64,10 +65,10 @@ WeightMatrix Reshaping<Dim>::weights() const {
 template <int Dim>
 void Reshaping<Dim>::move(const PointList<Dim>& control_points) {
   try {
-    coordinates_.move(control_points, kBudget);
+    solver_.move(control_points, kBudget);
   } catch (const InputError&) {
-    coordinates_.anchor();
-    coordinates_.move(control_points, kBudget);
+    solver_.anchor();
+    solver_.move(control_points, kBudget);
   }
 }
 
@@ -84,13 +85,13 @@ std::string Reshaping<Dim>::answer(const std::string& text) {
   try {
     const auto request = Json::parse(text);
     if (request.value("refine", false)) {
-      coordinates_.refine(kBudget);
+      solver_.solve(kBudget);
     } else {
       move(points_in<Dim>(request, cage().size()));
       has_moved = true;
     }
     const auto update = told();
-    const auto& report = coordinates_.solution().report;
+    const auto& report = solver_.solution().report;
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;
     const Json facts{{"converged", report.status == SolveStatus::kConverged},
@@ -101,7 +102,7 @@ std::string Reshaping<Dim>::answer(const std::string& text) {
     reply.pop_back();
     return reply + ",\"update\":" + update + "}";
   } catch (const std::exception& error) {
-    if (has_moved) coordinates_.move(before);  // the model reached out of the cage
+    if (has_moved) solver_.move(before);  // the model reached out of the cage
     return Json{{"refused", error.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 }

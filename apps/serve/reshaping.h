@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "flbc/editing.h"
+#include "flbc/solver.h"
 #include "view/page.h"
 
 namespace flbc::app {
@@ -27,7 +27,7 @@ class Reshaping {
   //! The points shown.
   const PointList<Dim>& points() const;
   //! The present shape.
-  const Cage<Dim>& cage() const { return coordinates_.cage(); }
+  const Cage<Dim>& cage() const { return solver_.cage(); }
 
   //! Solves for another shape, or goes on with the present one, within a budget of time.
   //! \param request  JSON: {"points": Dim n numbers} or {"refine": true}
@@ -41,7 +41,7 @@ class Reshaping {
 
   PointList<Dim> model_;
   Vector<Dim> center_;
-  EditableCoordinates<Dim> coordinates_;
+  Solver<Dim> solver_;
 };
 
 }  // namespace flbc::app

@@ -24,15 +24,16 @@ namespace {
 
 // Starts from coarser meshes where that pays and a mesher was built in.
 template <int Dim>
-SparseSolution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
-                      double penalty, Mesher made_by) {
+Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
+                      std::optional<double> penalty, Mesher made_by, const Observer& observer) {
   const auto mesher = coarse_mesher<Dim>(made_by);
   if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
     throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
                       std::to_string(Dim) + "D");
   }
-  options.penalty = published_penalty(cage, domain, options.method, penalty);
-  return solve_sparse(cage, domain, options, mesher);
+  if (penalty) options.penalty = published_penalty(cage, domain, options.method, *penalty);
+  options.sparse = true;
+  return solve(cage, domain, options, mesher, observer);
 }
 
 template <int Dim>
@@ -141,17 +142,18 @@ void CageSolver<Dim>::make_domain(bool quiet) {
 
 template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
-  auto options = settings_.options;
+  const auto& options = settings_.options;
   ProgressBar bar(quiet, "setting up: boundary values, distances", options);
   HistoryRecorder recorder(options);
-  options.progress = [&](const Progress& progress) {
+  Observer observer;
+  observer.progress = [&](const Progress& progress) {
     bar.show(progress);
     if (settings_.history) recorder.note(progress);
     return true;
   };
-  options.stage_progress = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
+  observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
   solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-    return solve_domain(cage_, domain_, options, settings_.penalty, mesher_);
+    return solve_domain(cage_, domain_, options, settings_.penalty, mesher_, observer);
   });
   if (settings_.history) history_ = recorder.finished(report());
   if (!settings_.model.empty()) rows_ = weights_of_model();

@@ -36,7 +36,7 @@ class CageSolver {
 
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return domain_; }
-  const SparseWeights& domain_weights() const { return solution_.weights; }
+  const SparseWeights& domain_weights() const { return solution_.sparse_weights; }
   const SolveReport& report() const { return solution_.report; }
   double mesh_seconds() const { return mesh_seconds_; }
   Mesher mesher() const { return mesher_; }
@@ -63,7 +63,7 @@ class CageSolver {
   DomainMesh<Dim> domain_;
   double mesh_seconds_ = 0;  // for making or reading it
   Mesher mesher_ = Mesher::kGiven;
-  SparseSolution solution_;  // at the vertices of the domain
+  Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded

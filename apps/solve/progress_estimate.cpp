@@ -51,7 +51,7 @@ double share_before(int finer_levels, int levels) {
 ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
   const auto resolved = resolve(options);
   const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
-  if (estimates) tolerance_ = resolved.tolerance;
+  if (estimates) tolerance_ = *resolved.tolerance;
 }
 
 void ProgressEstimate::update(const Progress& progress, double seconds) {

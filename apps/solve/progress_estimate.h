@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "flbc/observer.h"
 #include "flbc/options.h"
 
 namespace flbc::app {

@@ -37,9 +37,9 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   }
   if (method != Method::kAuto && method != Method::kValue) {
     refuse("--active", name + " does not read it");
+    refuse("--coarse-to-fine", name + " does not read it");
   }
   if (!gradients) refuse("--recovery", name + " does not read it");
-  if (method == Method::kPaper) refuse("--coarse-to-fine", name + " does not read it");
   if (settings.model.empty()) refuse("--outside", "there is no model");
   if (!settings.domain.empty()) {
     refuse("--mesher", "with --domain nothing is meshed");
@@ -77,12 +77,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--linear-solver", options.linear_solver,
              "how to solve global linear systems. none: avoid them, for gradient and paper "
              "(default: auto)");
-  add_choice(command, "--recovery", options.recovery,
+  add_choice(command, "--recovery", options.gradient.recovery,
              "how to compute weights from gradients (default: auto)");
-  // The library decides where it stores numbers in half precision.
   add_choice(command, "--precision", options.precision,
-             "precision of the iteration (default: auto, what the tolerance allows)",
-             {"auto", "single", "double"});
+             "precision of the iteration (default: auto)");
   command.add_option("--gap", options.gap,
                      "certified relative gap at which to stop early, 0 for never (default: 1e-3, "
                      "or 0 if --tolerance is given)");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "flbc/options.h"
@@ -22,7 +23,7 @@ struct SolveSettings {
   Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
   bool history = false;  //!< the report tells how the iteration came nearer to its end
-  double penalty = 0;  //!< as published (flbc/published_penalty.h), 0 = by method
+  std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };
 

@@ -33,7 +33,7 @@ json key_of(const Setting<Dim>& setting, const SolverOptions& options) {
           {"method", "value"},
           {"precision", "double"},
           {"non_negative", true},
-          {"tolerance", options.tolerance},
+          {"tolerance", *options.tolerance},
           {"max_iterations", options.max_iterations}};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solves again after the rest cage has moved, from the solve before and from a cold start.
-#include "flbc/editing.h"
+#include "flbc/solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,20 +69,20 @@ double seconds_of(const SolveReport& report) {
 }
 
 template <int Dim>
-void add_cold(const Context& context, const EditableCoordinates<Dim>& coordinates,
+void add_cold(const Context& context, const Solver<Dim>& solver,
               const SolverOptions& options, Row& row) {
-  const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
-  const auto optimum = solve(coordinates.cage(), coordinates.mesh(),
+  const auto cold = solve(solver.cage(), solver.mesh(), options);
+  const auto optimum = solve(solver.cage(), solver.mesh(),
                              optimum_options(context, NonNegative::kConstraint));
   const auto problem =
-      make_problem(coordinates.cage(), coordinates.mesh(), DistanceScheme::kConstant);
+      make_problem(solver.cage(), solver.mesh(), DistanceScheme::kConstant);
   const auto error = [&](const WeightMatrix& weights) {
     return number(squared_error(problem, weights, optimum.weights));
   };
   row["cold_iterations"] = std::to_string(cold.report.iterations);
   row["cold_seconds"] = number(seconds_of(cold.report));
   row["cold_error"] = error(cold.weights);
-  row["error"] = error(coordinates.solution().weights);
+  row["error"] = error(solver.solution().weights);
 }
 
 template <int Dim>
@@ -91,15 +91,16 @@ Row after(const Context& context, const Setting<Dim>& setting, const SolverOptio
   auto row = mesh_row(setting);
   row["move"] = move.name;
   const auto& cage = setting.problem.cage;
-  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
+  Solver<Dim> solver(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
+  solver.solve();
   try {
-    const auto& report = coordinates.move(moved_by<Dim>(cage.points, setting.model, move)).report;
+    const auto& report = solver.move(moved_by<Dim>(cage.points, setting.model, move)).report;
     row["iterations"] = std::to_string(report.iterations);
     row["seconds"] = number(seconds_of(report));
   } catch (const InputError&) {  // a cell would turn over
     return row;
   }
-  add_cold(context, coordinates, options, row);
+  add_cold(context, solver, options, row);
   return row;
 }
 
@@ -107,13 +108,14 @@ Row after(const Context& context, const Setting<Dim>& setting, const SolverOptio
 template <int Dim>
 Row drag(const Context& context, const Setting<Dim>& setting, const SolverOptions& options) {
   const auto& cage = setting.problem.cage;
-  EditableCoordinates<Dim> coordinates(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
+  Solver<Dim> solver(cage, setting.problem.mesh, options, coarse_mesher<Dim>());
+  solver.solve();
   const double length = kDragPart * bounding_box_diagonal(cage.points);
   const int steps = context.quick ? kQuickSteps : kDragSteps;
   double iterations = 0, seconds = 0, longest = 0;
   for (int step = 1; step <= steps; ++step) {
     const auto& report =
-        coordinates.move(with_one_moved<Dim>(cage.points, setting.model, step * length)).report;
+        solver.move(with_one_moved<Dim>(cage.points, setting.model, step * length)).report;
     iterations += report.iterations;
     seconds += seconds_of(report);
     longest = std::max(longest, seconds_of(report));
@@ -123,7 +125,7 @@ Row drag(const Context& context, const Setting<Dim>& setting, const SolverOption
   row["iterations"] = number(iterations / steps);
   row["seconds"] = number(seconds / steps);
   row["longest_seconds"] = number(longest);
-  add_cold(context, coordinates, options, row);
+  add_cold(context, solver, options, row);
   return row;
 }
 

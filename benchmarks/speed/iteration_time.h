@@ -25,13 +25,14 @@ double iteration_seconds(const LbcProblem<Dim>& problem, Method method, int thre
   const Stopwatch watch;
   double best = 1e300;
   double before = 0;
-  options.progress = [&](const Progress& progress) {
+  Observer observer;
+  observer.progress = [&](const Progress& progress) {
     const double now = watch.seconds();
     if (progress.iteration > kIterations) best = std::min(best, now - before);
     before = now;
     return true;
   };
-  solve(problem, options);
+  solve(problem, options, {}, observer);
   return best / kIterations;
 }
 

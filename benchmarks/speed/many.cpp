@@ -90,9 +90,10 @@ std::string measure(const Context& context, const Case& chosen, ActiveSet active
   options.active_set = active;
   Run run;
   run.seconds = 1e300;
-  SparseSolution solution;
+  options.sparse = true;
+  Solution solution;
   for (int k = 0; k < chosen.repetitions; ++k) {
-    solution = solve_sparse(cage, mesh, options, coarse_mesher<3>());
+    solution = solve(cage, mesh, options, coarse_mesher<3>());
     const auto& seconds = solution.report.seconds;
     run.seconds = std::min(run.seconds, seconds.setup + seconds.solve + seconds.recover);
   }
@@ -102,9 +103,9 @@ std::string measure(const Context& context, const Case& chosen, ActiveSet active
   run.iterations = solution.report.iterations;
   run.density = solution.report.active_set.density;
   if (active == ActiveSet::kOff) {
-    io::write_weights(weights, solution.weights);
+    io::write_weights(weights, solution.sparse_weights);
   } else if (chosen.on_all_pairs) {
-    run.difference = mean_squared_difference(solution.weights, io::read_sparse_weights(weights));
+    run.difference = mean_squared_difference(solution.sparse_weights, io::read_sparse_weights(weights));
   }
   return text_of(run);
 }

@@ -28,11 +28,11 @@ class Runner {
       : setting_(setting), optimum_(optimum), options_(options) {}
 
   Solution run(int iterations) const {
-    auto options = options_;
-    options.progress = [iterations](const Progress& progress) {
+    Observer observer;
+    observer.progress = [iterations](const Progress& progress) {
       return progress.finer_levels > 0 || progress.iteration < iterations;
     };
-    return solve(setting_.problem, options, coarse_mesher<Dim>());
+    return solve(setting_.problem, options_, coarse_mesher<Dim>(), observer);
   }
 
   double error_after(int iterations) const {

@@ -80,11 +80,13 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   Stopwatch watch;
   const auto domain = make_interior(input, options);
   report.mesh_seconds = watch.lap();
+  auto solver_options = options.solver;
+  solver_options.sparse = true;
   const auto solution =
-      flbc::solve_sparse(input.cage, domain, options.solver, coarse_mesher(input.mesher));
+      flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher));
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
-  auto evaluation = evaluate(input, domain, solution.weights, options.outside);
+  auto evaluation = evaluate(input, domain, solution.sparse_weights, options.outside);
   report.outside = evaluation.outside;
   report.evaluate_seconds = watch.lap();
   binding.weights = std::move(evaluation.weights);
