@@ -84,7 +84,7 @@ std::string suggestion(const CLI::App& app, const std::string& name) {
     fewest = edits;
     nearest = command->get_name();
   }
-  return nearest.empty() ? "; " : "; did you mean " + nearest + "? If not, ";
+  return nearest.empty() ? "; " : "; did you mean " + nearest + "? Otherwise ";
 }
 
 std::string describe_usage_error(const CLI::App* app, const CLI::Error& error) {

@@ -24,7 +24,8 @@ void check_arguments(const RunArguments& arguments) {
   validate(arguments.settings.options);
   if (arguments.settings.outside == OutsidePoints::kExtend) {
     throw OptionError(
-        "--outside extend: skins have no negative weights; take nearest, or flbc solve and deform");
+        "--outside extend: skins cannot have negative weights; use nearest, or flbc solve and flbc "
+        "deform");
   }
 }
 
@@ -91,7 +92,7 @@ void print_summary(const Run<Dim>& run) {
         << ", " << run.report["seconds"]["total"].template get<double>() << " s";
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
-            << "save a pose there, and flbc deform moves the model to it.\n";
+            << "save a pose there, and apply it with flbc deform.\n";
 }
 
 // \return the exit status
@@ -153,7 +154,7 @@ void require_model_to_embed(const SolveSettings& settings) {
 int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
-    throw OptionError("--auto-cage makes a cage round MODEL; leave CAGE out");
+    throw OptionError("--auto-cage makes the cage; give MODEL only");
   }
   const bool is_picture = io::extension_of(settings.cage) == "png";
   auto& file = is_picture ? arguments.picture : settings.model;

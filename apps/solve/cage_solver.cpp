@@ -74,8 +74,8 @@ void refuse_history_of_parts(const Cage<Dim>& cage) {
   const auto count = cage_parts(cage).size();
   if (count < 2) return;
   throw OptionError("--history: the cage has " + std::to_string(count) +
-                    " parts, each with an iteration of its own; give the part of interest a file "
-                    "of its own, or leave --history out");
+                    " parts, and each has its own iteration; solve one part alone, or leave out "
+                    "--history");
 }
 
 // Where a part is, for readers of the report to tell it from the others.
@@ -96,8 +96,8 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
     : cage_(cage), model_(model), settings_(settings) {
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
-    throw OptionError("--outside: vertices that become vertices of the mesh must be inside; leave "
-                      "--embed or --outside out");
+    throw OptionError(
+        "--outside: vertices of the mesh must be inside the cage; leave out --embed or --outside");
   }
   if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points)) {
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
@@ -190,8 +190,8 @@ std::string describe(const Placement<Dim>& placement, double size) {
   std::ostringstream text;
   text.precision(3);
   if (!placement.on_cage.empty()) {
-    text << "; " << placement.on_cage.size() << " vertices beside the cage by a hair, "
-         << farthest(placement.on_cage).distance / size << " of its size at most, are put on it";
+    text << "; " << placement.on_cage.size() << " vertices within "
+         << farthest(placement.on_cage).distance / size << " of the cage's size were snapped to it";
   }
   if (!placement.outside.empty()) {
     text << "; " << placement.outside.size() << " vertices outside the cage, by up to "
@@ -204,9 +204,9 @@ std::string describe(const Placement<Dim>& placement, double size) {
 
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) return true;
-  std::cerr << "flbc: not converged within " << settings.options.max_iterations
-            << " iterations; the result was written nevertheless (see --max-iterations, "
-               "--tolerance and --gap)\n";
+  std::cerr
+      << "flbc: not converged within " << settings.options.max_iterations
+      << " iterations; the result is written. Increase --max-iterations, --tolerance, or --gap\n";
   return false;
 }
 
