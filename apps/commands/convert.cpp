@@ -36,8 +36,8 @@ void check_mesh_arguments(const WeightConversion& files) {
                       io::extensions_of(kMeshFiles));
   require_formats({files.input, files.output, false, true});
   if (files.transpose || !files.cage.empty() || !files.points.empty()) {
-    throw OptionError("--cage, --points, and --transpose are for weights, but " +
-                      files.input + " is a mesh");
+    throw OptionError("--cage, --points, and --transpose are for weights, but " + files.input +
+                      " is a mesh");
   }
 }
 

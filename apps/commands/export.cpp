@@ -191,9 +191,10 @@ void add_export_command(CLI::App& app, int&) {
       ->needs(cages);
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
-  add_choice(*command, "--quantize", {"8", "16"},
-             [&a](const std::string& bits) { a.bits = std::stoi(bits); },
-             "store weights with 8 or 16 bits (default: as float)");
+  add_choice(
+      *command, "--quantize", {"8", "16"},
+      [&a](const std::string& bits) { a.bits = std::stoi(bits); },
+      "store weights with 8 or 16 bits (default: as float)");
   command
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")

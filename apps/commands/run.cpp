@@ -64,11 +64,9 @@ struct Step {
 template <int Dim>
 void take_steps(Run<Dim>& run) {
   const Step<Dim> steps[] = {
-      {"cage", deliver_cage},          {"mesh", mesh_interior},
-      {"solve", compute_weights},      {"check", check_weights_of_mesh},
-      {"sparsify", reduce_influences}, {"deform", deform_shape},
-      {"export", export_shape},        {"pictures", draw_pictures},
-      {"page", write_page},
+      {"cage", deliver_cage},           {"mesh", mesh_interior},         {"solve", compute_weights},
+      {"check", check_weights_of_mesh}, {"sparsify", reduce_influences}, {"deform", deform_shape},
+      {"export", export_shape},         {"pictures", draw_pictures},     {"page", write_page},
   };
   double total = 0;
   for (const auto& [name, take] : steps) {
@@ -262,15 +260,13 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_flag("--force", a.force, "replace files in OUTDIR that no earlier run has made");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->option_defaults()->group("Solver");
-  command
-      ->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
+  command->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_solver_options(*command, a.settings);
   add_rare_options(*command, a, deformed);
-  command->callback(
-      [arguments, command, auto_cage, &exit_status] {
-        exit_status = run_as_told(*command, *auto_cage, *arguments);
-      });
+  command->callback([arguments, command, auto_cage, &exit_status] {
+    exit_status = run_as_told(*command, *auto_cage, *arguments);
+  });
 }
 
 }  // namespace flbc::app

@@ -10,6 +10,7 @@
 #include "commands/commands.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "files/movable_model.h"
 #include "flbc/edge_list.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -20,7 +21,6 @@
 #include "flbc/poisson_reduction.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "files/movable_model.h"
 #include "poses/poses.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
@@ -31,7 +31,6 @@ namespace flbc::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
 
 struct SparsifyArguments {
   std::string weights;

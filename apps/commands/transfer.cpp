@@ -55,8 +55,8 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const WeightMatrix& weights,
   check_sizes(weights, cage.size(), domain.num_vertices(),
               {arguments.weights, arguments.cage, arguments.domain});
   const auto to = load_model<Dim>(arguments.to);
-  const auto placement = naming(
-      arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
+  const auto placement =
+      naming(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
   return {weights_at(cage, domain, weights, placement), placement.points,
           describe(placement, bounding_box_diagonal(cage.points))};
 }

@@ -17,8 +17,8 @@
 #include "poses/poses.h"
 #include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
-#include "view/page.h"
 #include "view/model_page.h"
+#include "view/page.h"
 
 namespace flbc::app {
 namespace {

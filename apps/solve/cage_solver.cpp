@@ -23,8 +23,8 @@ namespace {
 
 // Starts from coarser meshes where that pays and a mesher was built in.
 template <int Dim>
-SparseSolution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
-                      double penalty, Mesher made_by) {
+SparseSolution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                            SolverOptions options, double penalty, Mesher made_by) {
   const auto mesher = coarse_mesher<Dim>(made_by);
   if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
     throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
@@ -36,9 +36,8 @@ SparseSolution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain
 
 template <int Dim>
 const PointBeside<Dim>& farthest(const std::vector<PointBeside<Dim>>& points) {
-  return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.distance < b.distance;
-  });
+  return *std::max_element(points.begin(), points.end(),
+                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
 }
 
 template <int Dim>
@@ -111,9 +110,8 @@ void CageSolver<Dim>::fill_cage(bool quiet) {
   std::string note;
   {
     const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
-    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
-                                       settings_.meshing, settings_.embed ? settings_.model : "",
-                                       embedded_.points});
+    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices, settings_.meshing,
+                                       settings_.embed ? settings_.model : "", embedded_.points});
     domain_ = std::move(made.mesh);
     mesher_ = made.mesher;
     note = std::move(made.note);
@@ -133,9 +131,8 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
-  placement_ = naming(settings_.model, [&] {
-    return place_points(cage_, domain_, model_, settings_.outside);
-  });
+  placement_ = naming(settings_.model,
+                      [&] { return place_points(cage_, domain_, model_, settings_.outside); });
 }
 
 template <int Dim>

@@ -30,9 +30,9 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
-    for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
-                               "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations",
-                               "--penalty", "--relaxation"}) {
+    for (const char* option :
+         {"--phi", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
+          "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
       refuse(option, name + " does not use it");
     }
   }
