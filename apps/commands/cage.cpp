@@ -72,11 +72,11 @@ void repair(const Cage<Dim>& cage, std::vector<std::string> changes,
   }
   if (arguments.quiet) return;
   changes.insert(changes.end(), repaired.changes.begin(), repaired.changes.end());
-  if (changes.empty()) changes.emplace_back("nothing was wrong");
+  if (changes.empty()) changes.emplace_back("no defects found");
   for (const auto& change : changes) std::cerr << arguments.defective << ": " << change << '\n';
   std::cerr << arguments.output << ": " << repaired.cage.size() << " control points, "
             << repaired.cage.facets.cols() << (Dim == 2 ? " edges" : " triangles")
-            << (repaired.keeps_numbers ? ", numbered as they were\n"
+            << (repaired.keeps_numbers ? ", numbered as before\n"
                                        : ", their new numbers are in " + numbers + "\n");
 }
 
@@ -85,7 +85,7 @@ void repair_file(const CageArguments& arguments) {
   auto soup = io::read_polygons(arguments.defective);
   if (!soup.polygons.empty() && !soup.polylines.empty()) {
     changes.push_back(std::to_string(soup.polylines.size()) +
-                      " polylines beside the surface are dropped");
+                      " polylines next to the surface were dropped");
     soup.polylines.clear();
   }
   const auto cage = io::to_cage(soup, arguments.defective);
@@ -94,7 +94,7 @@ void repair_file(const CageArguments& arguments) {
 
 void check_arguments(const CageArguments& arguments) {
   if (arguments.model.empty() == arguments.defective.empty()) {
-    throw OptionError("give a MODEL to make a cage round, or a cage by --repair");
+    throw OptionError("give either a MODEL to enclose, or a cage with --repair");
   }
   require_distinct({arguments.model, arguments.defective}, {arguments.output});
 }
@@ -104,32 +104,37 @@ void check_arguments(const CageArguments& arguments) {
 void add_cage_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<CageArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("cage", "Make a cage round a model, or repair one");
+  auto* command = app.add_subcommand("cage", "Make a cage around a model, or repair a cage");
   command->footer(
-      "The cage is closed, does not intersect itself, and has every vertex, edge and face of the\n"
-      "model strictly inside, whatever state the model is in. A model whose vertices all have the\n"
-      "same z gets a cage in 2D. --repair keeps the numbers of control points where it can;\n"
-      "where it cannot, a line \"OLD NEW\" for each of them goes to a file beside the result.");
+      "The cage is closed, does not intersect itself, and strictly encloses every vertex, edge, "
+      "and\n"
+      "face of the model, even if the model has defects. A model whose vertices all have the same "
+      "z\n"
+      "gets a 2D cage. --repair keeps the numbers of control points where possible. Otherwise it\n"
+      "writes a line \"OLD NEW\" for each of them to a file next to the result.");
   auto* model = command->add_option(
-      "MODEL", a.model,
-      "what is to be enclosed: .obj .off .ply .stl .om, the silhouette in a .png");
-  command->add_option("-o,--output", a.output, "the cage: .obj, in 3D also .off, .ply")->required();
-  auto* count = command->add_option("--control-points", a.options.control_points,
-                                    "at most so many (50 to 150 in 3D, 12 to 60 in 2D, by shape)");
+      "MODEL", a.model, "model to enclose: .obj .off .ply .stl .om, or a .png with a silhouette");
+  command->add_option("-o,--output", a.output, "the cage: .obj, in 3D also .off and .ply")
+      ->required();
+  auto* count = command->add_option(
+      "--control-points", a.options.control_points,
+      "maximum number of control points (default: by shape, 50 to 150 in 3D, 12 to 60 "
+      "in 2D)");
   count->check(refuse_vertex_count)->needs(model);
   auto* offset = command->add_option(
       "--offset", a.options.offset,
-      "distance from the model, in its units (by the number of control points)");
+      "distance from the model, in its units (default: by the number of control points)");
   offset->needs(model);
   add_choice(
       *command, "--symmetric", {"none", "x", "y", "z", "auto"},
       [&a](const std::string& word) { a.options.symmetry = kSymmetries.at(word); },
       "make the cage symmetric across the center of the model (default: auto, where the model is)")
       ->needs(model);
-  command->add_option("--repair", a.defective,
-                      "a defective cage: merges, drops, reverses and adds what it takes to make it "
-                      "sound, and says so; if nothing else helps, wraps it");
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_option(
+      "--repair", a.defective,
+      "defective cage to repair: weld, orient, and fill holes, and list every change; "
+      "as a last resort, wrap it");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     if (!arguments->defective.empty()) return repair_file(*arguments);

@@ -28,7 +28,7 @@ struct CheckArguments {
 
 void check_arguments(const CheckArguments& arguments) {
   if (!arguments.weights.empty() && arguments.model.empty() && arguments.domain.empty()) {
-    throw OptionError("--weights needs --model or --domain: the points to which its rows belong");
+    throw OptionError("--weights needs --model or --domain, whose vertices have these weights");
   }
   if (arguments.json != "-") require_writable(arguments.json, "json");
   require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},
@@ -99,17 +99,17 @@ void add_check_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<CheckArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("check", "Tell what is wrong with a cage, a model in it, and weights");
+      app.add_subcommand("check", "Find defects of a cage, a model inside it, and weights");
   command->footer(
-      "Exit status: 0 if nothing is wrong, or nothing but negative weights, local extrema or a\n"
-      "model outside; 2 for a defective cage or weights that are no coordinates of the cage.");
+      "Exit status: 2 for a defective cage, or weights that are not coordinates of the cage. "
+      "Negative\n"
+      "weights, local extrema, and a model outside the cage are reported only; the status is 0.");
   command->add_option("CAGE", a.cage, "closed polylines (2D) or surface (3D)")->required();
-  command->add_option("--model", a.model, "a model that should be inside the cage");
-  auto* weights = command->add_option(
-      "--weights", a.weights, "weights of the domain's vertices, without --domain of the model's");
-  command->add_option("--domain", a.domain, "mesh of the interior to whose vertices they belong")
-      ->needs(weights);
-  command->add_option("--json", a.json, "write the same as JSON, '-' to print that instead");
+  command->add_option("--model", a.model, "model that should be inside the cage");
+  auto* weights = command->add_option("--weights", a.weights,
+                                      "weights at the vertices of --domain, or else of --model");
+  command->add_option("--domain", a.domain, "mesh of the cage interior")->needs(weights);
+  command->add_option("--json", a.json, "write the findings to this file as JSON; - prints them");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);
     const auto soup = io::read_polygons(arguments->cage);

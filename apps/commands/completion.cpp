@@ -10,12 +10,10 @@ namespace flbc::app {
 
 void add_completion_command(CLI::App& app, int&) {
   auto shell = std::make_shared<std::string>();
-  auto* command =
-      app.add_subcommand("completion", "Print what makes a shell complete commands and options");
+  auto* command = app.add_subcommand("completion", "Print a shell completion script");
   command->footer(
-      "For one session: source <(flbc completion bash). For good it is installed with the "
-      "program,\n"
-      "as share/bash-completion/completions/flbc and share/zsh/site-functions/_flbc.");
+      "To use it in this session: source <(flbc completion bash). The installed program has it as\n"
+      "share/bash-completion/completions/flbc and share/zsh/site-functions/_flbc.");
   command->add_option("SHELL", *shell, "bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));

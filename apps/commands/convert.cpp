@@ -20,7 +20,8 @@ struct ConvertArguments {
 
 void check_weight_arguments(const WeightConversion& files) {
   if (io::holds(files.output, kMeshFiles))
-    throw OptionError(files.output + ": weights are no mesh");
+    throw OptionError(files.output + ": weights cannot be written as a mesh; choose from " +
+                      io::extensions_of(kWeightFiles));
   require_writable(files.output, kWeightFiles);
 }
 
@@ -30,11 +31,13 @@ void check_mesh_arguments(const WeightConversion& files) {
                       io::extensions_of(kWeightFiles) + ", meshes in " +
                       io::extensions_of(kMeshFiles));
   }
-  if (is_weight_file(files.output)) throw OptionError(files.output + ": a mesh is no weights");
+  if (is_weight_file(files.output))
+    throw OptionError(files.output + ": a mesh cannot be written as weights; choose from " +
+                      io::extensions_of(kMeshFiles));
   require_formats({files.input, files.output, false, true});
   if (files.transpose || !files.cage.empty() || !files.points.empty()) {
-    throw OptionError("--cage, --points, and --transpose are for weights, but " +
-                      files.input + " is a mesh");
+    throw OptionError("--cage, --points, and --transpose are for weights, but " + files.input +
+                      " is a mesh");
   }
 }
 
@@ -70,21 +73,20 @@ void add_convert_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ConvertArguments>();
   auto& a = arguments->files;
   auto* command =
-      app.add_subcommand("convert", "Write weights, a mesh or a model in another format");
+      app.add_subcommand("convert", "Convert weights, a mesh, or a model to another format");
   command->footer(
       "Weights: .mtx, .dmat, .npy, and .txt with \"CONTROL_POINT POINT WEIGHT\" on every line,\n"
-      "numbered from 0. They become each other without loss.\n"
+      "numbered from 0. Conversions between them are lossless.\n"
       "Models: .obj, .off, .ply, .stl, .om. Meshes: 2D .obj, .off, .vtu; 3D .mesh, .node, .ele,\n"
-      ".msh, .vtu. What the new format has no place for is told. A .ply or .stl result is text if\n"
-      "the model's file is.");
-  command->add_option("IN", a.input, "what to convert; the extension tells its kind")->required();
-  command->add_option("-o,--output", a.output, "a file of the same kind")->required();
-  command->add_option("--cage", a.cage, "the cage of the weights: checks their number");
-  command->add_option("--points", a.points,
-                      "model or mesh whose vertices the weights belong to: checks their number");
+      ".msh, .vtu. The program reports attributes that the new format does not support. A .ply or\n"
+      ".stl result is a text file if the input is.");
+  command->add_option("IN", a.input, "file to convert")->required();
+  command->add_option("-o,--output", a.output, "result, a file of the same kind")->required();
+  command->add_option("--cage", a.cage, "cage of the weights, to check their number");
+  command->add_option("--points", a.points, "model or mesh of the weights, to check their number");
   command->add_flag("--transpose", a.transpose,
-                    "IN has control points as rows (.txt: \"POINT CONTROL_POINT WEIGHT\")");
-  command->add_flag("-q,--quiet", arguments->quiet, "print nothing but errors");
+                    "IN has control points as rows (in .txt: POINT CONTROL_POINT WEIGHT)");
+  command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto& files = arguments->files;

@@ -31,16 +31,16 @@ struct DeformArguments {
 
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.cages.empty() && arguments.keyframes.empty()) {
-    throw OptionError("a pose is missing: give --cage or --keyframes");
+    throw OptionError("no pose given; add --cage or --keyframes");
   }
   if (arguments.rest.empty() && !arguments.keyframes.empty()) {
-    throw OptionError("--keyframes needs --rest: keyframes are displacements of that cage");
+    throw OptionError("--keyframes needs --rest, because keyframes are displacements of that cage");
   }
   if (arguments.rest.empty() && !arguments.displacement.empty()) {
-    throw OptionError("--displacement needs --rest: it is measured from there");
+    throw OptionError("--displacement needs --rest, from which displacements are measured");
   }
   if (arguments.rest.empty() && arguments.file.shows_displacement) {
-    throw OptionError("--show-displacement needs --rest: it is measured from there");
+    throw OptionError("--show-displacement needs --rest, from which displacements are measured");
   }
   require_formats(arguments.file);
   require_writable(arguments.displacement, {io::Content::kWeights});
@@ -68,7 +68,7 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
                                       const std::string& pattern) {
   if (poses.size() > 1 && !has_number(pattern)) {
     throw OptionError(pattern + ": there are " + std::to_string(poses.size()) +
-                      " poses, so that this name needs a %d, as in out_%03d.obj");
+                      " poses; add %d to this name, as in out_%03d.obj");
   }
   std::vector<std::string> names;
   names.reserve(poses.size());
@@ -129,7 +129,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   model.print_losses();
   if (model.num_loose_normals() > 0) {
     std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
-              << " normals belong to no face with an area and stay as they are\n";
+              << " normals belong to no face with an area and are unchanged\n";
   }
 }
 
@@ -160,14 +160,16 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
 void add_deform_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DeformArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("deform", "Move a model or a domain mesh with its cage");
+  auto* command = app.add_subcommand("deform", "Deform a model or a domain mesh with its cage");
   command->footer(
-      "If MODEL and the result have the same format, nothing changes but the coordinates and\n"
-      "normals of a model; in 2D z stays. Into another format polygons, colours, normals and\n"
-      "texture coordinates go as far as it has places for them; what it does not keep is told.\n"
-      "A sequence numbers its results as --cage pose_%d.obj is numbered, or from 0.\n"
-      "Keyframes are text: 'k TIME' begins a keyframe, and 'c KEYFRAME DX DY DZ' is how far a\n"
-      "control point is from where it rests, in the order of the control points.");
+      "If MODEL and the result have the same format, only the coordinates and normals change; in "
+      "2D\n"
+      "z does not change. Another format receives the polygons, colors, normals, and texture\n"
+      "coordinates that it supports; the program reports those that are lost.\n"
+      "The results of a sequence have the numbers of --cage pose_%d.obj, or count from 0.\n"
+      "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the "
+      "displacement\n"
+      "of a control point from rest, in the order of the control points.");
   command
       ->add_option("MODEL", a.file.model,
                    "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
@@ -175,24 +177,24 @@ void add_deform_command(CLI::App& app, int&) {
       ->required();
   command
       ->add_option("--weights", a.weights,
-                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
+                   "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy")
       ->required();
   auto* cage = command->add_option(
-      "--cage", a.cages, "the cage in its new pose; several, or a pattern as pose_%d.obj");
-  command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
+      "--cage", a.cages, "deformed cage; several files, or a pattern such as pose_%d.obj");
+  command->add_option("--keyframes", a.keyframes, "poses as displacements of the cage at rest")
       ->excludes(cage);
-  command->add_option("--rest", a.rest,
-                      "the cage the weights were computed for: checks that they belong to MODEL");
+  command->add_option("--rest", a.rest, "cage at rest, to check that the weights belong to MODEL");
   command
-      ->add_option("-o,--output", a.file.output,
-                   "the result, a file of either kind as MODEL is; with %d or %03d in its name for "
-                   "several poses")
+      ->add_option(
+          "-o,--output", a.file.output,
+          "result, a model or mesh like MODEL; for several poses with %d or %03d in its name")
       ->required();
   command->add_option("--displacement", a.displacement,
-                      "write how far vertices moved, a column per pose: .npy, .dmat or .mtx");
-  command->add_flag("--show-displacement", a.file.shows_displacement,
-                    "show how far vertices moved: as their colours; in .vtu and .mesh as a field");
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+                      "write the lengths of displacements, a column per pose: .npy, .dmat, .mtx");
+  command->add_flag(
+      "--show-displacement", a.file.shows_displacement,
+      "show the lengths of displacements as vertex colors; in .vtu and .mesh as a field");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->cages);

@@ -48,10 +48,10 @@ void check_arguments(DrawArguments& arguments) {
   arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   if (arguments.domain.empty() == arguments.model.empty()) {
-    throw OptionError("give either the domain's mesh or --model");
+    throw OptionError("give either DOMAIN or --model");
   }
   if (arguments.color == kDisplacement && arguments.pose.empty()) {
-    throw OptionError("--color displacement needs --pose: there the model has moved");
+    throw OptionError("--color displacement needs --pose, in which the model has moved");
   }
 }
 
@@ -70,8 +70,9 @@ draw::ObliqueView parse_view(const std::string& text) {
       numbers.peek() == std::char_traits<char>::eof() && std::abs(elevation) <= 90) {
     return draw::view_by_angles(azimuth, elevation);
   }
-  throw OptionError("--view: '" + text +
-                    "' is none of front|side|top|three-quarter, nor AZIMUTH,ELEVATION in degrees");
+  throw OptionError(
+      "--view: invalid value '" + text +
+      "'; choose from front|side|top|three-quarter, or give AZIMUTH,ELEVATION in degrees");
 }
 
 void check_control_point(Index control_point, Eigen::Index count) {
@@ -182,31 +183,34 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
-  auto* domain = command.add_option("DOMAIN", a.domain, "mesh (see flbc solve --save-domain)");
-  auto* model =
-      command.add_option("--model", a.model, "draw a model instead, or the boundary of a mesh");
+  auto* domain = command.add_option("DOMAIN", a.domain,
+                                    "mesh of the cage interior, from flbc solve --save-domain");
+  auto* model = command.add_option("--model", a.model,
+                                   "draw this model instead, or the boundary of this mesh");
   model->excludes(domain);
-  command.add_option("--weights", a.weights, "weights at its vertices")->required();
-  command.add_option("--cage", a.cage, "the cage they belong to")->required();
-  command.add_option("-o,--output", a.output, std::string("the picture: ") + draw::kPictureExtensions)->required();
-  auto* point =
-      command.add_option("--control-point", a.control_point, "which function, from 0 (0)");
-  command.add_option("--pose", a.pose, "the cage in another place: the model at rest and there")
+  command.add_option("--weights", a.weights, "weights at the vertices")->required();
+  command.add_option("--cage", a.cage, "cage of the weights")->required();
+  command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
+      ->required();
+  auto* point = command.add_option("--control-point", a.control_point,
+                                   "control point whose function is drawn (default: 0)");
+  command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
       ->needs(model);
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
              "what the colors of a 3D model show (default: weight, or displacement with --pose)")
       ->needs(model);
   command
       .add_option("--view", a.view,
-                  "from where a model in 3D is seen, by name or by angles in "
-                  "degrees (three-quarter)")
+                  "direction from which a 3D model is seen, a name or angles in degrees (default: "
+                  "three-quarter)")
       ->needs(model)
       ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
-  command.add_flag("--all", a.all, "a sheet of all functions")->excludes(point);
-  command.add_option("--slices", a.slices, "number of slices (3D) (3)");
-  command.add_option("--width", a.options.width, "width in pixels (1200)");
-  command.add_option("--isolines", a.options.isolines, "number of isolines between 0 and 1 (10)");
-  command.add_flag("--mesh", a.options.mesh_edges, "show the mesh");
+  command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
+  command.add_option("--slices", a.slices, "number of slices in 3D (default: 3)");
+  command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
+  command.add_option("--isolines", a.options.isolines,
+                     "number of isolines between 0 and 1 (default: 10)");
+  command.add_flag("--mesh", a.options.mesh_edges, "draw the edges of the mesh");
 }
 
 }  // namespace

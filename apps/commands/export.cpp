@@ -51,7 +51,10 @@ void check_arguments(ExportArguments& arguments) {
   if (extension == "usda") arguments.options.format = gltf::SkinFormat::kUsda;
   if (extension != "py") return;
   if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {
-    throw OptionError(arguments.output + ": vertex groups are neither quantized nor animated");
+    throw OptionError(arguments.output +
+                      ": vertex groups have no quantized weights and no poses; leave out "
+                      "--quantize, --cages, and "
+                      "--keyframes");
   }
 }
 
@@ -161,42 +164,42 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 void add_export_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ExportArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("export", "Write a model as glTF skin that its cage moves");
+  auto* command =
+      app.add_subcommand("export", "Export a model as a glTF skin that its cage deforms");
   command->footer(
-      "Every control point becomes a joint, control_point_0 and so on, that only translates. "
-      "Where\n"
-      "texture coordinates or normals part a vertex, or one is left out, the attribute _VERTEX\n"
-      "tells the numbers of the vertices in MODEL. Normals stay as they are at rest.");
+      "Each control point becomes a joint (control_point_0 and so on) that only translates.\n"
+      "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
+      "maps them to the vertices of MODEL. Normals do not deform.");
   command
       ->add_option("MODEL", a.model,
                    "model (.obj, .off, .ply, .stl, .om) or domain mesh (.vtu; 3D: .mesh .node "
-                   ".ele .msh), of which the boundary is shown")
+                   ".ele .msh), whose boundary is exported")
       ->required();
   command
       ->add_option("--weights", a.weights,
-                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy")
+                   "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy")
       ->required();
-  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
+  command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* cages = command->add_option("--cages", a.poses,
-                                    "an animation: the cage in its poses, or a pattern as "
-                                    "pose_%d.obj");
+                                    "animation: deformed cages, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
-                   "an animation: displacements of the cage, with times in seconds")
+                   "animation: displacements of the cage, with times in seconds")
       ->excludes(cages);
   command->add_option("--fps", a.frames_per_second, "poses of --cages per second (default: 24)")
       ->check(in_range(1e-3, 1e6))
       ->needs(cages);
   command->add_option("-k,--max-influences", a.options.max_influences,
-                      "most influences per vertex, 8 or 4 (8)");
-  add_choice(*command, "--quantize", {"8", "16"},
-             [&a](const std::string& bits) { a.bits = std::stoi(bits); },
-             "store weights with 8 or 16 bits (default: as float)");
+                      "maximum influences per vertex, 4 or 8 (default: 8)");
+  add_choice(
+      *command, "--quantize", {"8", "16"},
+      [&a](const std::string& bits) { a.bits = std::stoi(bits); },
+      "store weights with 8 or 16 bits (default: as float)");
   command
       ->add_option("-o,--output", a.output,
-                   "the skin: .glb, .usda, or .py for vertex groups in Blender")
+                   "skin: .glb, .usda, or .py for vertex groups in Blender")
       ->required();
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto poses = find_cages(arguments->poses);

@@ -55,7 +55,7 @@ void print_cage(const Cage<Dim>& cage) {
               << cage.facets.cols() << (Dim == 2 ? " edges\n" : " triangles\n");
     return;
   }
-  std::cout << "  no cage:\n";
+  std::cout << "  not a cage:\n";
   for (const auto& defect : defects) std::cout << "    " << defect.message << '\n';
 }
 
@@ -81,7 +81,8 @@ void print_info(const std::string& path) {
 
 void add_info_command(CLI::App& app, int&) {
   auto path = std::make_shared<std::string>();
-  auto* command = app.add_subcommand("info", "Tell what is in a cage, mesh, model or weight file");
+  auto* command =
+      app.add_subcommand("info", "Show what a cage, mesh, model, or weight file contains");
   command->add_option("FILE", *path, "the file")->required();
   command->callback([path] { print_info(*path); });
 }

@@ -46,14 +46,14 @@ struct ManArguments {
 void add_man_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ManArguments>();
   auto* command = app.add_subcommand("man", "Print a manual page");
-  command->footer("To read one: flbc man solve | man -l -");
-  auto* name =
-      command
-          ->add_option("COMMAND", arguments->command, "whose page is printed (that of the program)")
-          ->type_name("COMMAND");
+  command->footer("Example: flbc man solve | man -l -");
+  auto* name = command
+                   ->add_option("COMMAND", arguments->command,
+                                "command whose page is printed (default: the program)")
+                   ->type_name("COMMAND");
   command
       ->add_option("--folder", arguments->folder,
-                   "write all pages here instead, with the completion for bash and zsh")
+                   "write all pages to this folder, and the completion scripts for bash and zsh")
       ->excludes(name);
   command->callback([&app, arguments] {
     const auto table = read_table(app);

@@ -30,8 +30,8 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
   if (!arguments.model.empty()) embedded = load_model<Dim>(arguments.model);
   const auto made = [&] {
     const ProgressBar bar(arguments.quiet, meshing_stage(arguments.meshing.timeout));
-    return make_domain<Dim>({cage, arguments.cage, arguments.vertices, arguments.meshing,
-                             arguments.model, embedded});
+    return make_domain<Dim>(
+        {cage, arguments.cage, arguments.vertices, arguments.meshing, arguments.model, embedded});
   }();
   const auto& domain = made.mesh;
   {
@@ -55,7 +55,8 @@ void add_mesh_command(CLI::App& app, int&) {
   command->add_option("--vertices", arguments->vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_mesher_options(*command, arguments->meshing);
-  command->add_option("--model", arguments->model, "use the vertices of this model as vertices of the mesh");
+  command->add_option("--model", arguments->model,
+                      "use the vertices of this model as vertices of the mesh");
   command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
   command->callback([arguments] {
     require_distinct({arguments->cage, arguments->model}, {arguments->output});

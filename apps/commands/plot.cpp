@@ -79,8 +79,8 @@ void plot(PlotArguments& arguments) {
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   require_distinct(arguments.reports, {arguments.output});
   if (!arguments.names.empty() && arguments.names.size() != arguments.reports.size()) {
-    throw OptionError("--names: there are " + std::to_string(arguments.names.size()) +
-                      ", but reports are " + std::to_string(arguments.reports.size()));
+    throw OptionError("--names: " + std::to_string(arguments.names.size()) + " names for " +
+                      std::to_string(arguments.reports.size()) + " reports; give one for each");
   }
   std::vector<RunHistory> runs;
   for (const auto& file : arguments.reports) runs.push_back(read_history(file));
@@ -100,16 +100,14 @@ void plot(PlotArguments& arguments) {
 void add_plot_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<PlotArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand(
-      "plot", "Plot estimated error, residual, objective and gap of one or several solves");
+  auto* command =
+      app.add_subcommand("plot", "Plot error, residual, objective, and gap of one or more solves");
   command->add_option("REPORTS", a.reports, "reports of flbc solve or flbc run with --history")
       ->required();
-  command
-      ->add_option("-o,--output", a.output,
-                   std::string("the picture: ") + draw::kPictureExtensions)
+  command->add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
-  command->add_option("--names", a.names, "of the runs in the legend (the files' names)");
-  command->add_option("--width", a.options.width, "width in pixels (1200)");
+  command->add_option("--names", a.names, "legend labels (default: the file names)");
+  command->add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command->callback([arguments] { plot(*arguments); });
 }
 

@@ -24,7 +24,8 @@ void check_arguments(const RunArguments& arguments) {
   validate(arguments.settings.options);
   if (arguments.settings.outside == OutsidePoints::kExtend) {
     throw OptionError(
-        "--outside extend: skins have no negative weights; take nearest, or flbc solve and deform");
+        "--outside extend: skins cannot have negative weights; use nearest, or flbc solve and flbc "
+        "deform");
   }
 }
 
@@ -63,11 +64,9 @@ struct Step {
 template <int Dim>
 void take_steps(Run<Dim>& run) {
   const Step<Dim> steps[] = {
-      {"cage", deliver_cage},          {"mesh", mesh_interior},
-      {"solve", compute_weights},      {"check", check_weights_of_mesh},
-      {"sparsify", reduce_influences}, {"deform", deform_shape},
-      {"export", export_shape},        {"pictures", draw_pictures},
-      {"page", write_page},
+      {"cage", deliver_cage},           {"mesh", mesh_interior},         {"solve", compute_weights},
+      {"check", check_weights_of_mesh}, {"sparsify", reduce_influences}, {"deform", deform_shape},
+      {"export", export_shape},         {"pictures", draw_pictures},     {"page", write_page},
   };
   double total = 0;
   for (const auto& [name, take] : steps) {
@@ -91,7 +90,7 @@ void print_summary(const Run<Dim>& run) {
         << ", " << run.report["seconds"]["total"].template get<double>() << " s";
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
-            << "save a pose there, and flbc deform moves the model to it.\n";
+            << "save a pose there, and apply it with flbc deform.\n";
 }
 
 // \return the exit status
@@ -153,7 +152,7 @@ void require_model_to_embed(const SolveSettings& settings) {
 int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
-    throw OptionError("--auto-cage makes a cage round MODEL; leave CAGE out");
+    throw OptionError("--auto-cage makes the cage; give MODEL only");
   }
   const bool is_picture = io::extension_of(settings.cage) == "png";
   auto& file = is_picture ? arguments.picture : settings.model;
@@ -261,15 +260,13 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_flag("--force", a.force, "replace files in OUTDIR that no earlier run has made");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->option_defaults()->group("Solver");
-  command
-      ->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
+  command->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_solver_options(*command, a.settings);
   add_rare_options(*command, a, deformed);
-  command->callback(
-      [arguments, command, auto_cage, &exit_status] {
-        exit_status = run_as_told(*command, *auto_cage, *arguments);
-      });
+  command->callback([arguments, command, auto_cage, &exit_status] {
+    exit_status = run_as_told(*command, *auto_cage, *arguments);
+  });
 }
 
 }  // namespace flbc::app

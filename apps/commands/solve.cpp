@@ -40,10 +40,9 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   const auto& report = solver.report();
   std::cerr << arguments.output << ": ";
   if (!report.parts.empty()) std::cerr << report.parts.size() << " parts, ";
-  std::cerr << report.control_points << " control points, "
-            << report.vertices << " vertices, " << report.cells
-            << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report) << ", "
-            << report.seconds.solve << " s"
+  std::cerr << report.control_points << " control points, " << report.vertices << " vertices, "
+            << report.cells << (Dim == 2 ? " triangles; " : " tetrahedra; ")
+            << describe_iterations(report) << ", " << report.seconds.solve << " s"
             << "; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
   if (is_certified(report)) {
@@ -94,10 +93,10 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("--report", a.report, "write facts about the solve to this .json file");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->option_defaults()->group("Domain and model");
-  auto* vertices = command
-                       ->add_option("--vertices", settings.vertices,
-                                    "number of mesh vertices (default: 10000)")
-                       ->check(refuse_vertex_count);
+  auto* vertices =
+      command
+          ->add_option("--vertices", settings.vertices, "number of mesh vertices (default: 10000)")
+          ->check(refuse_vertex_count);
   auto* domain = command->add_option("--domain", settings.domain,
                                      "use this mesh of the cage interior instead of a new one");
   command->add_option("--save-domain", a.save_domain,
@@ -105,10 +104,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto* model = command->add_option("--model", settings.model,
                                     "compute weights at the vertices of this model");
   add_solver_options(*command, settings);
-  auto* embed = command
-                    ->add_flag("--embed", settings.embed,
-                               "use the model vertices as vertices of the mesh")
-                    ->needs(model);
+  auto* embed =
+      command->add_flag("--embed", settings.embed, "use the model vertices as vertices of the mesh")
+          ->needs(model);
   domain->excludes(vertices)->excludes(embed);
   command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);

@@ -10,6 +10,7 @@
 #include "commands/commands.h"
 #include "files/held_signals.h"
 #include "files/load.h"
+#include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -19,7 +20,6 @@
 #include "flbc/io/weights_triplets.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "files/movable_model.h"
 #include "poses/poses.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
@@ -30,7 +30,6 @@ namespace flbc::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
 
 struct SparsifyArguments {
   std::string weights;
@@ -119,8 +118,8 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
   const auto model = load_points<Dim>(arguments.points);
   if (arguments.method == kPoisson && model.edges.ends.empty()) {
     throw InputError(arguments.points +
-                     ": has neither faces nor lines, but --method poisson needs to know which "
-                     "vertices are neighbours");
+                     ": has no faces and no lines, so --method poisson finds no neighbors; use "
+                     "--method quadratic");
   }
   const auto before = load_weights(arguments, cage.points, model.points);
   const auto poses = load_poses<Dim>(arguments, cage.points.cols());
@@ -163,37 +162,36 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
 void add_sparsify_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<SparsifyArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("sparsify", "Keep few influences per point");
+  auto* command = app.add_subcommand("sparsify", "Reduce weights to a few influences per point");
   command->footer(
-      "The weights that are left are >= 0, sum to 1 and reproduce the points, also where those\n"
-      "given do not.");
+      "The resulting weights are >= 0, sum to 1, and reproduce the points, even if the input does "
+      "not.");
   command
       ->add_option("WEIGHTS", a.weights,
                    ".mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
       ->required();
-  command->add_option("--cage", a.cage, "the cage of the weights")->required();
-  command
-      ->add_option("--points", a.points,
-                   "model or mesh of the interior to whose vertices the weights belong")
+  command->add_option("--cage", a.cage, "cage of the weights")->required();
+  command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
       ->required();
   auto* count = command->add_option("-k,--max-influences", a.options.max_influences,
-                                    "most influences per point, at least 3 in 2D and 4 in 3D");
-  auto* threshold = command->add_option("--threshold", a.options.threshold,
-                                        "drop weights below this first, if the rest reproduces");
+                                    "maximum influences per point, at least 3 in 2D and 4 in 3D");
+  auto* threshold = command->add_option(
+      "--threshold", a.options.threshold,
+      "first drop weights below this value where the others can reproduce the point");
   add_choice(*command, "--method", {kQuadratic, kPoisson}, a.method,
              "how to reduce influences (default: quadratic). quadratic: each vertex separately. "
              "poisson: without seams between neighbors");
   command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat or .npy")->required();
   command
-      ->add_option("--pose", a.poses,
-                   "measure the error in this pose of the cage, which poisson makes small, too "
-                   "(repeatable)")
+      ->add_option(
+          "--pose", a.poses,
+          "measure the error in this pose of the cage; poisson also minimizes it (repeatable)")
       ->allow_extra_args(false);
-  command->add_option("--report", a.report, "write what happened to this .json file");
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_option("--report", a.report, "write facts about the reduction to this .json file");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments, count, threshold] {
     if (count->count() + threshold->count() == 0) {
-      throw OptionError("give -k, the most influences per point, or --threshold, or both");
+      throw OptionError("give -k (maximum influences per point), --threshold, or both");
     }
     check_files(*arguments);
     std::visit([&](const auto& cage) { sparsify_weights(cage, *arguments); },

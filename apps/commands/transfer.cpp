@@ -32,7 +32,7 @@ struct TransferArguments {
 
 void check_arguments(const TransferArguments& arguments) {
   if (arguments.from.empty() == arguments.domain.empty()) {
-    throw OptionError("say whose the weights are: a model's by --from, or a mesh's by --domain");
+    throw OptionError("give --from (a model that has these weights) or --domain (a mesh)");
   }
   require_writable(arguments.output, {io::Content::kWeights});
   require_distinct(
@@ -55,8 +55,8 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const WeightMatrix& weights,
   check_sizes(weights, cage.size(), domain.num_vertices(),
               {arguments.weights, arguments.cage, arguments.domain});
   const auto to = load_model<Dim>(arguments.to);
-  const auto placement = naming(
-      arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
+  const auto placement =
+      naming(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
   return {weights_at(cage, domain, weights, placement), placement.points,
           describe(placement, bounding_box_diagonal(cage.points))};
 }
@@ -100,18 +100,18 @@ void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
 void add_transfer_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<TransferArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("transfer", "Weights for another version of a model");
+  auto* command = app.add_subcommand("transfer", "Transfer weights to another version of a model");
   command->footer(
-      "With --domain the weights are those of the mesh of the interior (flbc run keeps them as\n"
-      "domain_weights.npy), and any model inside the cage gets what flbc solve would give it.\n"
-      "With --from they are a model's, and a vertex of the other gets those of the nearest place\n"
-      "on it, changed as little as it takes to reproduce the vertex with weights >= 0.");
-  command->add_option("WEIGHTS", a.weights, "those there are: .mtx, .dmat or .npy")->required();
-  command->add_option("--cage", a.cage, "the cage they were computed for")->required();
-  auto* from = command->add_option("--from", a.from, "the model whose weights they are");
-  auto* domain = command->add_option("--domain", a.domain, "the mesh whose weights they are");
+      "With --domain, WEIGHTS belong to the mesh of the cage interior (domain_weights.npy of flbc\n"
+      "run). The result is what flbc solve computes for the model. With --from, WEIGHTS belong to\n"
+      "another model. Each vertex gets the weights of the nearest point on it, with the smallest\n"
+      "change that makes them >= 0 and reproduces the vertex.");
+  command->add_option("WEIGHTS", a.weights, "existing weights: .mtx, .dmat, .npy")->required();
+  command->add_option("--cage", a.cage, "cage of the weights")->required();
+  auto* from = command->add_option("--from", a.from, "model that has these weights");
+  auto* domain = command->add_option("--domain", a.domain, "mesh that has these weights");
   domain->excludes(from);
-  command->add_option("--to", a.to, "the model that gets weights")->required();
+  command->add_option("--to", a.to, "model that needs weights")->required();
   command
       ->add_option("--limit", a.limit,
                    "largest distance between the models, relative to their size (default: 0.02)")
@@ -121,7 +121,7 @@ void add_transfer_command(CLI::App& app, int&) {
              "how to handle vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);
   command->add_option("-o,--output", a.output, "weights: .mtx, .dmat or .npy")->required();
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     std::visit([&](const auto& cage) { transfer(cage, *arguments); }, load_cage(arguments->cage));

@@ -17,8 +17,8 @@
 #include "poses/poses.h"
 #include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
-#include "view/page.h"
 #include "view/model_page.h"
+#include "view/page.h"
 
 namespace flbc::app {
 namespace {
@@ -55,7 +55,7 @@ void check_arguments(const ViewArguments& arguments) {
                                     {"--weights", &arguments.weights},
                                     {"--cage", &arguments.cage},
                                     {"--output", &arguments.output}}) {
-    if (value->empty()) throw OptionError(std::string(name) + " is required, or --serve");
+    if (value->empty()) throw OptionError(std::string(name) + " is required without --serve");
   }
   if (!arguments.picture.empty()) media_type_of(arguments.picture);
   require_mesh_readable(arguments.model);
@@ -105,7 +105,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
 
 // How far the page moves points elsewhere than the weights given would, if they were reduced.
 template <int Dim>
-std::string told_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
+std::string describe_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
   const auto before = count_influences(given).max;
   const auto after = count_influences(content.weights).max;
   if (before == after) return "at most " + std::to_string(after) + " influences per point";
@@ -138,12 +138,13 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   if (!arguments.quiet) {
     std::cerr << arguments.output << ": " << content.points.cols() << " points, "
               << content.surface.triangles.cols() << " triangles, " << content.poses.size()
-              << " poses, " << told_reduction(content, given) << "; " << bytes / 1e6
+              << " poses, " << describe_reduction(content, given) << "; " << bytes / 1e6
               << " MB; open it in a browser\n";
   }
   if (bytes > kLargePage) {
-    std::cerr << "flbc: " << arguments.output << ": " << bytes / 1e6
-              << " MB open slowly; fewer influences per point, as -k 4, make it smaller\n";
+    std::cerr
+        << "flbc: " << arguments.output << ": " << bytes / 1e6
+        << " MB open slowly; for a smaller page reduce influences per point, for example -k 4\n";
   }
 }
 
@@ -156,13 +157,14 @@ void serve(const ViewArguments& arguments) {
 void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
   auto* serve = command.add_option(
       "--serve", a.served,
-      "compute weights and show them in a page on this machine, in which the cage can also be "
-      "reshaped at rest; without MODEL the mesh of the interior");
+      "compute weights, and serve a page on this machine in which you can also reshape the cage at "
+      "rest (default for MODEL: the mesh of the cage interior)");
   serve->expected(1, 2)->type_name("CAGE [MODEL]")->excludes(output);
-  command.add_option("--vertices", a.vertices, "of --serve: number of mesh vertices wanted (2000)")
+  command
+      .add_option("--vertices", a.vertices, "with --serve: number of mesh vertices (default: 2000)")
       ->check(refuse_vertex_count)
       ->needs(serve);
-  command.add_option("--port", a.port, "of --serve: where to listen (any that is free)")
+  command.add_option("--port", a.port, "with --serve: port (default: any free port)")
       ->check(CLI::Range(0, 65535))
       ->needs(serve);
 }
@@ -173,21 +175,20 @@ void add_view_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ViewArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("view", "Write a page in which the cage can be moved with the mouse");
+      app.add_subcommand("view", "Make a page in which you move the cage with the mouse");
   command->footer(
-      "The page is one file that any browser opens, without network. It moves the model as flbc\n"
-      "deform does, saves poses of the cage as OBJ, and tells its keys with '?'.");
-  command
-      ->add_option(
-          "MODEL", a.model,
-          "model (.obj .off .ply .stl .om), or mesh of the interior, of which the boundary "
-          "is shown");
-  command
-      ->add_option("--weights", a.weights,
-                   "a row per vertex of it, a column per control point: .mtx, .dmat or .npy");
-  command->add_option("--cage", a.cage, "the cage they were computed for");
+      "The page is one file that any browser opens without a network. It deforms the model like "
+      "flbc\n"
+      "deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
+  command->add_option(
+      "MODEL", a.model,
+      "model (.obj .off .ply .stl .om), or mesh of the cage interior, whose boundary is shown");
+  command->add_option(
+      "--weights", a.weights,
+      "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy");
+  command->add_option("--cage", a.cage, "cage of the weights");
   auto* poses = command->add_option(
-      "--pose", a.poses, "the cage in another place; several, or a pattern as pose_%d.obj");
+      "--pose", a.poses, "deformed cage; several files, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
                    "poses as displacements of the cage, with times in seconds")
@@ -198,12 +199,12 @@ void add_view_command(CLI::App& app, int&) {
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
   command->add_option("-k,--max-influences", a.max_influences,
-                      "most influences per point, up to 16 (16)");
+                      "maximum influences per point, up to 16 (default: 16)");
   command->add_option("--texture", a.picture,
-                      "picture for a model with texture coordinates, .png or .jpg");
-  auto* output = command->add_option("-o,--output", a.output, "the page, .html");
+                      "texture for a model with texture coordinates: .png, .jpg");
+  auto* output = command->add_option("-o,--output", a.output, "page: .html");
   add_serving(*command, a, output);
-  command->add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     if (!arguments->served.empty()) return serve(*arguments);
     check_arguments(*arguments);

@@ -24,7 +24,7 @@ void check_files(const WeightMatrix& weights, const WeightConversion& conversion
   const Eigen::Index num_points = points.empty() ? weights.cols() : count_vertices(points);
   const bool is_turned = num_controls == weights.cols() && num_points == weights.rows();
   if (is_turned && num_controls != num_points) {
-    throw InputError(input + (transpose ? ": has points as rows; leave --transpose out"
+    throw InputError(input + (transpose ? ": has points as rows; leave out --transpose"
                                         : ": has control points as rows; give --transpose"));
   }
   check_sizes(weights, num_controls, num_points, {input, cage, points});
@@ -65,8 +65,9 @@ void convert_weights(const WeightConversion& conversion, bool quiet) {
   std::cerr << output << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";
   if (holds_triplets(input) && (cage.empty() || points.empty())) {
-    std::cerr << "flbc: " << input << " does not tell these numbers; they are the largest ones in "
-              << "it (--cage and --points check them)\n";
+    std::cerr << "flbc: " << input
+              << " does not contain these numbers; they are the largest indices "
+              << "in it plus 1. Check them with --cage and --points\n";
   }
 }
 

@@ -14,9 +14,9 @@ namespace flbc::app {
 struct WeightConversion {
   std::string input;
   std::string output;
-  std::string cage;                   //!< of the weights; empty = not known
-  std::string points;                 //!< model or mesh they belong to; empty = not known
-  bool transpose = false;             //!< the input has control points as rows
+  std::string cage;        //!< of the weights; empty = not known
+  std::string points;      //!< model or mesh they belong to; empty = not known
+  bool transpose = false;  //!< the input has control points as rows
 };
 
 //! Weights in all formats.

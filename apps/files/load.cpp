@@ -18,7 +18,7 @@
 namespace flbc::app {
 namespace {
 
-constexpr const char* kRepair = "; flbc cage --repair may mend it";
+constexpr const char* kRepair = "; try flbc cage --repair";
 
 // Not what is wrong with the cage as a whole, or with its numbers.
 template <int Dim>
@@ -147,12 +147,13 @@ void require_distinct(const std::vector<std::string>& inputs,
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     for (const auto& input : inputs) {
       if (is_same_file(outputs[k], input)) {
-        throw OptionError(outputs[k] + ": the result would replace this file, which is read");
+        throw OptionError(outputs[k] +
+                          ": the result would replace this input file; choose another name");
       }
     }
     for (std::size_t l = 0; l < k; ++l) {
       if (is_same_file(outputs[k], outputs[l])) {
-        throw OptionError(outputs[k] + ": two results would go to this one file");
+        throw OptionError(outputs[k] + ": two results have this name; choose different names");
       }
     }
   }

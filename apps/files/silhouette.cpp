@@ -38,7 +38,7 @@ struct Reader {
 // A PNG without the chunks that say nothing about which pixels are to be seen: libpng takes the
 // memory that a text or a profile of colours says it needs, were it gigabytes.
 std::string without_remarks(const std::string& path, const std::string& png) {
-  constexpr std::size_t kSignature = 8, kHead = 8, kCheck = 4;
+  constexpr std::size_t kSignature = 8, kChunkHead = 8, kCheck = 4;
   const auto* bytes = reinterpret_cast<png_const_bytep>(png.data());
   if (png.size() < kSignature || png_sig_cmp(bytes, 0, kSignature) != 0) {
     throw InputError(path + ": not a PNG file");
@@ -47,13 +47,13 @@ std::string without_remarks(const std::string& path, const std::string& png) {
   std::size_t begin = kSignature;
   std::string type;
   while (begin < png.size() && type != "IEND") {
-    const bool has_head = png.size() - begin >= kHead;
+    const bool has_head = png.size() - begin >= kChunkHead;
     type = has_head ? png.substr(begin + 4, 4) : "";
     const std::size_t length = has_head ? png_get_uint_32(bytes + begin) : 0;
-    if (!has_head || png.size() - begin - kHead < length + kCheck) {
+    if (!has_head || png.size() - begin - kChunkHead < length + kCheck) {
       throw InputError(path + ": the file ends within the chunk at byte " + std::to_string(begin));
     }
-    const std::size_t size = kHead + length + kCheck;
+    const std::size_t size = kChunkHead + length + kCheck;
     const bool is_critical = (static_cast<unsigned char>(type[0]) & 32U) == 0;
     if (is_critical || type == "tRNS") kept.append(png, begin, size);
     begin += size;

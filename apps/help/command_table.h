@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The program's commands and options as a table: manual pages and completion are made of it, so that
-//! they cannot differ from it.
+//! The program's commands and options as a table: manual pages and completion are made of it, so
+//! that they cannot differ from it.
 #pragma once
 
 #include <string>

@@ -86,7 +86,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name,
 std::function<std::string(const std::string&)> in_range(double low, double high) {
   return [=](const std::string& text) {
     double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high)
+      return std::string();
     std::ostringstream complaint;
     complaint << "must be from " << low << " to " << high << ", not '" << text << "'";
     return complaint.str();

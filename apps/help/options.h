@@ -32,7 +32,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name,
 inline CLI::Option* add_choice(CLI::App& command, const std::string& name,
                                const std::vector<std::string>& words, std::string& value,
                                const std::string& help) {
-  return add_choice(command, name, words, [&value](const auto& word) { value = word; }, help);
+  return add_choice(
+      command, name, words, [&value](const auto& word) { value = word; }, help);
 }
 
 //! The same for the names of an enumeration. \param words  some of names_of<Enum>()

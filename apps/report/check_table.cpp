@@ -132,7 +132,7 @@ void print_model(std::ostream& out, const CheckReport<Dim>& report) {
       << " lie outside the cage, the farthest is vertex " << farthest.point << " at "
       << position<Dim>(points.col(farthest.point)) << ", " << number(farthest.distance)
       << " from it, " << number(100 * farthest.distance / report.facts->size)
-      << " % of its size; see --outside of flbc solve, or make a cage round it with flbc cage\n";
+      << " % of its size; use flbc solve --outside, or make a cage around it with flbc cage\n";
 }
 
 template <int Dim>

@@ -119,9 +119,9 @@ RunHistory read_history(const std::string& file) {
   }
   const auto& solve = report.contains("solve") ? report["solve"] : report;
   if (!solve.is_object() || !solve.contains("history")) {
-    throw InputError(file +
-                     ": has no history; let flbc solve or flbc run write the report with "
-                     "--history");
+    throw InputError(
+        file +
+        ": has no history; write the report with flbc solve --history or flbc run --history");
   }
   try {
     return parse(solve);

@@ -88,8 +88,8 @@ nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_
                               {"criterion", name_of(report.criterion)},
                               {"objective", report.objective}};
   add_certificate(report, json);
-  json["seconds"] = report.seconds.setup + report.seconds.solve + report.seconds.recover +
-                    report.seconds.certify;
+  json["seconds"] =
+      report.seconds.setup + report.seconds.solve + report.seconds.recover + report.seconds.certify;
   return json;
 }
 

@@ -61,8 +61,8 @@ class RunFolder::Lock {
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
     close(descriptor_);
-    throw IoError(path + ": another flbc run is writing to this folder; wait for it, or take "
-                         "another one");
+    throw IoError(
+        path + ": another flbc run is writing to this folder; wait for it, or use another folder");
   }
   ~Lock() { close(descriptor_); }
   Lock(const Lock&) = delete;
@@ -96,8 +96,8 @@ void RunFolder::check_results(const RunFiles& files, const std::vector<std::stri
     const bool is_own = std::find(old.begin(), old.end(), name) != old.end();
     if (files.force || is_own || !fs::exists(result, error)) continue;
     throw OptionError(result +
-                      ": is there already, and not from an earlier flbc run; take another folder, "
-                      "or --force to replace it");
+                      ": exists and is not from an earlier flbc run; use another folder, or "
+                      "--force to replace it");
   }
 }
 

@@ -48,7 +48,7 @@ struct RunArguments {
   std::string reduction = kPoisson;
   double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
   Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
-  std::string pictures = "png";       //!< format of pictures
+  std::string pictures = "png";  //!< format of pictures
   bool force = false;            //!< results replace files of others, too
   bool quiet = false;
 };

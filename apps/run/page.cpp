@@ -3,8 +3,8 @@
 
 #include "report/facts.h"
 #include "run/steps.h"
-#include "view/page.h"
 #include "view/model_page.h"
+#include "view/page.h"
 
 namespace flbc::app {
 namespace {

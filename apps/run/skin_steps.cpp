@@ -11,8 +11,8 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
-#include "report/sparsify_report.h"
 #include "report/facts.h"
+#include "report/sparsify_report.h"
 #include "run/steps.h"
 #include "solve/progress_bar.h"
 

@@ -11,8 +11,8 @@
 #include "flbc/quality.h"
 #include "poses/poses.h"
 #include "report/check_report.h"
-#include "report/report_json.h"
 #include "report/facts.h"
+#include "report/report_json.h"
 
 namespace flbc::app {
 
@@ -22,8 +22,7 @@ void deliver_cage(Run<Dim>& run) {
   Facts facts;
   facts << run.cage.size() << " control points, " << run.cage.facets.cols()
         << (Dim == 2 ? " edges" : " triangles") << ", encloses the model";
-  run.folder.add(kCage, facts.text(),
-                 [&](const std::string& path) { write_cage(path, run.cage); });
+  run.folder.add(kCage, facts.text(), [&](const std::string& path) { write_cage(path, run.cage); });
 }
 
 template <int Dim>

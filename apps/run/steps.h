@@ -20,7 +20,7 @@ struct Run {
   const RunArguments& arguments;
   const Cage<Dim>& cage;
   const io::ModelFile* cage_file;  //!< null if the cage was made
-  RunInputs<Dim>& inputs;  //!< without a model its shape comes with the mesh
+  RunInputs<Dim>& inputs;          //!< without a model its shape comes with the mesh
   CageSolver<Dim>& solver;
   RunFolder& folder;
   nlohmann::ordered_json report{};

@@ -38,9 +38,8 @@ Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Solv
 
 template <int Dim>
 const PointBeside<Dim>& farthest(const std::vector<PointBeside<Dim>>& points) {
-  return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.distance < b.distance;
-  });
+  return *std::max_element(points.begin(), points.end(),
+                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
 }
 
 template <int Dim>
@@ -76,8 +75,8 @@ void refuse_history_of_parts(const Cage<Dim>& cage) {
   const auto count = cage_parts(cage).size();
   if (count < 2) return;
   throw OptionError("--history: the cage has " + std::to_string(count) +
-                    " parts, each with an iteration of its own; give the part of interest a file "
-                    "of its own, or leave --history out");
+                    " parts, and each has its own iteration; solve one part alone, or leave out "
+                    "--history");
 }
 
 // Where a part is, for readers of the report to tell it from the others.
@@ -98,8 +97,8 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
     : cage_(cage), model_(model), settings_(settings) {
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
-    throw OptionError("--outside: vertices that become vertices of the mesh must be inside; leave "
-                      "--embed or --outside out");
+    throw OptionError(
+        "--outside: vertices of the mesh must be inside the cage; leave out --embed or --outside");
   }
   if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points)) {
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
@@ -113,9 +112,8 @@ void CageSolver<Dim>::fill_cage(bool quiet) {
   std::string note;
   {
     const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
-    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices,
-                                       settings_.meshing, settings_.embed ? settings_.model : "",
-                                       embedded_.points});
+    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices, settings_.meshing,
+                                       settings_.embed ? settings_.model : "", embedded_.points});
     domain_ = std::move(made.mesh);
     mesher_ = made.mesher;
     note = std::move(made.note);
@@ -135,9 +133,8 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
-  placement_ = naming(settings_.model, [&] {
-    return place_points(cage_, domain_, model_, settings_.outside);
-  });
+  placement_ = naming(settings_.model,
+                      [&] { return place_points(cage_, domain_, model_, settings_.outside); });
 }
 
 template <int Dim>
@@ -193,8 +190,8 @@ std::string describe(const Placement<Dim>& placement, double size) {
   std::ostringstream text;
   text.precision(3);
   if (!placement.on_cage.empty()) {
-    text << "; " << placement.on_cage.size() << " vertices beside the cage by a hair, "
-         << farthest(placement.on_cage).distance / size << " of its size at most, are put on it";
+    text << "; " << placement.on_cage.size() << " vertices within "
+         << farthest(placement.on_cage).distance / size << " of the cage's size were snapped to it";
   }
   if (!placement.outside.empty()) {
     text << "; " << placement.outside.size() << " vertices outside the cage, by up to "
@@ -207,9 +204,9 @@ std::string describe(const Placement<Dim>& placement, double size) {
 
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) return true;
-  std::cerr << "flbc: not converged within " << settings.options.max_iterations
-            << " iterations; the result was written nevertheless (see --max-iterations, "
-               "--tolerance and --gap)\n";
+  std::cerr
+      << "flbc: not converged within " << settings.options.max_iterations
+      << " iterations; the result is written. Increase --max-iterations, --tolerance, or --gap\n";
   return false;
 }
 

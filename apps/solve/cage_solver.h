@@ -26,8 +26,8 @@ class CageSolver {
   //! Keeps references to all. \param model  Dim x P, not looked at if settings name no model
   CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
 
-  //! Reads the mesh, or makes it. Then finds the model's vertices in it, so that a model outside its
-  //! cage is refused before the solve.
+  //! Reads the mesh, or makes it. Then finds the model's vertices in it, so that a model outside
+  //! its cage is refused before the solve.
   //! \param quiet  without a progress line
   void make_domain(bool quiet);
 
@@ -65,9 +65,9 @@ class CageSolver {
   Mesher mesher_ = Mesher::kGiven;
   Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
-  Placement<Dim> placement_;  // of the model's vertices
+  Placement<Dim> placement_;        // of the model's vertices
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
-  SparseWeights rows_;  // at the model's vertices, once solved
+  SparseWeights rows_;              // at the model's vertices, once solved
 };
 
 //! How many vertices lie beside the cage, and what became of them; empty for none.

@@ -41,15 +41,15 @@ template <int Dim>
 void require_mesher(Mesher asked_for) {
   const bool is_one_for_3d = asked_for == Mesher::kTetgen || asked_for == Mesher::kNetgen;
   if (asked_for != Mesher::kAuto && is_one_for_3d != (Dim == 3)) {
-    throw OptionError(std::string("--mesher ") + name_of(asked_for) + ": it makes no meshes in " +
-                      std::to_string(Dim) + "D");
+    throw OptionError(std::string("--mesher ") + name_of(asked_for) +
+                      ": this mesher makes no meshes in " + std::to_string(Dim) + "D");
   }
   if (!meshers_for<Dim>(asked_for).empty()) return;
   const std::string wanted = asked_for != Mesher::kAuto ? name_of(asked_for)
                              : Dim == 2                 ? "CGAL"
                                                         : "TetGen or Netgen";
   throw OptionError("this flbc was built without " + wanted + " and cannot mesh in " +
-                    std::to_string(Dim) + "D; give a mesh by --domain");
+                    std::to_string(Dim) + "D; give a mesh with --domain");
 }
 
 DomainMesh<2> fill(Mesher, [[maybe_unused]] const Cage<2>& cage,
@@ -87,8 +87,8 @@ DomainMesh<Dim> fill_or_exceed(Mesher mesher, const Cage<Dim>& cage, MeshingOpti
 std::string note_on_count(Index asked, Index count) {
   constexpr double kTolerance = 1.1;  // promised by MeshingOptions
   if (asked == 0 || count <= kTolerance * asked) return "";
-  return "cells of good shape take " + std::to_string(count) +
-         " vertices in this cage, more than " + std::to_string(asked) + " (--vertices)";
+  return "the mesh has " + std::to_string(count) + " vertices instead of " + std::to_string(asked) +
+         " (--vertices), the minimum that element quality allows in this cage";
 }
 
 // Notes for the user from meshing the parts.

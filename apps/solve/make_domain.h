@@ -12,11 +12,11 @@
 namespace flbc::app {
 
 enum class Mesher {
-  kAuto,    //!< CGAL in 2D; in 3D TetGen, and Netgen for cages on which that fails
+  kAuto,  //!< CGAL in 2D; in 3D TetGen, and Netgen for cages on which that fails
   kCgal,
   kTetgen,
   kNetgen,
-  kGiven    //!< none: the mesh was read from a file
+  kGiven  //!< none: the mesh was read from a file
 };
 
 //! Who makes meshes, and for how long.

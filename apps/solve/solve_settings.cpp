@@ -23,27 +23,28 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings) {
 
 void refuse_unread_options(const CLI::App& command, const SolveSettings& settings) {
   const auto refuse = [&](const std::string& option, const std::string& reason) {
-    if (command.count(option) > 0) throw OptionError(option + ": " + reason + "; leave it out");
+    if (command.count(option) > 0)
+      throw OptionError(option + ": " + reason + "; leave out this option");
   };
   const Method method = settings.options.method;
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
-    for (const char* option : {"--phi", "--distances", "--linear-solver", "--precision",
-                               "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations",
-                               "--penalty", "--relaxation"}) {
-      refuse(option, name + " does not read it");
+    for (const char* option :
+         {"--phi", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
+          "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
+      refuse(option, name + " does not use it");
     }
   }
   if (method != Method::kAuto && method != Method::kValue) {
-    refuse("--active", name + " does not read it");
-    refuse("--coarse-to-fine", name + " does not read it");
+    refuse("--active", name + " does not use it");
+    refuse("--coarse-to-fine", name + " does not use it");
   }
-  if (!gradients) refuse("--recovery", name + " does not read it");
+  if (!gradients) refuse("--recovery", name + " does not use it");
   if (settings.model.empty()) refuse("--outside", "there is no model");
   if (!settings.domain.empty()) {
-    refuse("--mesher", "with --domain nothing is meshed");
-    refuse("--mesh-timeout", "with --domain nothing is meshed");
+    refuse("--mesher", "--domain gives the mesh");
+    refuse("--mesh-timeout", "--domain gives the mesh");
   }
 }
 

@@ -20,9 +20,9 @@ struct SolveSettings {
   std::string model;   //!< whose vertices get weights; empty: those of the mesh do
   bool embed = false;  //!< the model's vertices become vertices of the mesh
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
-  Index vertices = 0;  //!< wanted, 0 = as make_domain() chooses
+  Index vertices = 0;                            //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
-  bool history = false;  //!< the report tells how the iteration came nearer to its end
+  bool history = false;             //!< the report tells how the iteration came nearer to its end
   std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };

@@ -275,7 +275,7 @@ std::string make_page(const PageContent<Dim>& content) {
                                                            const FacetList<Dim>&);                 \
   template std::string make_update(const PointList<Dim>&, const WeightMatrix&,                     \
                                    const Vector<Dim>&);                                            \
-  template WeightMatrix limit_influences(const PointList<Dim>&, const PointList<Dim>&,              \
+  template WeightMatrix limit_influences(const PointList<Dim>&, const PointList<Dim>&,             \
                                          const WeightMatrix&, Index);                              \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)

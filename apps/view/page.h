@@ -62,9 +62,9 @@ struct PageContent {
   gltf::Surface surface{};  //!< of these points; without triangles points are shown
   WeightMatrix weights{};   //!< n x P, at most kMostInfluences in every column
   std::vector<ShownPose<Dim>> poses{};
-  std::string picture{};  //!< data URI of a texture, or empty
-  bool is_served = false;     //!< a program answers with weights for other cages
-  bool moves_along = false;   //!< if so, the points move with the resting cage
+  std::string picture{};     //!< data URI of a texture, or empty
+  bool is_served = false;    //!< a program answers with weights for other cages
+  bool moves_along = false;  //!< if so, the points move with the resting cage
 };
 
 //! The edges of a cage's polygons; of its facets if there are none.

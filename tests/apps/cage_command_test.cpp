@@ -14,13 +14,6 @@ namespace {
 
 class CageCommand : public CommandLineTest {
  protected:
-  Ended expect(const std::string& arguments, int status, const std::string& words) const {
-    SCOPED_TRACE(arguments);
-    auto result = run(arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    return result;
-  }
   nlohmann::json check(const std::string& cage, const std::string& model) const {
     return nlohmann::json::parse(run("check " + cage + " --model " + model + " --json -").output);
   }
@@ -97,18 +90,6 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o " + path("none.obj"), 2,
          "full.png: no pixel is transparent");
   expect("cage " + file("no.png", "text") + " -o " + path("none.obj"), 2, "no.png: ");
-  // A header that says it has 16384 by 16384 pixels, which would take a gibibyte, and no data.
-  const std::string lie(
-      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\100\0\0\0\100\0\010\006\0\0\0\251\310\020\204"
-      "\0\0\0\0IDAT\065\257\006\036",
-      45);
-  expect("cage " + file("header.png", lie) + " -o " + path("none.obj"), 2,
-         "header.png: the file is too short for a picture of 16384 by 16384 pixels");
-  // A text that says it has 1.4 gigabytes.
-  const auto remark = file("remark.png", slurp(write("some.png", PNG_FORMAT_RGBA)).insert(
-                                             33, "\x57itiTXt\xae\x42\x60\x82"));
-  expect("cage " + remark + " -o " + path("none.obj"), 2,
-         "remark.png: the file ends within the chunk at byte 33");
 }
 
 TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
@@ -128,7 +109,7 @@ TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
 
 TEST_F(CageCommand, RefusesWithReason) {
   const auto out = " -o " + path("out.obj");
-  expect("cage" + out, 1, "give a MODEL");
+  expect("cage" + out, 1, "give either a MODEL");
   expect("cage " + square() + out + " --control-points 2", 1, "at least 3");
   expect("cage " + square() + out + " --offset -1", 1, "offset");
   expect("cage " + square() + out + " --symmetric z", 1, "symmetric across z");
@@ -161,12 +142,12 @@ TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
   };
   expect(solve(mixed), 2, "has both polygons and polylines");
   expect(solve(mixed), 2, "flbc cage --repair");
-  expect("cage --repair " + mixed + " -o " + path("mended.obj"), 0, "1 polylines beside");
+  expect("cage --repair " + mixed + " -o " + path("mended.obj"), 0, "1 polylines next to");
   expect(solve(path("mended.obj")), 0, "");
 }
 
 TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {
-  expect("cage --repair " + square() + " -o " + path("same.obj"), 0, "nothing was wrong");
+  expect("cage --repair " + square() + " -o " + path("same.obj"), 0, "no defects found");
   EXPECT_EQ(slurp(path("same.numbers.txt")), "");
   EXPECT_TRUE(check(path("same.obj"), square())["fine"]);
 }

@@ -17,13 +17,8 @@ namespace {
 
 class ConvertCommand : public CommandLineTest {
  protected:
-  // Status 0 and these words on standard error.
   void expect_converted(const std::string& arguments, const std::string& words = "") const {
-    SCOPED_TRACE(arguments);
-    const auto result = run("convert " + arguments);
-    EXPECT_EQ(result.status, 0) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_EQ(result.output, "");
+    expect("convert " + arguments, 0, words);
   }
 
   // Another status, these words, and no new file.
@@ -79,8 +74,8 @@ TEST_F(ConvertCommand, SizesOfTripletsAreTheLargestNumbersOrThoseOfTheFiles) {
   const auto cage = file("cage.obj", "v 0 0\nv 1 0\n");
   const auto points = file("points.obj", "v 0 0\nv 0.5 0\nv 1 0\n");
   const auto o = " -o " + path("o.npy");
-  expect_converted(weights + o, "w.txt does not tell these numbers; they are the largest ones");
-  expect_converted(weights + o + " --cage " + cage, "does not tell these numbers");
+  expect_converted(weights + o, "w.txt does not contain these numbers; they are the largest");
+  expect_converted(weights + o + " --cage " + cage, "does not contain these numbers");
   const auto fit = weights + o + " --cage " + cage + " --points " + points;
   EXPECT_EQ(run("convert " + fit).errors,
             path("o.npy") + ": weights of 3 points for 2 control points\n");
@@ -111,7 +106,7 @@ TEST_F(ConvertCommand, Transpose) {
   const auto points = file("points.obj", "v 0 0\nv 0 0\nv 0 0\nv 0 0\nv 0 0\n");
   const auto files = " --cage " + cage + " --points " + points + " -o " + path("d.npy");
   expect_refused(path("t.npy") + files, 2, "t.npy: has control points as rows; give --transpose");
-  expect_refused(path("a.npy") + files + " --transpose", 2, "leave --transpose out");
+  expect_refused(path("a.npy") + files + " --transpose", 2, "leave out --transpose");
   expect_converted(path("t.npy") + files + " --transpose");
 }
 
@@ -204,8 +199,8 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto tetrahedra = path("a.vtu");
   io::write_domain(tetrahedra, samples<3>().front().mesh);
   const auto to = [&](const std::string& name) { return " -o " + path(name); };
-  expect_refused(path("a.npy") + to("b.obj"), 1, "b.obj: weights are no mesh");
-  expect_refused(model + to("b.npy"), 1, "b.npy: a mesh is no weights");
+  expect_refused(path("a.npy") + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
+  expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
   expect_refused(path("a.xls") + to("b.npy"), 1, "a.xls: cannot tell the format");
   expect_refused(path("a.npy") + to("b.xls"), 1, "b.xls: cannot tell the format");
   expect_refused(model + to("b.xls"), 1, "b.xls: cannot tell the format");
@@ -213,7 +208,7 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(tetrahedra + to("b.obj"), 1, "b.obj: " + tetrahedra + " holds tetrahedra");
   expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) does not lie in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
-  expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this file");
+  expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this input file");
   expect_refused(path("a.npy") + to("absent/b.npy"), 4, "absent");
   expect_refused(path("missing.npy") + to("b.npy"), 4, "missing.npy");
   expect_refused(path("missing.ply") + to("b.obj"), 4, "missing.ply");
@@ -221,7 +216,7 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
                  "bad.vtu: neither a 2D mesh");
   // Its .ele file would come to lie over the one that is read.
   io::write_domain(path("a.node"), samples<3>().front().mesh);
-  expect_refused(path("a.node") + to("a.ele"), 1, "would replace this file");
+  expect_refused(path("a.node") + to("a.ele"), 1, "would replace this input file");
 }
 
 }  // namespace

@@ -277,11 +277,9 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
     SCOPED_TRACE(name);
     const auto cage = sample(name + "_cage.obj");
     const auto model = path("model.stl");
-    ASSERT_EQ(run("convert " + sample(name + "_model.obj") + " -o " + model).status, 0);
-    ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
-                  " --model " + model)
-                  .status,
-              0);
+    expect("convert " + sample(name + "_model.obj") + " -o " + model);
+    expect("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
+           " --model " + model);
     const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --cage " +
                          sample(name + "_cage_pose.obj") + " -q -o ";
     EXPECT_EQ(deform(command + path("o.stl")).errors, "");
@@ -304,7 +302,7 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
           .errors,
       "");
   EXPECT_EQ(run("info " + odd).output.find(odd + ": 5 vertices"), 0U);
-  ASSERT_EQ(run("convert " + odd + " -o " + path("odd.ply")).status, 0);
+  expect("convert " + odd + " -o " + path("odd.ply"));
   EXPECT_EQ(read_by_openmesh(path("odd.ply"), Options()).n_vertices(), 5U);
 }
 

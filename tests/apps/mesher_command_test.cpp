@@ -24,15 +24,12 @@ class MesherCommand : public CommandLineTest {
 TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
   const auto solve = "solve " + flat_box() + " --vertices 200 --mesh-timeout 6 -o " +
                      path("w.npy") + " --report " + path("report.json");
-  const auto refused = run(solve + " --mesher tetgen");
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.errors.find("TetGen"), std::string::npos) << refused.errors;
+  const auto refused = expect(solve + " --mesher tetgen", 2, "TetGen");
   EXPECT_FALSE(std::filesystem::exists(path("w.npy")));
   if (!has_netgen()) GTEST_SKIP() << "built without Netgen";
   EXPECT_NE(refused.errors.find("--mesher netgen"), std::string::npos) << refused.errors;
   for (const std::string mesher : {"", " --mesher auto", " --mesher netgen"}) {
-    const auto solved = run(solve + mesher);
-    ASSERT_EQ(solved.status, 0) << solved.errors;
+    const auto solved = expect(solve + mesher);
     const auto report = nlohmann::json::parse(slurp(path("report.json")));
     EXPECT_EQ(report["mesher"], "netgen");
     const bool is_second = mesher != " --mesher netgen";
@@ -47,22 +44,17 @@ TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
 
 TEST_F(MesherCommand, SoundCagesAreMeshedByTheFirst) {
   const auto cage = sample("3d/limb_cage.obj");
-  ASSERT_EQ(run("run " + cage + " --vertices 1000 -q -o " + path("out")).status, 0);
+  expect("run " + cage + " --vertices 1000 -q -o " + path("out"));
   const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
   EXPECT_EQ(report["solve"]["mesher"], "tetgen");
   EXPECT_EQ(report["mesh"]["mesher"], "tetgen");
 }
 
 TEST_F(MesherCommand, MeshersOfTheOtherDimensionAreRefused) {
-  const auto in_3d = run("mesh " + sample("3d/limb_cage.obj") + " --mesher cgal -o " +
-                         path("m.mesh"));
-  EXPECT_EQ(in_3d.status, 1);
-  EXPECT_NE(in_3d.errors.find("--mesher cgal: it makes no meshes in 3D"), std::string::npos);
-  const auto in_2d = run("mesh " + sample("2d/ring_cage.obj") + " --mesher tetgen -o " +
-                         path("m.obj"));
-  EXPECT_EQ(in_2d.status, 1);
-  EXPECT_EQ(run("mesh " + sample("2d/ring_cage.obj") + " --mesher x -o " + path("m.obj")).status,
-            1);
+  expect("mesh " + sample("3d/limb_cage.obj") + " --mesher cgal -o " + path("m.mesh"), 1,
+         "--mesher cgal: this mesher makes no meshes in 3D");
+  expect("mesh " + sample("2d/ring_cage.obj") + " --mesher tetgen -o " + path("m.obj"), 1);
+  expect("mesh " + sample("2d/ring_cage.obj") + " --mesher x -o " + path("m.obj"), 1);
 }
 
 }  // namespace

@@ -37,13 +37,6 @@ class PartsCommand : public CommandLineTest {
   static constexpr int kVertices = kDim == 2 ? 1000 : 1800;
   static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
-  Ended expect(const std::string& arguments, int status, const std::string& words = "") const {
-    SCOPED_TRACE(arguments);
-    const auto result = run(arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    return result;
-  }
   nlohmann::json report(const std::string& name) const {
     return nlohmann::json::parse(slurp(path(name)));
   }
@@ -230,20 +223,17 @@ TEST_F(PartsOfPicture, SilhouetteInPiecesRuns) {
   const auto picture = path("rings.png");
   ASSERT_NE(png_image_write_to_file(&image, picture.c_str(), 0, bytes.data(), 0, nullptr), 0);
 
-  const auto cage = run("cage " + picture + " --offset 2 -o " + path("cage.obj"));
-  ASSERT_EQ(cage.status, 0) << cage.errors;
+  const auto cage = expect("cage " + picture + " --offset 2 -o " + path("cage.obj"));
   const auto check = nlohmann::json::parse(run("check " + path("cage.obj") + " --json -").output);
   EXPECT_GE(check["cage"]["parts"], 2);
-  const auto solved = run("solve " + path("cage.obj") + " --vertices 2000 -o " + path("w.npy"));
-  EXPECT_EQ(solved.status, 0) << solved.errors;
-  const auto done = run("run " + picture + " --auto-cage --vertices 2000 -o " + path("out"));
-  EXPECT_EQ(done.status, 0) << done.errors;
+  expect("solve " + path("cage.obj") + " --vertices 2000 -o " + path("w.npy"));
+  expect("run " + picture + " --auto-cage --vertices 2000 -o " + path("out"));
   const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
   EXPECT_EQ(report["solve"]["parts"].size(), report["check"]["cage"]["parts"]);
   EXPECT_TRUE(report["check"]["fine"]);
   EXPECT_EQ(report["inputs"], nlohmann::json::array({picture}));
   for (const std::string option : {"--embed", "--outside nearest"}) {
-    EXPECT_EQ(run("run " + picture + " --auto-cage " + option + " -o " + path("none")).status, 1);
+    expect("run " + picture + " --auto-cage " + option + " -o " + path("none"), 1);
   }
 }
 

@@ -14,9 +14,8 @@ class PlotCommand : public CommandLineTest {
   nlohmann::json solved(const std::string& name, const std::string& cage,
                         const std::string& options) const {
     const auto report = path(name + ".json");
-    const auto result = run("solve " + sample(cage) + " -q --vertices 800 -o " + path("w.npy") +
-                            " --report " + report + " " + options);
-    EXPECT_EQ(result.status, 0) << result.errors;
+    expect("solve " + sample(cage) + " -q --vertices 800 -o " + path("w.npy") + " --report " +
+           report + " " + options);
     return nlohmann::json::parse(slurp(report));
   }
 };
@@ -63,9 +62,8 @@ TEST_F(PlotCommand, DrawsSeveralRunsInAllFormats) {
   solved("b", "2d/letter_cage.obj", "--history --method gradient");
   for (const char* extension : {"png", "svg", "pdf"}) {
     const auto output = path(std::string("plot.") + extension);
-    const auto result = run("plot " + path("a.json") + " " + path("b.json") +
-                            " --names splitting 'the paper' -o " + output);
-    ASSERT_EQ(result.status, 0) << result.errors;
+    expect("plot " + path("a.json") + " " + path("b.json") + " --names splitting 'the paper' -o " +
+           output);
     EXPECT_GT(slurp(output).size(), 3000U);
   }
   const auto to_text = "pdftotext " + path("plot.pdf") + " " + path("plot.txt");
@@ -80,18 +78,16 @@ TEST_F(PlotCommand, DrawsSeveralRunsInAllFormats) {
 
 TEST_F(PlotCommand, RefusesWhatIsNoHistory) {
   solved("plain", "2d/letter_cage.obj", "--method harmonic --history");
-  const auto expect = [&](const std::string& report, int status, const std::string& words) {
-    const auto result = run("plot " + report + " -o " + path("p.png"));
-    EXPECT_EQ(result.status, status);
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+  const auto plot = [&](const std::string& report) {
+    return "plot " + report + " -o " + path("p.png");
   };
-  expect(path("plain.json"), 2, "plain.json: has no history");
-  expect(path("absent.json"), 4, "absent.json");
-  expect(file("text.json", "no json"), 2, "text.json: is no report");
-  expect(file("list.json", "[1, 2]"), 2, "list.json: has no history");
-  expect(file("bad.json", "{\"history\": {\"iterations\": [1, 2], \"finer_levels\": [0]}}"), 2,
-         "bad.json: the history is damaged");
-  EXPECT_EQ(run("plot " + path("plain.json") + " -o " + path("p.gif")).status, 1);
+  expect(plot(path("plain.json")), 2, "plain.json: has no history");
+  expect(plot(path("absent.json")), 4, "absent.json");
+  expect(plot(file("text.json", "no json")), 2, "text.json: is no report");
+  expect(plot(file("list.json", "[1, 2]")), 2, "list.json: has no history");
+  const std::string damaged = "{\"history\": {\"iterations\": [1, 2], \"finer_levels\": [0]}}";
+  expect(plot(file("bad.json", damaged)), 2, "bad.json: the history is damaged");
+  expect("plot " + path("plain.json") + " -o " + path("p.gif"), 1);
 }
 
 }  // namespace

@@ -41,14 +41,9 @@ class RunCommand : public CommandLineTest {
   Ended run_into(const std::string& folder, const std::string& arguments) const {
     return run("run " + arguments + " -o " + path(folder));
   }
-  // Expects exit status and words in what is printed.
   void expect_run(const std::string& folder, const std::string& arguments, int status,
                   const std::string& words) const {
-    SCOPED_TRACE(arguments);
-    const auto result = run_into(folder, arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_EQ(result.output, "");
+    expect("run " + arguments + " -o " + path(folder), status, words);
   }
 
   Names names_in(const std::string& folder) const {
@@ -67,8 +62,7 @@ class RunCommand : public CommandLineTest {
   void expect_same(const std::string& command, const std::string& own, const std::string& file_made,
                    const std::string& options = "") const {
     SCOPED_TRACE(command);
-    const auto result = run(command + " -o " + path(own) + options);
-    ASSERT_EQ(result.status, 0) << result.errors;
+    const auto result = expect(command + " -o " + path(own) + options);
     EXPECT_FALSE(slurp(path(own)).empty());
     EXPECT_EQ(slurp(path(own)), slurp(path(file_made)));
   }
@@ -120,10 +114,8 @@ class RunCommand : public CommandLineTest {
     const auto solved = nlohmann::json::parse(slurp(path("solve.json")));
     EXPECT_EQ(json["solve"]["objective"], solved["objective"]);
     EXPECT_EQ(json["solve"]["converged"], true);
-    ASSERT_EQ(run("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain) +
-                  " --json " + path("check.json"))
-                  .status,
-              0);
+    expect("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain) +
+           " --json " + path("check.json"));
     const auto checked = nlohmann::json::parse(slurp(path("check.json")));
     EXPECT_EQ(json["check"]["cage"], checked["cage"]);
     EXPECT_EQ(json["check"]["weights"]["worst"], checked["weights"]["worst"]);
@@ -250,7 +242,8 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
       sample("2d/letter_cage.obj") + " --method harmonic --vertices 500 --sparsify quadratic";
   for (const char* name : {"weights.npy", "model.glb", "report.json"}) {
     file(std::string("out/") + name, "mine");
-    expect_run("out", common, 1, std::string("out/") + name + ": is there already");
+    expect_run("out", common, 1,
+               std::string("out/") + name + ": exists and is not from an earlier flbc run");
     EXPECT_EQ(slurp(path(std::string("out/") + name)), "mine");
     EXPECT_EQ(names_in("out").size(), 2U);
     fs::remove(path(std::string("out/") + name));
@@ -278,7 +271,7 @@ TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
   EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
   EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
   EXPECT_EQ(report("out")["unfinished"], true);
-  EXPECT_EQ(run("run " + cage + " --method harmonic --vertices 500").status, 0);
+  expect("run " + cage + " --method harmonic --vertices 500");
   EXPECT_FALSE(report("out").contains("unfinished"));
 }
 
@@ -321,7 +314,7 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   // An input that would be replaced.
   fs::create_directory(path("out"));
   file("out/domain.obj", slurp(cage));
-  expect_run("out", path("out/domain.obj"), 1, "the result would replace this file");
+  expect_run("out", path("out/domain.obj"), 1, "the result would replace this input file");
   EXPECT_EQ(slurp(path("out/domain.obj")), slurp(cage));
 }
 

@@ -11,11 +11,8 @@ namespace {
 
 class TransferCommand : public CommandLineTest {
  protected:
-  void expect(const std::string& arguments, int status, const std::string& words) const {
-    SCOPED_TRACE(arguments);
-    const auto result = run("transfer " + arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+  void expect_transfer(const std::string& arguments, int status, const std::string& words) const {
+    expect("transfer " + arguments, status, words);
   }
   // The model with a vertex in the middle of every face, which has three corners.
   std::string finer(const std::string& model) const {
@@ -38,23 +35,20 @@ TEST_F(TransferCommand, OtherVersionsGetWeightsFromMeshOrModel) {
     const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
     const auto domain = path(name[0] == '2' ? "domain.obj" : "domain.mesh");
     const std::string solve = "solve " + cage + " --method harmonic --non-negative project -q";
-    ASSERT_EQ(run(solve + " --vertices 1500 -o " + path("d.npy") + " --save-domain " + domain).status,
-              0);
-    ASSERT_EQ(run(solve + " --domain " + domain + " --model " + model + " -o " + path("w.npy"))
-                  .status,
-              0);
+    expect(solve + " --vertices 1500 -o " + path("d.npy") + " --save-domain " + domain);
+    expect(solve + " --domain " + domain + " --model " + model + " -o " + path("w.npy"));
     const auto rest = " --cage " + cage + " -o " + path("t.npy") + " --to ";
-    expect(path("d.npy") + " --domain " + domain + rest + model, 0, "minimum weight");
+    expect_transfer(path("d.npy") + " --domain " + domain + rest + model, 0, "minimum weight");
     EXPECT_EQ(slurp(path("t.npy")), slurp(path("w.npy")));
-    expect(path("w.npy") + " --from " + model + rest + model, 0, "away from");
+    expect_transfer(path("w.npy") + " --from " + model + rest + model, 0, "away from");
     EXPECT_LT((io::read_weights(path("t.npy")) - io::read_weights(path("w.npy")))
                   .cwiseAbs()
                   .maxCoeff(),
               1e-9);
     const auto more = finer(model);
     for (const auto& from : {path("w.npy") + " --from " + model, path("d.npy") + " --domain " + domain}) {
-      expect(from + rest + more, 0, "t.npy");
-      EXPECT_EQ(run("check " + cage + " --model " + more + " --weights " + path("t.npy")).status, 0);
+      expect_transfer(from + rest + more, 0, "t.npy");
+      expect("check " + cage + " --model " + more + " --weights " + path("t.npy"));
       EXPECT_GE(io::read_weights(path("t.npy")).minCoeff(), 0);
     }
   }
@@ -64,18 +58,17 @@ TEST_F(TransferCommand, RefusesWithReason) {
   const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 0.25 0.25 0\nv 0.5 0.25 0\nv 0.25 0.5 0\nf 1 2 3\n");
   const auto far = file("far.obj", "v 0.25 0.25 0\nv 0.5 0.4 0\nv 0.25 0.5 0\nf 1 2 3\n");
-  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o " +
-                path("w.npy"))
-                .status,
-            0);
+  expect("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o " +
+         path("w.npy"));
   const auto weights = path("w.npy") + " --cage " + cage + " -o " + path("t.npy");
-  expect(weights + " --to " + far + " --from " + model, 2,
-         "far.obj: 1 of 3 vertices (1) are farther than");
-  expect(weights + " --to " + far + " --from " + model + " --limit 1", 0, "away from");
-  expect(weights + " --to " + far + " --from " + model + " --limit 2", 1, "--limit");
-  expect(weights + " --to " + far, 1, "--from");
-  expect(weights + " --to " + far + " --from " + model + " --outside nearest", 1, "--domain");
-  expect(weights + " --to " + far + " --from " + cage, 2, "has weights of 3 points");
+  expect_transfer(weights + " --to " + far + " --from " + model, 2,
+                  "far.obj: 1 of 3 vertices (1) are farther than");
+  expect_transfer(weights + " --to " + far + " --from " + model + " --limit 1", 0, "away from");
+  expect_transfer(weights + " --to " + far + " --from " + model + " --limit 2", 1, "--limit");
+  expect_transfer(weights + " --to " + far, 1, "--from");
+  expect_transfer(weights + " --to " + far + " --from " + model + " --outside nearest", 1,
+                  "--domain");
+  expect_transfer(weights + " --to " + far + " --from " + cage, 2, "has weights of 3 points");
 }
 
 }  // namespace
