@@ -21,7 +21,7 @@
 #include "flbc/meshing.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/gradient_admm.h"
-#include "solver/gradient/gradient_admm.h"
+#include "solver/methods/gradient/gradient_admm.h"
 
 namespace {
 

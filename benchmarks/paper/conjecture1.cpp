@@ -39,7 +39,7 @@ Row measure(const Setting<Dim>& setting, const SolverOptions& options) {
   auto row = mesh_row(setting);
   row["non_negative"] = options.non_negative == NonNegative::kOff ? "0" : "1";
   row["run"] = options.precision == Precision::kDouble ? "optimum" : "default";
-  row["tolerance"] = number(resolve(options).tolerance);
+  row["tolerance"] = number(*resolve(options).tolerance);
   row["iterations"] = std::to_string(report.iterations);
   row["converged"] = report.status == SolveStatus::kConverged ? "1" : "0";
   row["interior_vertices"] = std::to_string(check.interior_vertices);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The influence of the 2014 solver's open details: `lbc2014` with its published penalty, and with
-// one detail at a time otherwise. The iterations are those that weight_splitting_test holds against
-// a literal implementation of problem (2).
-#include <limits>
+// one detail at a time otherwise. The iterations are those that compact_splitting_test compares with a
+// literal implementation of problem (2).
 #include <vector>
 
 #include "flbc/harmonic.h"
@@ -12,23 +11,20 @@
 #include "mesh/cell_geometry.h"
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
-#include "solver/splitting/weight_splitting.h"
+#include "solver/methods/splitting/compact_splitting.h"
 
 namespace flbc::bench {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-enum class Start { kHarmonic, kHarmonicWithoutDuals, kLeastNorm };
+enum class From { kHarmonic, kHarmonicWithoutDuals, kLeastNorm };
 
 struct Variant {
   const char* name;
-  Start start = Start::kHarmonic;
+  From start = From::kHarmonic;
   double penalty = 10;
   double relaxation = 1.65;
   double cell_power = 2;     // a cell's constraint weighs its measure to this power
   double vertex_weight = 1;  // of W = w; 0: w may be negative
-  double largest_weight = kInfinite;
   int check_interval = 10;
   bool in_double = false;
   bool projected = true;  // rows at the end
@@ -44,11 +40,10 @@ std::vector<Variant> variants() {
   add("--penalty 10", [](Variant&) {});
   add("residuals every iteration", [](Variant& v) { v.check_interval = 1; });
   add("double precision", [](Variant& v) { v.in_double = true; });
-  add("0 <= W <= 1", [](Variant& v) { v.largest_weight = 1; });
   add("rows not projected at the end", [](Variant& v) { v.projected = false; });
-  add("duals 0 at the start", [](Variant& v) { v.start = Start::kHarmonicWithoutDuals; });
+  add("duals 0 at the start", [](Variant& v) { v.start = From::kHarmonicWithoutDuals; });
   add("least-norm weights and duals 0 at the start",
-      [](Variant& v) { v.start = Start::kLeastNorm; });
+      [](Variant& v) { v.start = From::kLeastNorm; });
   add("no over-relaxation", [](Variant& v) { v.relaxation = 1; });
   add("no W", [](Variant& v) { v.vertex_weight = 0; });
   add("W = w weighs 0.01", [](Variant& v) { v.vertex_weight = 0.01; });
@@ -66,7 +61,6 @@ splitting::Metric metric_of(const LbcProblem<Dim>& problem, const Variant& varia
   if (variant.vertex_weight > 0) {
     metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), variant.vertex_weight);
   }
-  metric.largest_weight = variant.largest_weight;
   return metric;
 }
 
@@ -84,26 +78,34 @@ WeightMatrix least_norm_weights(const LbcProblem<Dim>& problem) {
 }
 
 template <class Scalar, int Dim>
-void start(splitting::WeightSplitting<Scalar, Dim>& iteration, const LbcProblem<Dim>& problem,
+void start(compact::CompactSplitting<Scalar, Dim>& iteration, const LbcProblem<Dim>& problem,
            const Variant& variant) {
-  const bool least_norm = variant.start == Start::kLeastNorm;
+  const bool least_norm = variant.start == From::kLeastNorm;
   const auto weights = least_norm ? least_norm_weights(problem) : harmonic_coordinates(problem);
-  if (variant.start == Start::kHarmonic) {
+  if (variant.start == From::kHarmonic) {
     iteration.start_from_weights(weights);
-  } else {
-    iteration.start_without_duals(weights);
+    return;
   }
+  Start<Dim> without_duals;
+  without_duals.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
+  without_duals.flux_density = [n = weights.rows()](Index) {
+    return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
+  };
+  iteration.start(without_duals);
 }
 
 template <class Scalar, int Dim>
 void measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
                 int last, Row& row) {
   const auto& problem = setting.problem;
-  splitting::WeightSplitting<Scalar, Dim> iteration(problem, metric_of(problem, variant),
-                                                    variant.penalty, variant.relaxation);
+  compact::Settings settings;
+  settings.penalty = variant.penalty;
+  settings.relaxation = variant.relaxation;
+  settings.paper_residuals = true;
+  compact::CompactSplitting<Scalar, Dim> iteration(problem, metric_of(problem, variant), settings);
   start(iteration, problem, variant);
   const auto error = [&] {
-    auto weights = iteration.weights();
+    auto weights = iteration.all_weights();
     if (variant.projected) {
       project_non_negative(problem.cage.points, problem.mesh.points, weights,
                            problem.boundary.interior_vertices());
@@ -111,8 +113,7 @@ void measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const 
     return squared_error(problem, weights, optimum);
   };
   run_to_thresholds(
-      row, iteration.num_residual_components(), variant.check_interval, last,
-      [&] { return iteration.iterate_with_residuals(); }, error);
+      row, 1, variant.check_interval, last, [&] { return iteration.iterate(1, true); }, error);
 }
 
 }  // namespace

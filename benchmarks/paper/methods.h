@@ -21,7 +21,9 @@ struct NamedMethod {
   SolverOptions options(const LbcProblem<Dim>& problem, int threads) const {
     SolverOptions options;
     options.method = method;
-    options.penalty = published_penalty(problem.cage, problem.mesh, method, penalty);
+    if (penalty > 0) {
+      options.penalty = published_penalty(problem.cage, problem.mesh, method, penalty);
+    }
     options.threads = threads;
     return options;
   }

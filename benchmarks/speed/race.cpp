@@ -79,14 +79,12 @@ Row measure(const Context& context, const Setting<Dim>& setting, const NamedMeth
   const auto optimum = reference(context, setting);
   auto options = method.options(setting.problem, context.threads);
   options.max_iterations = 2 * most;
-  // No method shall stop before. That of the gradient method also serves its coarser meshes, and
-  // those of the 2014 solver are solved as they are by default.
+  // No method shall stop before.
   if (method.method == Method::kValue) options.tolerance = kWanted;
   if (method.method == Method::kPaper) options.tolerance = 1e-100;
   if (method.method == Method::kLbc2014) {
     constexpr double kNever = 1e-3;
-    options.tolerance = kNever * resolve(options).tolerance;
-    options.coarse_levels.looseness /= kNever;
+    options.tolerance = kNever * *resolve(options).tolerance;
   }
   const Runner<Dim> runner(setting, optimum.weights, options);
   const int found = runner.first_iterations(most);

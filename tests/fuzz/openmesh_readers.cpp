@@ -79,8 +79,6 @@ std::string stored_influences() {
   return out.str();
 }
 
-}
-
 }  // namespace
 
 std::vector<Reader> openmesh_readers() {

@@ -54,17 +54,6 @@ std::string get_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string with_hash(std::string content) {
-  const auto hash = hash_of(content);
-  char bytes[sizeof hash];
-  std::memcpy(bytes, &hash, sizeof hash);
-  return content.append(bytes, sizeof bytes);
-}
-
-std::string without_hash(const std::string& content) {
-  return content.substr(0, content.size() - sizeof(std::uint64_t));
-}
-
 std::vector<Reader> all_readers() {
   std::vector<Reader> all;
   for (const auto& some : {model_readers(), mesh_readers(), weight_readers(), program_readers(),
@@ -81,8 +70,7 @@ Reading::Reading(Reader reader) : reader_(std::move(reader)), path_(folder_.path
 }
 
 bool Reading::accepts(const std::string& content) const {
-  const auto& whole = reader_.complete ? reader_.complete(content) : content;
-  put_file(path_, whole.data(), whole.size());
+  put_file(path_, content.data(), content.size());
   try {
     reader_.read(path_);
   } catch (const Error&) {

@@ -42,8 +42,6 @@ struct Reader {
   std::vector<std::string> seeds;  //!< contents that are read without an error
   //! Other files, names with contents, that lie beside it.
   std::vector<std::pair<std::string, std::string>> companions{};
-  //! Where the fuzzer could not guess what a file ends with, such as a checksum.
-  std::string (*complete)(std::string content) = nullptr;
   bool refuses =
       true;  //!< whether it refuses what it does not understand, rather than pass over it
 };
@@ -85,12 +83,6 @@ std::string written(const std::string& name, const Write& write) {
   write(folder.path(name));
   return get_file(folder.path(name));
 }
-
-//! Content followed by its checksum, as states are.
-std::string with_hash(std::string content);
-
-//! Content without the checksum that it ends with.
-std::string without_hash(const std::string& content);
 
 //! Hands contents to one reader.
 class Reading {

@@ -11,7 +11,7 @@
 
 #include "flbc/openmesh/convert.h"
 #include "flbc/solver.h"
-#include "solver/gradient/gradient_admm.h"
+#include "solver/methods/gradient/gradient_admm.h"
 #include "support/hollow_sample.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"

@@ -50,8 +50,10 @@ void expect_optimum(const LbcProblem<Dim>& problem, const ModelReference<Dim>& r
   SCOPED_TRACE(std::string(expected.what) + (off ? ", without w >= 0" : ", with w >= 0"));
   SolverOptions options;
   options.method = expected.method;
-  options.penalty =
-      published_penalty(problem.cage, problem.mesh, expected.method, expected.penalty);
+  if (expected.penalty > 0) {
+    options.penalty =
+        published_penalty(problem.cage, problem.mesh, expected.method, expected.penalty);
+  }
   options.non_negative = expected.non_negative;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-30;  // never: run to the end
