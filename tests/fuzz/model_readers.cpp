@@ -169,7 +169,6 @@ std::vector<Reader> model_readers() {
            read_materials,
            {kMaterials},
            {{"input.obj", kObjWithMaterials}},
-           nullptr,
            false},
           {"off", "input.off", read_model, {tent_as("a.off", true), kOffWithAll}},
           {"ply",
