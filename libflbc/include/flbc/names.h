@@ -14,42 +14,11 @@
 
 namespace flbc {
 
-//! "auto", "value", "gradient", "paper", "lbc2014", "harmonic" or "meanvalue".
-//! \param method  to be named
-const char* name_of(Method method);
-//! "auto", "constraint", "project" or "off".
-//! \param non_negative  to be named
-const char* name_of(NonNegative non_negative);
-//! "square", "linear", "sqrt" or "constant".
-//! \param scheme  to be named
-const char* name_of(DistanceScheme scheme);
-//! "auto", "exact" or "interpolated".
-//! \param distances  to be named
-const char* name_of(Distances distances);
-//! "auto", "breadth-first" or "least-squares".
-//! \param recovery  to be named
-const char* name_of(Recovery recovery);
-//! "auto", "single" or "double".
-//! \param precision  to be named
-const char* name_of(Precision precision);
-//! "auto", "on" or "off".
-//! \param choice  to be named
-const char* name_of(CoarseToFine choice);
-//! "auto", "on" or "off".
-//! \param choice  to be named
-const char* name_of(ActiveSet choice);
-//! "auto", "direct" or "multigrid".
-//! \param solver  to be named
-const char* name_of(LinearSolver solver);
-//! "converged", "iteration limit" or "stopped".
-//! \param status  to be named
-const char* name_of(SolveStatus status);
-//! "none", "tolerance" or "gap".
-//! \param criterion  to be named
-const char* name_of(Criterion criterion);
-//! "fail", "nearest" or "extend".
-//! \param policy  to be named
-const char* name_of(OutsidePoints policy);
+//! The name of a value, as the program and its reports write it, such as "value" or "lbc2014".
+//! \tparam Enum  Method, NonNegative, DistanceScheme, Distances, Recovery, Precision, ActiveSet,
+//! CoarseToFine, LinearSolver, SolveStatus, Criterion, or OutsidePoints
+template <class Enum>
+const char* name_of(Enum value);
 
 //! All names of an enumeration, the default first.
 //! \tparam Enum  one of those that name_of() takes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/methods/gradient/gradient_iteration.h"
 
+#include "flbc/recovery.h"
+
 namespace flbc::gradient {
 
 template <class Scalar, int Dim>
@@ -9,8 +11,13 @@ GradientIteration<Scalar, Dim>::GradientIteration(const LbcProblem<Dim>& problem
     : problem_(problem),
       settings_(settings),
       admm_(problem, settings.penalty, settings.relaxation,
-            boundary_periods(problem, settings.linear_solver)),
-      recovery_(problem, settings.recovery, settings.linear_solver) {
+            boundary_periods(problem, settings.linear_solver)) {
+}
+
+template <class Scalar, int Dim>
+const DirichletProblem<Dim>& GradientIteration<Scalar, Dim>::poisson() const {
+  if (!poisson_) poisson_.emplace(problem_.mesh, problem_.boundary, settings_.linear_solver);
+  return *poisson_;
 }
 
 template <class Scalar, int Dim>
@@ -20,7 +27,7 @@ void GradientIteration<Scalar, Dim>::start(const Start<Dim>& start) {
     return;
   }
   if (start.is_cold()) {
-    start_weights_ = recovery_.harmonic();
+    start_weights_ = harmonic_coordinates(problem_, poisson());
   } else {
     const auto weights = with_known_values(problem_, start.weights);
     start_weights_.resize(problem_.num_control_points(), problem_.mesh.num_vertices());
@@ -42,7 +49,10 @@ Step GradientIteration<Scalar, Dim>::iterate(int count, bool) {
 template <class Scalar, int Dim>
 Weights GradientIteration<Scalar, Dim>::weights() const {
   if (start_weights_.size() > 0) return {start_weights_, {}};
-  return {recovery_(admm_.gradients()), {}};
+  if (settings_.recovery == Recovery::kBreadthFirst) {
+    return {integrate_breadth_first(problem_, admm_.gradients()), {}};
+  }
+  return {integrate_least_squares(problem_, admm_.gradients(), poisson()), {}};
 }
 
 template <class Scalar, int Dim>

@@ -3,9 +3,11 @@
 //! Methods kGradient and kPaper: the gradient ADMM with its starts and the recovery of weights.
 #pragma once
 
+#include <optional>
+
+#include "coordinates/poisson_weights.h"
 #include "flbc/options.h"
 #include "solver/methods/gradient/gradient_admm.h"
-#include "solver/methods/gradient/weight_recovery.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::gradient {
@@ -34,10 +36,12 @@ class GradientIteration final : public Iteration<Dim> {
   void describe(SolveReport& report) const override;
 
  private:
+  const DirichletProblem<Dim>& poisson() const;
+
   const LbcProblem<Dim>& problem_;
   const Settings settings_;
   GradientAdmm<Scalar, Dim> admm_;
-  mutable WeightRecovery<Dim> recovery_;  // sets its linear system up when it is first needed
+  mutable std::optional<DirichletProblem<Dim>> poisson_;  // of start and recovery, once needed
   WeightMatrix start_weights_;            // until the first iteration
 };
 

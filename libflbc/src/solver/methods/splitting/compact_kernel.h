@@ -109,7 +109,8 @@ struct Loops {
 template <class Scalar, int Dim>
 struct Kernel {
   Loops<Scalar, Dim> exact;  //!< P and the radii are Scalars
-  Loops<Scalar, Dim> half;   //!< they are halves; for float only
+  //! They are halves, or floats where the instruction set has no halves; for float only.
+  Loops<Scalar, Dim> half;
 };
 
 }  // namespace flbc::compact

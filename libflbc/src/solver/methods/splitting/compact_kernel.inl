@@ -221,9 +221,14 @@ constexpr Loops<Scalar, Dim> kLoops{z_step<Scalar, Stored, Dim, false>,
 
 template <class Scalar, int Dim>
 constexpr Kernel<Scalar, Dim> kKernel{kLoops<Scalar, Scalar, Dim>, {}};
+#ifdef __F16C__
+using HalfOfFloat = Half;
+#else
+using HalfOfFloat = float;
+#endif
 template <int Dim>
 constexpr Kernel<float, Dim> kKernel<float, Dim>{kLoops<float, float, Dim>,
-                                                 kLoops<float, Half, Dim>};
+                                                 kLoops<float, HalfOfFloat, Dim>};
 
 }  // namespace
 }  // namespace flbc::compact::FLBC_ISA

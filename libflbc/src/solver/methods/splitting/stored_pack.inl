@@ -10,7 +10,7 @@ constexpr int kWideLanes = 16;
 constexpr int kWideLanes = 8;
 #endif
 
-#if defined(__F16C__)
+#ifdef __F16C__
 template <int Lanes>
 inline PackN<float, Lanes> load_half(const Half* from) {
 #ifdef __AVX512F__
@@ -37,58 +37,21 @@ inline void store_half(Half* to, PackN<float, Lanes> value) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), bits);
   }
 }
-#else
-// By integers, as the processor's own conversion gives them: a half's exponent counts from 15, a
-// float's from 127. Below the normal range of halves adding a number of suitable size shifts and
-// rounds, without floats that are not normal.
-template <class Integer, int Lanes>
-struct IntegersOf {
-  using type [[gnu::vector_size(Lanes * sizeof(Integer)), gnu::aligned(16), gnu::may_alias]] =
-      Integer;
-};
-constexpr std::uint32_t kExponentShift = 112u << 23;
-template <int Lanes>
-inline PackN<float, Lanes> load_half(const Half* from) {
-  using Short = typename IntegersOf<std::uint16_t, Lanes>::type;
-  using Long = typename IntegersOf<std::uint32_t, Lanes>::type;
-  constexpr float kSmallest = 1.0f / (1 << 14);  // normal half
-  const Long half = __builtin_convertvector(*reinterpret_cast<const Short*>(from), Long);
-  const Long magnitude = ((half & 0x7fff) << 13) + kExponentShift;
-  const Long denormal = (Long)((PackN<float, Lanes>)(magnitude + (1u << 23)) - kSmallest);
-  const Long is_denormal = (Long)((half & 0x7fff) < 0x400);
-  const Long bits = (is_denormal & denormal) | (~is_denormal & magnitude);
-  return (PackN<float, Lanes>)(bits | ((half & 0x8000) << 16));
-}
-template <int Lanes>
-inline void store_half(Half* to, PackN<float, Lanes> value) {
-  using Short = typename IntegersOf<std::uint16_t, Lanes>::type;
-  using Long = typename IntegersOf<std::uint32_t, Lanes>::type;
-  const Long bits = (Long)value;
-  const Long magnitude = bits & 0x7fffffff;
-  const Long normal = (magnitude - kExponentShift + 0xfff + ((magnitude >> 13) & 1)) >> 13;
-  const Long denormal = (Long)((PackN<float, Lanes>)magnitude + 0.5f) - 0x3f000000;
-  const Long is_denormal = (Long)(magnitude < 0x38800000);
-  const Long half = (is_denormal & denormal) | (~is_denormal & normal);
-  *reinterpret_cast<Short*>(to) =
-      __builtin_convertvector(half | ((bits >> 16) & 0x8000), Short);
-}
 #endif
 
 template <int Lanes, class Stored>
 inline auto load_stored(const Stored* from) {
-  if constexpr (std::is_same_v<Stored, Half>) {
-    return load_half<Lanes>(from);
-  } else {
-    return load_pack<Lanes>(from);
-  }
+#ifdef __F16C__
+  if constexpr (std::is_same_v<Stored, Half>) return load_half<Lanes>(from);
+#endif
+  if constexpr (!std::is_same_v<Stored, Half>) return load_pack<Lanes>(from);
 }
 template <int Lanes, class Stored, class Pack>
 inline void store_stored(Stored* to, Pack value) {
-  if constexpr (std::is_same_v<Stored, Half>) {
-    store_half<Lanes>(to, value);
-  } else {
-    store_pack<Lanes>(to, value);
-  }
+#ifdef __F16C__
+  if constexpr (std::is_same_v<Stored, Half>) store_half<Lanes>(to, value);
+#endif
+  if constexpr (!std::is_same_v<Stored, Half>) store_pack<Lanes>(to, value);
 }
 
 // No longer than what half precision holds.
