@@ -12,6 +12,7 @@
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/splitting/compact_splitting.h"
+#include "solver/plan/published_scale.h"
 
 namespace flbc::bench {
 namespace {
@@ -97,7 +98,11 @@ void start(compact::CompactSplitting<Scalar, Dim>& iteration, const LbcProblem<D
 template <class Scalar, int Dim>
 void measure_in(const Setting<Dim>& setting, const WeightMatrix& optimum, const Variant& variant,
                 int last, Row& row) {
-  const auto& problem = setting.problem;
+  // In published units, in which W = w weighs 1.
+  auto problem = setting.problem;
+  const double length = plan::published_scale(problem.mesh);
+  problem.cage.points *= length;
+  problem.mesh.points *= length;
   compact::Settings settings;
   settings.penalty = variant.penalty;
   settings.relaxation = variant.relaxation;

@@ -5,8 +5,8 @@
 #include "paper/experiments.h"
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
-#include "problem/domain_scale.h"
 #include "solver/methods/gradient/gradient_admm.h"
+#include "solver/plan/published_scale.h"
 
 namespace flbc::bench {
 namespace {
@@ -36,7 +36,7 @@ constexpr Variant kVariants[] = {
 // The same problem with its farthest vertex at this radius.
 template <int Dim>
 LbcProblem<Dim> scaled(LbcProblem<Dim> problem, double radius) {
-  const double factor = radius / DomainScale<Dim>::kRadius;
+  const double factor = radius / 250 * plan::published_scale(problem.mesh);
   problem.cage.points *= factor;
   problem.mesh.points *= factor;
   return problem;

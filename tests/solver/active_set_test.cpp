@@ -187,7 +187,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   options = resolve(options);
   const WeightMatrix weights = harmonic_coordinates(problem);
   Start<Dim> start;
-  start.penalty = 50;
+  start.penalty = 0.1;
   start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
   start.flux_density = [n = problem.num_control_points()](Index) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();

@@ -20,6 +20,7 @@
 #include "flbc/solver.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
+#include "support/published_problem.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
 #include "support/splitting_cases.h"
@@ -303,7 +304,7 @@ TYPED_TEST(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     auto metric = make_metric(problem, 2, true);
     metric.vertex.setOnes();
     SolverOptions options;
@@ -313,7 +314,7 @@ TYPED_TEST(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
     options.tolerance = 1e-30;
     for (const int iterations : {1, 7, 20}) {
       options.max_iterations = iterations;
-      const auto solution = solve(problem, options);
+      const auto solution = solve(sample.cage, sample.mesh, options);
       auto expected = textbook_for(problem, metric, 10, 1.65, harmonic_coordinates(problem));
       for (int k = 0; k < iterations; ++k) expected.iterate();
       auto weights = expected.weights();
@@ -334,7 +335,7 @@ TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
     SolverOptions options;
     options.method = Method::kLbc2014;
     options.max_iterations = 1;
-    const double penalty = solve(problem, options).report.published_penalty;
+    const double penalty = solve(problem, options).report.penalty;
     double squares = 0, measure = 0;
     for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
       const double own = simplex_measure<kDim>(cell_corners(problem.mesh, s));

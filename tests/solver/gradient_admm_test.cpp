@@ -15,6 +15,7 @@
 #include "flbc/recovery.h"
 #include "support/hollow_sample.h"
 #include "support/judge.h"
+#include "support/published_problem.h"
 #include "support/sample_meshes.h"
 #include "support/textbook_admm.h"
 
@@ -74,7 +75,7 @@ TYPED_TEST(GradientAdmmTest, EqualsTextbookFromLeastNorm) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
     admm.start_from_least_norm();
     expect_equal_iterates(problem, admm);
@@ -85,7 +86,7 @@ TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
+    const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
     gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
     admm.start_from_weights(harmonic_coordinates(problem));
     expect_equal_iterates(problem, admm);
@@ -96,7 +97,7 @@ TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
 TYPED_TEST(GradientAdmmTest, RelaxedIterationReachesTheSameOptimum) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 4 : 2, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto optimum = [&](double relaxation, int iterations) {
     gradient::GradientAdmm<double, kDim> admm(problem, kDim == 2 ? 1e4 : 1e5, relaxation, {});
     admm.start_from_least_norm();
@@ -123,7 +124,7 @@ double period_violation(const LbcProblem<Dim>& problem, const gradient::Period<D
 TYPED_TEST(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_hollow_sample<kDim>();
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const auto periods = gradient::boundary_periods(problem);
   ASSERT_EQ(periods.size(), 1U);
   const auto gap = [&](const std::vector<gradient::Period<kDim>>& used) {
@@ -140,7 +141,7 @@ TYPED_TEST(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
 TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValues) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_hollow_sample<kDim>();
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   auto weights = demanded_boundary_weights(sample.cage, sample.mesh);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     if (problem.boundary.boundary_index[v] < 0) weights.col(v).setRandom();
@@ -156,7 +157,7 @@ TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValu
 TYPED_TEST(GradientAdmmTest, SinglePrecisionFollowsDouble) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kRing, 2, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   gradient::GradientAdmm<float, kDim> single(problem, kPenalty<kDim>, 1, {});
   gradient::GradientAdmm<double, kDim> exact(problem, kPenalty<kDim>, 1, {});
   single.start_from_least_norm();
@@ -179,7 +180,7 @@ TYPED_TEST(GradientAdmmTest, SinglePrecisionFollowsDouble) {
 TYPED_TEST(GradientAdmmTest, ThreadsDoNotChangeABit) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto run = [&](int threads) {
     const ThreadScope scope(threads);
     gradient::GradientAdmm<float, kDim> admm(problem, 1000, 1.8, {});
@@ -272,7 +273,7 @@ TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
   const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 16 : 6, 0.2);
   ASSERT_GT(sample.mesh.num_cells(), 3 * 512);
   for (const auto& mesh : {sample.mesh, scattered(sample.mesh)}) {
-    const auto problem = make_problem(sample.cage, mesh, DistanceScheme::kSquare);
+    const auto problem = published_problem(sample.cage, mesh, DistanceScheme::kSquare);
     expect_same_bits<float>(problem, 1.8);
     expect_same_bits<float>(problem, 1);
     expect_same_bits<double>(problem, 1);
@@ -282,7 +283,7 @@ TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
 TYPED_TEST(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_hollow_sample<kDim>();
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   ASSERT_EQ(gradient::boundary_periods(problem).size(), 1U);
   expect_same_bits<float>(problem, 1.8);
 }
@@ -290,7 +291,7 @@ TYPED_TEST(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
 TYPED_TEST(GradientAdmmTest, StateIsCompact) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 30 : 10, 0);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const gradient::GradientAdmm<float, kDim> admm(problem, 1, 1, {});
   EXPECT_LE(admm.state_scalars_per_cell(), kDim == 2 ? 12 : 14);
 }

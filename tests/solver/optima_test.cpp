@@ -107,7 +107,7 @@ TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
     metric.vertex = Eigen::VectorXd::Constant(
         problem.mesh.num_vertices(),
         100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
-    compact::CompactSplitting<double, kDim> splitting(problem, metric, {300 / per_cell, 1.65});
+    compact::CompactSplitting<double, kDim> splitting(problem, metric, {0.6 * size / per_cell, 1.65});
     splitting.start_from_weights(harmonic_coordinates(problem));
     splitting.iterate(8000, false);
     expect_optimal(problem, splitting.all_weights(), reference.non_negative);

@@ -22,7 +22,7 @@ splitting::Metric make_metric(const LbcProblem<Dim>& problem, double power, bool
     metric.cell[s] = std::pow(simplex_measure<Dim>(cell_corners(problem.mesh, s)), power);
   }
   if (non_negative) {
-    const double typical = metric.cell.mean() / 1000;
+    const double typical = 250 * metric.cell.mean();
     metric.vertex = Eigen::VectorXd::LinSpaced(problem.mesh.num_vertices(), typical, 3 * typical);
   }
   return metric;
@@ -35,7 +35,7 @@ double make_penalty(const LbcProblem<Dim>& problem, const splitting::Metric& met
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
     volume += simplex_measure<Dim>(cell_corners(problem.mesh, s));
   }
-  return 10 * volume / metric.cell.sum();
+  return 0.02 * volume / metric.cell.sum();
 }
 
 template <int Dim>

@@ -14,9 +14,8 @@
 
 namespace flbc {
 
-//! Everything the solvers read. Geometry is centred and scaled as in the literature, whose
-//! penalties and thresholds have a meaning only there (published_penalty.h); weights do not depend
-//! on it.
+//! Everything the solvers read. Geometry is centered and scaled such that the diagonal of the cage's
+//! bounding box is the unit of length; weights do not depend on it.
 template <int Dim>
 struct LbcProblem {
   Cage<Dim> cage;                //!< scaled, n control points

@@ -3,14 +3,14 @@
 
 #include <utility>
 
-#include "problem/domain_scale.h"
+#include "problem/unit_scale.h"
 
 namespace flbc {
 
 template <int Dim>
 LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                               BoundaryValues<Dim> boundary) {
-  const DomainScale<Dim> scale(mesh);
+  const UnitScale<Dim> scale(cage);
   mesh.points = scale(mesh.points);
   cage.points = scale(cage.points);
   return {std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {},

@@ -2,8 +2,8 @@
 #include "flbc/published_penalty.h"
 
 #include "flbc/bounding_box.h"
-#include "problem/domain_scale.h"
 #include "solver/plan/choices.h"
+#include "solver/plan/published_scale.h"
 
 namespace flbc {
 
@@ -14,7 +14,7 @@ double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Met
   options.penalty = penalty;
   validate(options);
   if (method == Method::kAuto) method = resolve({}).method;
-  const double size = DomainScale<Dim>(mesh).factor * bounding_box_diagonal(cage.points);
+  const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
   return penalty / plan::penalty_unit(method, Dim, size);
 }
 

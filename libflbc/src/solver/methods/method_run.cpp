@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/mean_value.h"
@@ -17,6 +16,7 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
+#include "solver/plan/published_scale.h"
 #include "solver/run/run.h"
 
 namespace flbc {
@@ -28,9 +28,19 @@ Origin origin_of(const Transfer<Dim>* from) {
   return from->is_between_shapes() ? Origin::kNearby : Origin::kCoarserMesh;
 }
 
+// A penalty in published units of length relative to one in the problem's.
 template <int Dim>
-double size_of(const LbcProblem<Dim>& problem) {
-  return bounding_box_diagonal(problem.cage.points);
+double published_unit(const LbcProblem<Dim>& problem, Method method) {
+  return plan::penalty_unit(method, Dim, plan::published_scale(problem.mesh));
+}
+
+// r_p of kPaper are gradients, 1 / length, and r_d is mu times that. Those of kLbc2014 are gradients
+// times a measure, and rho times that.
+template <int Dim>
+typename Residuals<Dim>::Units published_units(const LbcProblem<Dim>& problem, Method method) {
+  const double length = plan::published_scale(problem.mesh);
+  if (method == Method::kPaper) return {1 / length, std::pow(length, Dim)};
+  return {std::pow(length, Dim - 1), 1};
 }
 
 // The sum of squared measures over the sum of measures.
@@ -71,7 +81,8 @@ std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
 
 // Method::kLbc2014: the augmented Lagrangian of (2), in which a cell weighs its squared measure. A
 // penalty that is given is all there is to it, and W = w weighs as much as every other constraint.
-// Otherwise penalty and weight of W = w act on average as those of kValue.
+// Otherwise penalty and weight of W = w act on average as those of kValue. In published units W = w
+// weighs 1; relative to the cells' squared measures that is length^-(2 Dim - 2) here.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
                                              const SolverOptions& options) {
@@ -80,10 +91,11 @@ std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
   const auto like_value = metric_of(problem, options);
   double vertex_weight = 0;
   if (like_value.vertex.size() > 0) {
-    vertex_weight = chosen ? measure * like_value.vertex.mean() : 1;
+    vertex_weight = chosen ? measure * like_value.vertex.mean()
+                           : std::pow(plan::published_scale(problem.mesh), 2 - 2 * Dim);
   }
   compact::Settings settings;
-  settings.penalty = chosen ? plan::kLbc2014Penalty * size_of(problem) / measure : *options.penalty;
+  settings.penalty = chosen ? plan::kLbc2014Penalty / measure : *options.penalty;
   settings.relaxation = *options.relaxation;
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
   // Where W = w weighs much, the factor there is takes hundreds of solves to harmonic coordinates.
@@ -97,10 +109,11 @@ std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
 template <int Dim>
 double gradient_penalty(const LbcProblem<Dim>& problem, const SolverOptions& options) {
   if (options.penalty) return *options.penalty;
-  if (options.method == Method::kPaper) return plan::published_gradient_penalty(Dim);
+  if (options.method == Method::kPaper) {
+    return plan::published_gradient_penalty(Dim) / published_unit(problem, options.method);
+  }
   const double length = std::pow(typical_measure(problem), 1.0 / Dim);
-  const double size = size_of(problem);
-  return plan::gradient_penalty(Dim) * size * size * std::pow(length, Dim - 1);
+  return plan::gradient_penalty(Dim) * std::pow(length, Dim - 1);
 }
 
 template <int Dim>
@@ -127,7 +140,7 @@ std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOption
     case Method::kGradient:
       return std::make_unique<RecoveredError<Dim>>(*problem_, options, origin);
     default:
-      return std::make_unique<Residuals<Dim>>(options);
+      return std::make_unique<Residuals<Dim>>(options, published_units(*problem_, options.method));
   }
 }
 
@@ -151,7 +164,7 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
   const auto from = cold ? harmonic.state() : start.from->start();
   active_set::Settings settings;
   settings.penalty = options.penalty ? *options.penalty
-                     : cold          ? plan::first_penalty(size_of(*problem_))
+                     : cold          ? plan::kFirstPenalty
                                      : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
   settings.relaxation = *options.relaxation;
@@ -172,7 +185,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   if (options.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
     const double penalty = options.penalty   ? *options.penalty
-                           : from.is_cold() ? plan::first_penalty(size_of(*problem_))
+                           : from.is_cold() ? plan::kFirstPenalty
                                             : from.penalty;
     iteration_ = make_value(*problem_, options, penalty, true);
     iteration_->start(from);
@@ -229,18 +242,14 @@ Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& re
 }
 
 template <int Dim>
-Weights MethodRun<Dim>::solve(const SolverOptions& given, const Reporter& reporter,
+Weights MethodRun<Dim>::solve(const SolverOptions& options, const Reporter& reporter,
                               SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
   report = {};
-  report.method = given.method;
+  report.method = options.method;
   report.control_points = problem_->num_control_points();
   report.vertices = problem_->mesh.num_vertices();
   report.cells = problem_->mesh.num_cells();
-  const double unit = plan::penalty_unit(given.method, Dim, size_of(*problem_));
-  auto options = given;
-  if (options.penalty) *options.penalty *= unit;
-  require_finite(std::isfinite(options.penalty.value_or(0)), report);
   Weights weights;
   if (options.method == Method::kHarmonic) {
     weights.dense = harmonic_coordinates(*problem_);
@@ -251,8 +260,7 @@ Weights MethodRun<Dim>::solve(const SolverOptions& given, const Reporter& report
   }
   require_finite(weights.is_sparse() || weights.dense.allFinite(), report);
   if (!iteration_) report.seconds.solve = watch.lap();
-  report.published_penalty = report.penalty;
-  report.penalty /= unit;
+  report.published_penalty = report.penalty * published_unit(*problem_, options.method);
   return weights;
 }
 

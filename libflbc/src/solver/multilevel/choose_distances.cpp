@@ -70,8 +70,7 @@ template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                                 const SolverOptions& options, DistanceReport& report) {
   auto distances = distances_from(coarse.problem, problem, coarse.finest_vertices);
-  const auto enlarged = static_cast<float>(enlargement(coarse.problem, problem));
-  const double error = check_on_sample(problem, options.phi, enlarged * coarse.reach, distances);
+  const double error = check_on_sample(problem, options.phi, coarse.reach, distances);
   const double change = plan::kWeightsOfPhi * error * error;
   if (options.distances == Distances::kAuto &&
       change > plan::kPartOfTolerance * *options.tolerance) {

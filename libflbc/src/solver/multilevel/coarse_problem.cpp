@@ -65,9 +65,9 @@ std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
 // They are checked where the finest mesh takes them over.
 template <int Dim>
 DistanceMatrix inherit_distances(const CoarseProblem<Dim>& below, CoarseProblem<Dim>& level) {
-  level.reach = static_cast<float>(enlargement(below.problem, level.problem)) * below.reach;
+  level.reach = below.reach;
   return distances_from(below.problem, level.problem,
-                        places_in_coarse(below.problem, level.problem, level.problem.mesh.points));
+                        places_in(below.problem, level.problem.mesh.points));
 }
 
 //! \param below  the next coarser problem, null for none
@@ -90,11 +90,8 @@ void set_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, Coar
 template <int Dim>
 DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                               const std::vector<Location<Dim>>& places) {
-  auto distances =
-      interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
-                                  points_in_coarse(coarse, problem, problem.mesh.points), places);
-  distances *= static_cast<float>(enlargement(coarse, problem));
-  return distances;
+  return interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
+                                     problem.mesh.points, places);
 }
 
 template <int Dim>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "flbc/coarse_to_fine.h"
-#include "problem/domain_scale.h"
+#include "problem/unit_scale.h"
 
 namespace flbc {
 
@@ -20,12 +20,12 @@ template <int Dim>
 class MeshAhead {
  public:
   //! \param mesh  the finest, unscaled like its cage \param mesher  outlives this
-  MeshAhead(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const std::vector<Index>& sizes,
+  MeshAhead(const Cage<Dim>& cage, const std::vector<Index>& sizes,
             const CoarseMesher<Dim>& mesher)
       : mesher_(mesher) {
     if (sizes.empty() || omp_get_max_threads() == 1) return;
     auto scaled = cage;
-    scaled.points = DomainScale<Dim>(mesh)(cage.points);
+    scaled.points = UnitScale<Dim>(cage)(cage.points);
     first_ = std::make_shared<std::future<DomainMesh<Dim>>>(std::async(
         std::launch::async | std::launch::deferred, [&mesher, scaled, size = sizes.front()] {
           omp_set_num_threads(1);  // the others have work

@@ -28,7 +28,7 @@ template <int Dim>
 MovingDistances<Dim>::MovingDistances(CoarseProblem<Dim> coarse, const LbcProblem<Dim>& fine)
     : coarse_(std::move(coarse)),
       first_(coarse_.problem.mesh),
-      places_(places_in_coarse(fine, coarse_.problem, coarse_.problem.mesh.points)) {
+      places_(places_in(fine, coarse_.problem.mesh.points)) {
   coarse_.reach = {};
 }
 

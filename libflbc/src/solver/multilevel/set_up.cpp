@@ -36,7 +36,7 @@ template <int Dim>
 DistanceMatrix place_and_choose(SetUp<Dim>& result, const SolverOptions& options) {
   auto& coarse = result.coarse.back();
   coarse.finest_vertices =
-      places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
+      places_in(coarse.problem, result.problem.mesh.points);
   return choose_distances(coarse, result.problem, options, result.distances);
 }
 
@@ -46,7 +46,7 @@ CoarseProblem<Dim> coarsest_of(const SetUp<Dim>& result) {
   auto coarse = result.coarse.front();
   if (coarse.finest_vertices.empty()) {
     coarse.finest_vertices =
-        places_in_coarse(coarse.problem, result.problem, result.problem.mesh.points);
+        places_in(coarse.problem, result.problem.mesh.points);
   }
   return coarse;
 }
@@ -62,7 +62,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   require_connected(mesh);
   const auto coarse =
       plan_coarse({Dim, cage.size(), mesh.num_vertices()}, options, bool(mesher));
-  const MeshAhead<Dim> ahead(cage, mesh, coarse.sizes, mesher);
+  const MeshAhead<Dim> ahead(cage, coarse.sizes, mesher);
   SetUp<Dim> result{topology == nullptr
                         ? make_geometry(std::move(cage), std::move(mesh))
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};

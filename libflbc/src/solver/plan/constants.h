@@ -10,17 +10,13 @@
 
 namespace flbc::plan {
 
-// ---- penalties; `size` is the diagonal of the cage's bounding box ----------------------------------
+// ---- penalties, with the diagonal of the cage's bounding box as the unit of length -----------------
 
 //! `value`, first penalty. A fortieth suits all models roughly; balancing does the rest.
-constexpr double first_penalty(double size) {
-  return size / 40;
-}
+constexpr double kFirstPenalty = 1.0 / 40;
 //! `value`, largest penalty. Balancing compares lengths of all that moves. On round cages the start
 //! is nearly right everywhere, and the balance alone leaves the range in which the rest converges.
-constexpr double largest_penalty(double size) {
-  return size / 30;
-}
+constexpr double kLargestPenalty = 1.0 / 30;
 //! `value`: a balanced penalty is this times |dual| / |motion since the start|.
 constexpr double kBalance = 0.3;
 //! `value` on all pairs balances after these iterations.
@@ -33,13 +29,13 @@ constexpr double kActivePenaltyCold = 0.5, kActivePenaltyWarm = 0.25;
 //! `lbc2014`, where no penalty is given: rho m is on average this times the measure of a cell. The
 //! best of those measured from 1/120 to 1/10 (lab book).
 constexpr double kLbc2014Penalty = 1.0 / 30;
-//! `gradient`: mu is this times size^2 times the measure of a typical facet. Scaled duals are then
+//! `gradient`: mu is this times the measure of a typical facet. Scaled duals are then
 //! as large as gradients. The multiplier of a facet is a potential, of the order of the size times
 //! the facet, and takes longest to build up. Best on all models (lab book).
 constexpr double gradient_penalty(int dim) {
   return dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
 }
-//! `paper`: section 5, for a domain of radius 250.
+//! `paper`: section 5, in the published unit of length.
 constexpr double published_gradient_penalty(int dim) {
   return dim == 2 ? 100 : 10000;
 }

@@ -5,19 +5,12 @@
 #include <cmath>
 #include <utility>
 
-#include "flbc/bounding_box.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "solver/plan/constants.h"
 
 namespace flbc {
 namespace {
-
-template <int Dim>
-double squared_size(const LbcProblem<Dim>& problem) {
-  const double size = bounding_box_diagonal(problem.cage.points);
-  return size * size;
-}
 
 template <int Dim>
 WeightHistory::ReadRow rows_of(const Iteration<Dim>& iteration) {
@@ -33,8 +26,7 @@ EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const Solver
       num_control_points_(problem.num_control_points()),
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
-      residual_scale_(squared_size(problem) /
-                      (problem.num_control_points() * cell_measures(problem.mesh).sum())),
+      residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
       estimate_(origin, Dim, *options.tolerance),
       history_(problem.boundary.interior_vertices(), problem.num_control_points(),
                options.precision == Precision::kDouble) {
@@ -63,9 +55,8 @@ RecoveredError<Dim>::RecoveredError(const LbcProblem<Dim>& problem, const Solver
       options_(options),
       interval_((plan::kRecoveryInterval + options.check_interval - 1) / options.check_interval *
                 options.check_interval),
-      residual_scale_(squared_size(problem) /
-                      (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
-                       problem.mesh.num_cells())),
+      residual_scale_(1 / (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
+                           problem.mesh.num_cells())),
       estimate_(origin, Dim, *options.tolerance, interval_) {
 }
 
@@ -104,8 +95,8 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
 template <int Dim>
 bool Residuals<Dim>::judge(const Step& step, const Iteration<Dim>&, SolveReport& report) {
   constexpr double kDualToPrimal = 10;  // section 5 of the paper: N 1e-7 and N 1e-6
-  report.primal_residual = step.primal / *options_.tolerance;
-  report.dual_residual = step.dual / (kDualToPrimal * *options_.tolerance);
+  report.primal_residual = units_.primal * step.primal / *options_.tolerance;
+  report.dual_residual = units_.dual * step.dual / (kDualToPrimal * *options_.tolerance);
   return true;
 }
 

@@ -98,7 +98,11 @@ class RecoveredError : public StopRule<Dim> {
 template <int Dim>
 class Residuals : public StopRule<Dim> {
  public:
-  explicit Residuals(const SolverOptions& options) : options_(options) {}
+  //! Residuals in published units of length relative to those in the problem's.
+  struct Units {
+    double primal, dual;
+  };
+  Residuals(const SolverOptions& options, Units units) : options_(options), units_(units) {}
 
   int next(int made) const override { return this->to_next_look(options_, made); }
   bool wants_residuals() const override { return true; }
@@ -106,6 +110,7 @@ class Residuals : public StopRule<Dim> {
 
  private:
   const SolverOptions& options_;
+  const Units units_;
 };
 
 }  // namespace flbc

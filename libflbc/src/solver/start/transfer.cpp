@@ -3,49 +3,24 @@
 
 #include <utility>
 
-#include "flbc/bounding_box.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
-#include "mesh/cell_walk.h"
 #include "solver/start/flux_length.h"
 
 namespace flbc {
 
 template <int Dim>
-double enlargement(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine) {
-  return bounding_box_diagonal(fine.cage.points) / bounding_box_diagonal(coarse.cage.points);
-}
-
-// Both meshes fill the same cage, whose control points relate the two spaces.
-template <int Dim>
-PointList<Dim> points_in_coarse(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine,
-                                const PointList<Dim>& fine_points) {
-  const Vector<Dim> origin = fine.cage.points.col(0);
-  return ((fine_points.colwise() - origin) / enlargement(coarse, fine)).colwise() +
-         coarse.cage.points.col(0);
-}
-
-template <int Dim>
-std::vector<Location<Dim>> places_in_coarse(const LbcProblem<Dim>& coarse,
-                                            const LbcProblem<Dim>& fine,
-                                            const PointList<Dim>& fine_points) {
-  return walk_to_points(coarse.mesh, coarse.topology, points_in_coarse(coarse, fine, fine_points));
-}
-
-template <int Dim>
 Transfer<Dim>::Transfer(Unlocated, const LbcProblem<Dim>& coarse, const Duals<Dim>& duals,
                         const LbcProblem<Dim>& fine)
-    : coarse_(coarse), duals_(duals), fine_(fine), enlargement_(enlargement(coarse, fine)) {
+    : coarse_(coarse), duals_(duals), fine_(fine) {
 }
 
 template <int Dim>
 Transfer<Dim>::Transfer(const LbcProblem<Dim>& coarse, const Duals<Dim>& duals,
                         const LbcProblem<Dim>& fine, std::vector<Location<Dim>> vertices)
     : Transfer(Unlocated{}, coarse, duals, fine) {
-  vertices_ =
-      vertices.empty() ? places_in_coarse(coarse, fine, fine.mesh.points) : std::move(vertices);
-  for (const auto& place :
-       places_in_coarse(coarse, fine, centroids(fine.mesh.points, fine.mesh.cells))) {
+  vertices_ = vertices.empty() ? places_in(coarse, fine.mesh.points) : std::move(vertices);
+  for (const auto& place : places_in(coarse, centroids(fine.mesh.points, fine.mesh.cells))) {
     cells_.push_back(place.cell);
   }
 }
@@ -82,7 +57,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> Transfer<Dim>::flux_density(Index cel
 template <int Dim>
 Start<Dim> Transfer<Dim>::start() const {
   Start<Dim> start;
-  start.penalty = enlargement_ * duals_.penalty;
+  start.penalty = duals_.penalty;
   start.weights = [this](Index v) { return weights_at(v); };
   start.flux_density = [this](Index s) { return flux_density(s); };
   if (duals_.vertex_dual.num_points() > 0) {
@@ -93,15 +68,7 @@ Start<Dim> Transfer<Dim>::start() const {
   return start;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                              \
-  template double enlargement(const LbcProblem<Dim>&, const LbcProblem<Dim>&);             \
-  template PointList<Dim> points_in_coarse(const LbcProblem<Dim>&, const LbcProblem<Dim>&, \
-                                           const PointList<Dim>&);                         \
-  template std::vector<Location<Dim>> places_in_coarse(                                    \
-      const LbcProblem<Dim>&, const LbcProblem<Dim>&, const PointList<Dim>&);              \
-  template class Transfer<Dim>;
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template class Transfer<2>;
+template class Transfer<3>;
 
 }  // namespace flbc

@@ -8,29 +8,20 @@
 
 #include "flbc/cell_locator.h"
 #include "flbc/lbc_problem.h"
+#include "mesh/cell_walk.h"
 #include "solver/start/duals.h"
 
 namespace flbc {
 
-//! Fine length / coarse length.
+//! The cells of a problem that contain points of another problem of the same cage. A point that
+//! rounding puts outside belongs to the nearest cell.
 template <int Dim>
-double enlargement(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine);
+std::vector<Location<Dim>> places_in(const LbcProblem<Dim>& problem, const PointList<Dim>& points) {
+  return walk_to_points(problem.mesh, problem.topology, points);
+}
 
-//! Points of the fine mesh's space in the coarse mesh's space.
-template <int Dim>
-PointList<Dim> points_in_coarse(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& fine,
-                                const PointList<Dim>& fine_points);
-
-//! The coarse cells that contain the points. A point that rounding puts outside belongs to the
-//! nearest cell.
-template <int Dim>
-std::vector<Location<Dim>> places_in_coarse(const LbcProblem<Dim>& coarse,
-                                            const LbcProblem<Dim>& fine,
-                                            const PointList<Dim>& fine_points);
-
-//! Evaluates the duals of a coarse mesh where the fine mesh needs them, in the lengths of the fine
-//! problem. The meshes need not be nested, nor their problems scaled alike. Keeps references to all
-//! three arguments.
+//! Evaluates the duals of a coarse mesh where the fine mesh of the same cage needs them. The meshes
+//! need not be nested. Keeps references to all three arguments.
 template <int Dim>
 class Transfer {
  public:
@@ -46,9 +37,8 @@ class Transfer {
   //! Whether it was made by between_shapes().
   bool is_between_shapes() const { return between_shapes_; }
 
-  //! The start on the fine mesh, which refers to this object. Its penalty acts there as the coarse
-  //! one's did; its flux density is that of the coarse cell which contains the middle of the fine
-  //! one, shortened to phi.
+  //! The start on the fine mesh, which refers to this object. Its flux density is that
+  //! of the coarse cell which contains the middle of the fine one, shortened to phi.
   Start<Dim> start() const;
 
   //! Interpolated weights at an interior vertex of the fine mesh, n numbers.
@@ -70,7 +60,6 @@ class Transfer {
   const LbcProblem<Dim>& coarse_;
   const Duals<Dim>& duals_;
   const LbcProblem<Dim>& fine_;
-  double enlargement_;
   bool between_shapes_ = false;
   std::vector<Location<Dim>> vertices_;
   std::vector<Index> cells_;  // the coarse ones that contain the middles of the fine ones

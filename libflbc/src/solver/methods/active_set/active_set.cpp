@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 #include "solver/plan/constants.h"
 
@@ -123,8 +122,7 @@ double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
   if (made >= plan::kLastBalance) start_weights_ = nullptr;
   if (!(lengths2.dual > 0) || !(lengths2.motion > 0)) return splitting_->penalty();
   const double balanced = plan::kBalance * std::sqrt(lengths2.dual / lengths2.motion);
-  const double size = bounding_box_diagonal(problem_.cage.points);
-  return settings_.part * std::min(balanced, plan::largest_penalty(size));
+  return settings_.part * std::min(balanced, plan::kLargestPenalty);
 }
 
 // Where weights at the ends of supports are more than a small part of the error there is, or of the

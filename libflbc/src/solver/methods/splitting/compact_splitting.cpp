@@ -12,7 +12,6 @@
 
 #include "base/flush_denormals.h"
 #include "base/padded_rows.h"
-#include "flbc/bounding_box.h"
 #include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
 #include "problem/boundary_flux.h"
@@ -136,9 +135,7 @@ Step CompactSplitting<Scalar, Dim>::iterate(int count, bool measure) {
     const bool balances =
         balances_ && std::find(std::begin(plan::kBalancedAfter), std::end(plan::kBalancedAfter),
                                made_) != std::end(plan::kBalancedAfter);
-    step = balances ? iterate_and_adapt(plan::kBalance,
-                                        plan::largest_penalty(
-                                            bounding_box_diagonal(problem_.cage.points)))
+    step = balances ? iterate_and_adapt(plan::kBalance, plan::kLargestPenalty)
                     : iterate_once(measure && k == count);
   }
   return step;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
 #include "problem/laplacian.h"
@@ -12,10 +11,9 @@ namespace flbc::splitting {
 
 template <int Dim>
 Metric measure_metric(const LbcProblem<Dim>& problem, bool non_negative) {
-  const double size = bounding_box_diagonal(problem.cage.points);
   Metric metric;
   metric.cell = cell_measures(problem.mesh);
-  if (non_negative) metric.vertex = plan::kVertexWeight / (size * size) * lumped_mass(problem.mesh);
+  if (non_negative) metric.vertex = plan::kVertexWeight * lumped_mass(problem.mesh);
   return metric;
 }
 
