@@ -49,8 +49,9 @@ if ! "$folder/net" 2>"$folder/log" || "$folder/net" race 2>"$folder/log"; then
 fi
 
 cmake --preset tsan >/dev/null
-tests=(solver/{compact_splitting,gradient_admm,weight_splitting}_test
-  solver/{solver,supports,coarse_to_fine,lbc_solver,solve_parts,set_up,error_estimate}_test
+tests=(solver/{compact_splitting,gradient_admm}_test
+  solver/{solver,active_set,coarse_to_fine,continued_solve,moved_cage,solve_parts,set_up}_test
+  solver/error_estimate_test
   linear/{multigrid,panel_cholesky,row_matrix}_test
   problem/{boundary_values,bounded_distances,distance_weights,interpolated_distances}_test
   polytope/non_negative_test certificate/certificate_test evaluation/check_test

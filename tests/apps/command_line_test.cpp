@@ -192,8 +192,12 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
                      name + ": the method " + method + " does not use it");
     }
   }
-  expect_failure(solve + "--method gradient --active off", 1,
-                 "--active: the method gradient does not use it");
+  for (const std::string method : {"gradient", "paper", "lbc2014"}) {
+    for (const std::string option : {"--active", "--coarse-to-fine"}) {
+      expect_failure(solve + "--method " + method + ' ' + option + " off", 1,
+                     option + ": the method " + method + " does not use it");
+    }
+  }
   expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
   expect_failure(solve + "--outside nearest", 1, "--outside: there is no model");
   expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,

@@ -61,8 +61,7 @@ class VectorPictures : public CommandLineTest {
   // Pictures of one scene in all formats. \return the arguments but for the output
   void draw(const std::string& arguments) const {
     for (const char* extension : {"png", "svg", "pdf"}) {
-      const auto result = run("draw " + arguments + " --width 600 -o " + path("p.") + extension);
-      ASSERT_EQ(result.status, 0) << result.errors;
+      expect("draw " + arguments + " --width 600 -o " + path("p.") + extension);
     }
   }
 
@@ -120,55 +119,39 @@ class VectorPictures : public CommandLineTest {
   }
 };
 
-TEST_F(VectorPictures, ShowWhatPngShowsInThePlane) {
-  const auto cage = sample("2d/figure_cage.obj"), model = sample("2d/figure_model.obj");
-  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("w.npy") +
-                " --save-domain " + path("d.obj"))
-                .status,
-            0);
-  const auto domain = path("d.obj") + " --weights " + path("w.npy") + " --cage " + cage;
-  expect_all_formats_agree(domain + " --control-point 3 --mesh", "0.5");
-  expect_all_formats_agree(domain + " --all", "17");
-  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("m.npy") +
-                " --model " + model)
-                .status,
-            0);
-  expect_all_formats_agree("--model " + model + " --weights " + path("m.npy") + " --cage " + cage +
-                               " --pose " + sample("2d/figure_cage_pose.obj"),
-                           "0.5");
-}
-
-TEST_F(VectorPictures, ShowWhatPngShowsInSpace) {
-  const auto cage = sample("3d/limb_cage.obj"), model = sample("3d/limb_model.obj");
-  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("w.npy") +
-                " --save-domain " + path("d.mesh"))
-                .status,
-            0);
-  const auto domain = path("d.mesh") + " --weights " + path("w.npy") + " --cage " + cage;
-  expect_all_formats_agree(domain + " --control-point 3", "0.5");
-  expect_all_formats_agree(domain + " --all", "11");
-  ASSERT_EQ(run("solve " + cage + " --method harmonic --vertices 800 -q -o " + path("m.npy") +
-                " --model " + model)
-                .status,
-            0);
-  const auto of_model = "--model " + model + " --weights " + path("m.npy") + " --cage " + cage;
-  expect_all_formats_agree(of_model + " --pose " + sample("3d/limb_cage_pose.obj"), "d");
-  expect_all_formats_agree(of_model + " --all", "11");
+TEST_F(VectorPictures, ShowWhatPngShows) {
+  struct Scene {
+    std::string name, mesh, control_point, all, pose;  // texts of the pictures, but for the names
+  };
+  for (const Scene& scene : {Scene{"2d/figure", "d.obj", "0.5", "17", "0.5"},
+                             Scene{"3d/limb", "d.mesh", "0.5", "11", "d"}}) {
+    const bool plane = scene.mesh == "d.obj";
+    const auto cage = sample(scene.name + "_cage.obj"), model = sample(scene.name + "_model.obj");
+    const auto solve = "solve " + cage + " --method harmonic --vertices 800 -q -o ";
+    expect(solve + path("w.npy") + " --save-domain " + path(scene.mesh));
+    expect(solve + path("m.npy") + " --model " + model);
+    const auto domain = path(scene.mesh) + " --weights " + path("w.npy") + " --cage " + cage;
+    const auto of_model = "--model " + model + " --weights " + path("m.npy") + " --cage " + cage;
+    expect_all_formats_agree(domain + " --control-point 3" + (plane ? " --mesh" : ""),
+                             scene.control_point);
+    expect_all_formats_agree(domain + " --all", scene.all);
+    expect_all_formats_agree(of_model + " --pose " + sample(scene.name + "_cage_pose.obj"),
+                             scene.pose);
+    if (!plane) expect_all_formats_agree(of_model + " --all", scene.all);
+  }
 }
 
 TEST_F(VectorPictures, UnknownFormatsAreNamed) {
   const auto cage = sample("2d/figure_cage.obj");
-  const auto result = run("draw d.obj --weights w.npy --cage " + cage + " -o " + path("p.jpg"));
-  EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.errors.find(".png, .svg, .pdf"), std::string::npos) << result.errors;
+  const auto result = expect("draw d.obj --weights w.npy --cage " + cage + " -o " + path("p.jpg"),
+                             1, ".png, .svg, .pdf");
   EXPECT_NE(result.errors.find("'.jpg'"), std::string::npos) << result.errors;
 }
 
 TEST_F(VectorPictures, OfARunAsWell) {
-  const auto result = run(
-      "run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
-      " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " + path("out"));
-  ASSERT_EQ(result.status, 0) << result.errors;
+  expect("run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
+         " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " +
+         path("out"));
   for (const char* name : {"out/function.svg", "out/model.svg"}) {
     expect_well_formed(slurp(path(name)));
     EXPECT_GT(slurp(path(name)).size(), 1000U) << name;

@@ -28,10 +28,10 @@ for name in flbc flbc_io; do
   [ -z "$strange" ] || fail "$library exports"$'\n'"$strange"
   # Of the inside only what the components share (cmake/shared.cmake).
   inside=$(exported "$library" |
-    grep -E '4flbc(8gradient|9splitting|8supports|8distance|7compact|9multigrid|5panel)' || true)
+    grep -E '4flbc(8gradient|9splitting|10active_set|8distance|7compact|9multigrid|5panel)' || true)
   [ -z "$inside" ] || fail "$library exports of its inside"$'\n'"$inside"
 done
-for symbol in _ZN4flbc5solveILi3EEE _ZN4flbc9LbcSolverILi2EEC1E _ZTIN4flbc10InputErrorE; do
+for symbol in _ZN4flbc5solveILi3EEE _ZN4flbc6SolverILi2EEC1E _ZTIN4flbc10InputErrorE; do
   exported "$(find "$work" -name "libflbc.so.$version")" | grep "^$symbol" >/dev/null ||
     fail "libflbc does not export $symbol"
 done

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "flbc/errors.h"
-#include "support/io_files.h"
+#include "format_test.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::io {
@@ -17,7 +17,7 @@ namespace {
 
 using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
-using flbc::testing::FolderTest;
+using flbc::testing::FormatTest;
 using Names = std::vector<std::string>;
 
 template <int Dim>
@@ -26,31 +26,43 @@ std::vector<std::string> readable_extensions() {
   return {"mesh", "node", "ele", "msh", "vtu", "MSH"};
 }
 
-// A file and what the message about it must say: "FILE" + place, and the message.
-struct Malformed {
-  std::string content;
-  std::string place;
-  std::string message;
-};
-
-class MeshFile : public FolderTest {
+class MeshFile : public FormatTest {
  protected:
-  void expect_malformed(const std::string& name, const std::vector<Malformed>& cases) {
-    for (const Malformed& malformed : cases) {
-      SCOPED_TRACE(malformed.content.substr(0, 300));
-      const std::string file = make(name, malformed.content);
-      expect_error<InputError>([&] { read_domain<3>(file); },
-                               {file + malformed.place, malformed.message});
-    }
+  void expect_malformed(const std::string& name,
+                        const std::vector<flbc::testing::Malformed>& cases) const {
+    FormatTest::expect_malformed(
+        name, [](const auto& file) { read_domain<3>(file); }, cases);
   }
 };
 
 template <class Dimension>
-class DomainFile : public FolderTest {
+class DomainFile : public FormatTest {
  protected:
+  static constexpr int Dim = Dimension::value;
+
+  // One cell with these numbers.
+  static DomainMesh<Dim> simplex(double size) {
+    DomainMesh<Dim> mesh;
+    mesh.points.resize(Dim, Dim + 1);
+    mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim) * size;
+    mesh.cells = CellList<Dim>(Dim + 1, 1);
+    for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+    return mesh;
+  }
+
+  // The mesh written in every format, and read.
+  template <class Check>
+  void for_formats(const DomainMesh<Dim>& mesh, const Check& check) const {
+    for (const std::string& extension : readable_extensions<Dim>()) {
+      SCOPED_TRACE(extension);
+      const std::string file = this->path("domain." + extension);
+      write_domain(file, mesh);
+      check(file, extension);
+    }
+  }
+
   // Coordinates with all their digits.
-  static DomainMesh<Dimension::value> awkward_mesh() {
-    constexpr int Dim = Dimension::value;
+  static DomainMesh<Dim> awkward_mesh() {
     DomainMesh<Dim> mesh = flbc::testing::samples<Dim>().front().mesh;
     for (Index v = 0; v < mesh.num_vertices(); ++v) {
       mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<Dim>::Constant(1e-9 * v);
@@ -65,30 +77,17 @@ TYPED_TEST_SUITE(DomainFile, Dimensions);
 
 TYPED_TEST(DomainFile, RoundTripIsBitEqual) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
-  for (const std::string& extension : readable_extensions<Dim>()) {
-    const std::string file = this->path("domain." + extension);
-    write_domain(file, mesh);
-    const DomainMesh<Dim> read = read_domain<Dim>(file);
-    EXPECT_TRUE(bit_equal(read.points, mesh.points)) << extension;
-    EXPECT_EQ(read.cells, mesh.cells) << extension;
-  }
-}
-
-TYPED_TEST(DomainFile, TinyAndHugeCoordinatesSurvive) {
-  constexpr int Dim = TypeParam::value;
+  auto meshes = std::vector{this->awkward_mesh()};
   for (const double size : {1e-70, 1.0 / 3.0, 1e70}) {
-    DomainMesh<Dim> mesh;
-    mesh.points.resize(Dim, Dim + 1);
-    mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim) * size;
-    mesh.points(0, 2) = -4.9406564584124654e-324;
-    mesh.cells = CellList<Dim>::Zero(Dim + 1, 1);
-    for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
-    for (const std::string& extension : readable_extensions<Dim>()) {
-      const std::string file = this->path("domain." + extension);
-      write_domain(file, mesh);
-      EXPECT_TRUE(bit_equal(read_domain<Dim>(file).points, mesh.points)) << extension;
-    }
+    meshes.push_back(this->simplex(size));
+    meshes.back().points(0, 2) = -4.9406564584124654e-324;
+  }
+  for (const auto& mesh : meshes) {
+    this->for_formats(mesh, [&](const std::string& file, const std::string&) {
+      const DomainMesh<Dim> read = read_domain<Dim>(file);
+      EXPECT_TRUE(bit_equal(read.points, mesh.points));
+      EXPECT_EQ(read.cells, mesh.cells);
+    });
   }
 }
 
@@ -99,12 +98,10 @@ TYPED_TEST(DomainFile, CellsAreTurnedRound) {
   for (Index s = 0; s < mesh.num_cells(); s += 2) {
     std::swap(inverted.cells(0, s), inverted.cells(1, s));
   }
-  for (const std::string& extension : readable_extensions<Dim>()) {
-    const std::string file = this->path("domain." + extension);
-    write_domain(file, inverted);
+  this->for_formats(inverted, [](const std::string& file, const std::string&) {
     const DomainMesh<Dim> read = read_domain<Dim>(file);
     for (Index s = 0; s < read.num_cells(); ++s) ASSERT_GT(signed_measure(read, s), 0);
-  }
+  });
 }
 
 TYPED_TEST(DomainFile, InvalidMeshesAreReportedWithTheFile) {
@@ -112,32 +109,23 @@ TYPED_TEST(DomainFile, InvalidMeshesAreReportedWithTheFile) {
   DomainMesh<Dim> mesh = this->awkward_mesh();
   mesh.points.conservativeResize(Dim, mesh.points.cols() + 1);
   mesh.points.col(mesh.points.cols() - 1).setConstant(9);
-  for (const std::string& extension : readable_extensions<Dim>()) {
-    const std::string file = this->path("domain." + extension);
-    write_domain(file, mesh);
+  this->for_formats(mesh, [&](const std::string& file, const std::string&) {
     expect_error<InputError>(
         [&] { read_domain<Dim>(file); },
         {file + ": ", "vertex " + std::to_string(mesh.num_vertices() - 1), "belongs to no cell"});
-  }
+  });
 }
 
 TYPED_TEST(DomainFile, CutAnywhereIsAnErrorOrTheWholeMesh) {
   constexpr int Dim = TypeParam::value;
-  DomainMesh<Dim> mesh;
-  mesh.points.resize(Dim, Dim + 1);
-  mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim);
-  mesh.cells.resize(Dim + 1, 1);
-  for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
-  for (const std::string& extension : readable_extensions<Dim>()) {
-    const std::string file = this->path("domain." + extension);
-    write_domain(file, mesh);
+  const DomainMesh<Dim> mesh = this->simplex(1);
+  this->for_formats(mesh, [&](const std::string& file, const std::string& extension) {
     const std::string whole = this->content("domain." + extension);
     int errors = 0;
     for (std::size_t length = 0; length < whole.size(); ++length) {
       this->make("domain." + extension, whole.substr(0, length));
       try {
-        const DomainMesh<Dim> read = read_domain<Dim>(file);
-        EXPECT_EQ(read.cells, mesh.cells) << extension << ", cut at " << length;
+        EXPECT_EQ(read_domain<Dim>(file).cells, mesh.cells) << "cut at " << length;
       } catch (const InputError& error) {
         // TetGen's other file may be the one that is too short for the number of nodes.
         const std::string stem = file.substr(0, file.size() - extension.size());
@@ -145,8 +133,8 @@ TYPED_TEST(DomainFile, CutAnywhereIsAnErrorOrTheWholeMesh) {
         ++errors;
       }
     }
-    EXPECT_GT(errors, static_cast<int>(whole.size()) / 2) << extension;
-  }
+    EXPECT_GT(errors, static_cast<int>(whole.size()) / 2);
+  });
 }
 
 TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
@@ -163,14 +151,9 @@ TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
 
 TYPED_TEST(DomainFile, FilesThatCannotBeOpened) {
   constexpr int Dim = TypeParam::value;
-  for (const std::string& extension : readable_extensions<Dim>()) {
-    expect_error<IoError>([&] { read_domain<Dim>(this->path("missing." + extension)); },
-                          {this->path("missing."), "No such file"});
-    const std::string nowhere = this->path("missing/domain." + extension);
-    expect_error<IoError>([&] { write_domain(nowhere, this->awkward_mesh()); },
-                          {this->path("missing/domain."), "No such file"});
-  }
-  EXPECT_TRUE(this->names().empty());
+  this->expect_unopenable(
+      readable_extensions<Dim>(), [](const auto& file) { read_domain<Dim>(file); },
+      [&](const auto& file) { write_domain(file, this->awkward_mesh()); });
 }
 
 TYPED_TEST(DomainFile, CoordinatesThatAreNotFiniteAreNotWritten) {

@@ -8,7 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "support/io_files.h"
+#include "format_test.h"
 
 namespace flbc::io {
 namespace {
@@ -16,17 +16,10 @@ namespace {
 using flbc::testing::awkward_numbers;
 using flbc::testing::bits_of;
 using flbc::testing::expect_error;
-using flbc::testing::FolderTest;
+using flbc::testing::FormatTest;
 using Corners = std::vector<Index>;
 
-// A file and what the message about it must say: "FILE" + place, and the message.
-struct Malformed {
-  std::string content;
-  std::string place;
-  std::string message;
-};
-
-class PolygonFile : public FolderTest {
+class PolygonFile : public FormatTest {
  protected:
   PolygonSoup obj(const std::string& content) { return read_polygons(make("soup.obj", content)); }
   PolygonSoup off(const std::string& content) { return read_polygons(make("soup.off", content)); }
@@ -55,23 +48,17 @@ void expect_same_points(const PolygonSoup& a, const PolygonSoup& b) {
 
 const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";  // 3 lines
 
-TEST_F(PolygonFile, ObjRoundTripIsBitEqual) {
-  PolygonSoup soup = awkward_soup();
-  soup.polylines = {{0, 1}, {3, 2, 1, 3}};
-  write_model(path("soup.obj"), {soup});
-  const PolygonSoup read = read_polygons(path("soup.obj"));
-  expect_same_points(read, soup);
-  EXPECT_EQ(read.polygons, soup.polygons);
-  EXPECT_EQ(read.polylines, soup.polylines);
-}
-
-TEST_F(PolygonFile, OffRoundTripIsBitEqual) {
-  const PolygonSoup soup = awkward_soup();
-  write_model(path("soup.off"), {soup});
-  const PolygonSoup read = read_polygons(path("soup.off"));
-  expect_same_points(read, soup);
-  EXPECT_EQ(read.polygons, soup.polygons);
-  EXPECT_TRUE(read.polylines.empty());
+TEST_F(PolygonFile, RoundTripsAreBitEqual) {
+  for (const std::string name : {"soup.obj", "soup.off"}) {
+    SCOPED_TRACE(name);
+    PolygonSoup soup = awkward_soup();
+    if (name == "soup.obj") soup.polylines = {{0, 1}, {3, 2, 1, 3}};
+    write_model(path(name), {soup});
+    const PolygonSoup read = read_polygons(path(name));
+    expect_same_points(read, soup);
+    EXPECT_EQ(read.polygons, soup.polygons);
+    EXPECT_EQ(read.polylines, soup.polylines);
+  }
 }
 
 TEST_F(PolygonFile, ObjCorners) {
@@ -123,46 +110,46 @@ TEST_F(PolygonFile, NothingIsRepaired) {
 
 TEST_F(PolygonFile, MalformedObj) {
   const std::string triangle = kTriangle;
-  const std::vector<Malformed> cases = {
-      {"", ":1: ", "without a vertex"},
-      {"# nothing\n\n", ":2: ", "without a vertex"},
-      {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ":", "without a vertex"},
-      {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
-      {"v 0 0 0\nv 1\n", ":2: ", "expected a number, found the end of the line"},
-      {"v", ":1: ", "expected a number, found the end of the file"},
-      {"v 0 0 nan\n", ":1: ", "expected a finite number, found \"nan\""},
-      {"v 0 0 0\r\nv 0 -Infinity 0\r\n", ":2: ", "expected a finite number, found \"-Infinity\""},
-      {"v 0 0 1e999\n", ":1: ", "the number \"1e999\" is too large"},
-      {"v 0 0 1e99999999999999999999\n", ":1: ", "is too large"},
-      {"v 0 0 --1\n", ":1: ", "expected a number, found \"--1\""},
-      {"v 0 0 +-1\n", ":1: ", "expected a number, found \"+-1\""},
-      {"v 0 0 1.5x\n", ":1: ", "expected a number, found \"1.5x\""},
-      {"v 0 0 \x01\xff\n", ":1: ", "expected a number, found \"??\""},
-      {"v 0 0 0 red\n", ":1: ", "expected a number, found \"red\""},
-      {"v 0 0 " + std::string(100000, 'z'), ":1: ", std::string(40, 'z') + "...\""},
-      {triangle + "f 1 2\n", ":4: ", "a face needs at least 3 vertices, found 2"},
-      {triangle + "\n# c\nf\n", ":6: ", "a face needs at least 3 vertices, found 0"},
-      {triangle + "l 1\n", ":4: ", "a polyline needs at least 2 vertices, found 1"},
-      {triangle + "f 1 2 4\n", ":4: ", "the index 4 is out of range; vertices are numbered 1 to 3"},
-      {"f 1 2 3\nf 9 1 2\nf 7 1 2\n" + triangle, ":2: ", "the index 9 is out of range"},
-      {triangle + "f 0 1 2\n", ":4: ", "the index 0 is out of range"},
-      {triangle + "f 1 2 -4\n", ":4: ", "the index \"-4\" is out of range; there are 3 vertices"},
-      {triangle + "f 1 2 99999999999\n", ":4: ", "\"99999999999\" is out of range"},
-      {triangle + "f 1 2 99999999999999999999999\n", ":4: ", "is out of range"},
-      {triangle + "f 1 2 -99999999999999999999999\n", ":4: ", "is out of range"},
-      {triangle + "f 1 2 x\n", ":4: ", "expected a vertex index, found \"x\""},
-      {triangle + "f 1 2 3/x\n", ":4: ", "expected a vertex index, found \"3/x\""},
-      {triangle + "f 1 2 3/1/1/1\n", ":4: ", "expected a vertex index, found \"3/1/1/1\""},
-      {triangle + "f 1 2 /3\n", ":4: ", "expected a vertex index, found \"/3\""},
-      {triangle + "f 1 2 3.0\n", ":4: ", "expected a vertex index, found \"3.0\""},
-      {triangle + "f 1 \\\n 2 \\\n x\n", ":6: ", "expected a vertex index, found \"x\""},
-      {triangle + "f 1 \\\n 2 \\\n\nf 1 2 3 4\n", ":4: ", "at least 3 vertices, found 2"},
-  };
-  for (const Malformed& malformed : cases) {
-    SCOPED_TRACE(malformed.content.substr(0, 200));
-    expect_error<InputError>([&] { obj(malformed.content); },
-                             {path("soup.obj") + malformed.place, malformed.message});
-  }
+  expect_malformed(
+      "soup.obj", read_polygons,
+      {
+          {"", ":1: ", "without a vertex"},
+          {"# nothing\n\n", ":2: ", "without a vertex"},
+          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ":", "without a vertex"},
+          {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
+          {"v 0 0 0\nv 1\n", ":2: ", "expected a number, found the end of the line"},
+          {"v", ":1: ", "expected a number, found the end of the file"},
+          {"v 0 0 nan\n", ":1: ", "expected a finite number, found \"nan\""},
+          {"v 0 0 0\r\nv 0 -Infinity 0\r\n",
+           ":2: ", "expected a finite number, found \"-Infinity\""},
+          {"v 0 0 1e999\n", ":1: ", "the number \"1e999\" is too large"},
+          {"v 0 0 1e99999999999999999999\n", ":1: ", "is too large"},
+          {"v 0 0 --1\n", ":1: ", "expected a number, found \"--1\""},
+          {"v 0 0 +-1\n", ":1: ", "expected a number, found \"+-1\""},
+          {"v 0 0 1.5x\n", ":1: ", "expected a number, found \"1.5x\""},
+          {"v 0 0 \x01\xff\n", ":1: ", "expected a number, found \"??\""},
+          {"v 0 0 0 red\n", ":1: ", "expected a number, found \"red\""},
+          {"v 0 0 " + std::string(100000, 'z'), ":1: ", std::string(40, 'z') + "...\""},
+          {triangle + "f 1 2\n", ":4: ", "a face needs at least 3 vertices, found 2"},
+          {triangle + "\n# c\nf\n", ":6: ", "a face needs at least 3 vertices, found 0"},
+          {triangle + "l 1\n", ":4: ", "a polyline needs at least 2 vertices, found 1"},
+          {triangle + "f 1 2 4\n",
+           ":4: ", "the index 4 is out of range; vertices are numbered 1 to 3"},
+          {"f 1 2 3\nf 9 1 2\nf 7 1 2\n" + triangle, ":2: ", "the index 9 is out of range"},
+          {triangle + "f 0 1 2\n", ":4: ", "the index 0 is out of range"},
+          {triangle + "f 1 2 -4\n",
+           ":4: ", "the index \"-4\" is out of range; there are 3 vertices"},
+          {triangle + "f 1 2 99999999999\n", ":4: ", "\"99999999999\" is out of range"},
+          {triangle + "f 1 2 99999999999999999999999\n", ":4: ", "is out of range"},
+          {triangle + "f 1 2 -99999999999999999999999\n", ":4: ", "is out of range"},
+          {triangle + "f 1 2 x\n", ":4: ", "expected a vertex index, found \"x\""},
+          {triangle + "f 1 2 3/x\n", ":4: ", "expected a vertex index, found \"3/x\""},
+          {triangle + "f 1 2 3/1/1/1\n", ":4: ", "expected a vertex index, found \"3/1/1/1\""},
+          {triangle + "f 1 2 /3\n", ":4: ", "expected a vertex index, found \"/3\""},
+          {triangle + "f 1 2 3.0\n", ":4: ", "expected a vertex index, found \"3.0\""},
+          {triangle + "f 1 \\\n 2 \\\n x\n", ":6: ", "expected a vertex index, found \"x\""},
+          {triangle + "f 1 \\\n 2 \\\n\nf 1 2 3 4\n", ":4: ", "at least 3 vertices, found 2"},
+      });
 }
 
 TEST_F(PolygonFile, OffVariants) {
@@ -188,37 +175,37 @@ TEST_F(PolygonFile, OffVariants) {
 
 TEST_F(PolygonFile, MalformedOff) {
   const std::string head = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";  // 5 lines
-  const std::vector<Malformed> cases = {
-      {"", ":1: ", "it is empty"},
-      {std::string("\0\xff\xfe\x01 garbage\n", 13), ":1: ", "expected OFF, found \"????\""},
-      {"3 1 0\n0 0 0\n", ":1: ", "expected OFF, found \"3\""},
-      {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},
-      {"nOFF\n", ":1: ", "\"nOFF\" is not supported"},
-      {"OFF BINARY\n1234", ":1: ", "binary OFF"},
-      {"OFF\n", ":1: ", "the file ends before the number of vertices"},
-      {"OFF\nx 1 0\n", ":2: ", "expected an integer, found \"x\""},
-      {"OFF\n3\n0 0 0\n1 0 0\n0 1 0\n", ":2: ", "expected an integer, found the end of the line"},
-      {"OFF\n-3 1 0\n", ":2: ", "-3 vertices are declared"},
-      {"OFF\n2000000000 1 0\n0 0 0\n", ":2: ", "2000000000 vertices are declared, but the file"},
-      {"OFF\n3 2000000000 0\n0 0 0\n1 0 0\n0 1 0\n", ":2: ", "2000000000 faces are declared"},
-      {"OFF\n9999999999 1 0\n0 0 0\n", ":2: ", "more than this program can handle"},
-      {"OFF\n3 1 0\n0 0 0   \n1 0 0   \n", ":4: ", "the file ends after 2 of 3 vertices"},
-      {"OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a number, found the end"},
-      {"OFF\n3 1 0\n0 0 0\n1 NaN 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a finite number"},
-      {head, ":5: ", "the file ends after 0 of 1 faces"},
-      {head + "2 0 1\n", ":6: ", "at least 3 vertices, found 2"},
-      {head + "3 0 1\n", ":6: ", "expected an integer, found the end"},
-      {head + "3 0 1 3\n", ":6: ", "the index 3 is out of range; vertices are numbered 0 to 2"},
-      {head + "3 0 1 -1\n", ":6: ", "the index -1 is out of range"},
-      {head + "3 0 1 x\n", ":6: ", "expected an integer, found \"x\""},
-      {head + "1000000000 0 1 2\n", ":6: ", "1000000000 corners are declared, but the file"},
-      {head + "3 0 1 2\n\n3 2 1 0\n", ":8: ", "expected the end of the file after the last face"},
-  };
-  for (const Malformed& malformed : cases) {
-    SCOPED_TRACE(malformed.content.substr(0, 200));
-    expect_error<InputError>([&] { off(malformed.content); },
-                             {path("soup.off") + malformed.place, malformed.message});
-  }
+  expect_malformed(
+      "soup.off", read_polygons,
+      {
+          {"", ":1: ", "it is empty"},
+          {std::string("\0\xff\xfe\x01 garbage\n", 13), ":1: ", "expected OFF, found \"????\""},
+          {"3 1 0\n0 0 0\n", ":1: ", "expected OFF, found \"3\""},
+          {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},
+          {"nOFF\n", ":1: ", "\"nOFF\" is not supported"},
+          {"OFF BINARY\n1234", ":1: ", "binary OFF"},
+          {"OFF\n", ":1: ", "the file ends before the number of vertices"},
+          {"OFF\nx 1 0\n", ":2: ", "expected an integer, found \"x\""},
+          {"OFF\n3\n0 0 0\n1 0 0\n0 1 0\n",
+           ":2: ", "expected an integer, found the end of the line"},
+          {"OFF\n-3 1 0\n", ":2: ", "-3 vertices are declared"},
+          {"OFF\n2000000000 1 0\n0 0 0\n",
+           ":2: ", "2000000000 vertices are declared, but the file"},
+          {"OFF\n3 2000000000 0\n0 0 0\n1 0 0\n0 1 0\n", ":2: ", "2000000000 faces are declared"},
+          {"OFF\n9999999999 1 0\n0 0 0\n", ":2: ", "more than this program can handle"},
+          {"OFF\n3 1 0\n0 0 0   \n1 0 0   \n", ":4: ", "the file ends after 2 of 3 vertices"},
+          {"OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a number, found the end"},
+          {"OFF\n3 1 0\n0 0 0\n1 NaN 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a finite number"},
+          {head, ":5: ", "the file ends after 0 of 1 faces"},
+          {head + "2 0 1\n", ":6: ", "at least 3 vertices, found 2"},
+          {head + "3 0 1\n", ":6: ", "expected an integer, found the end"},
+          {head + "3 0 1 3\n", ":6: ", "the index 3 is out of range; vertices are numbered 0 to 2"},
+          {head + "3 0 1 -1\n", ":6: ", "the index -1 is out of range"},
+          {head + "3 0 1 x\n", ":6: ", "expected an integer, found \"x\""},
+          {head + "1000000000 0 1 2\n", ":6: ", "1000000000 corners are declared, but the file"},
+          {head + "3 0 1 2\n\n3 2 1 0\n",
+           ":8: ", "expected the end of the file after the last face"},
+      });
 }
 
 // A cage as others write it: in single precision, each corner by itself.
@@ -244,16 +231,9 @@ TEST_F(PolygonFile, StlCages) {
 }
 
 TEST_F(PolygonFile, FilesThatCannotBeOpened) {
-  for (const std::string extension : {"obj", "off", "ply", "stl", "om"}) {
-    const auto missing = path("missing." + extension);
-    expect_error<IoError>([&] { read_polygons(missing); }, {missing, "No such file"});
-    const auto folder = path("folder." + extension);
-    std::filesystem::create_directory(folder);
-    expect_error<IoError>([&] { read_polygons(folder); }, {folder, "directory"});
-    if (extension == "om") continue;
-    const auto nowhere = path("no/file." + extension);
-    expect_error<IoError>([&] { write_model(nowhere, {awkward_soup()}); }, {nowhere});
-  }
+  expect_unopenable({"obj", "off", "ply", "stl"}, read_polygons,
+                    [](const auto& file) { write_model(file, {awkward_soup()}); });
+  expect_error<IoError>([&] { read_polygons(path("missing.om")); }, {"missing.om", "No such file"});
 }
 
 TEST_F(PolygonFile, PointsThatAreNotFiniteAreNotWritten) {

@@ -10,7 +10,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "support/io_files.h"
+#include "format_test.h"
 
 namespace flbc::io {
 namespace {
@@ -18,23 +18,19 @@ namespace {
 using flbc::testing::awkward_numbers;
 using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
-using flbc::testing::FolderTest;
+using flbc::testing::FormatTest;
+using flbc::testing::Malformed;
 
-// A file of weights and what the message about it must say besides the file's name.
-struct Malformed {
-  std::string content;
-  std::string place;
-  std::string message;
-};
-
-class WeightsFile : public FolderTest {
+class WeightsFile : public FormatTest {
  protected:
-  void expect_malformed(const std::string& name, const std::vector<Malformed>& cases) {
-    for (const Malformed& malformed : cases) {
-      SCOPED_TRACE(malformed.content.substr(0, 200));
-      const std::string file = make(name, malformed.content);
-      expect_error<InputError>([&] { read_weights(file); },
-                               {file + malformed.place, malformed.message});
+  void expect_malformed(const std::string& name, const std::vector<Malformed>& cases) const {
+    FormatTest::expect_malformed(name, read_weights, cases);
+  }
+  void expect_round_trips(const WeightMatrix& weights) const {
+    for (const std::string extension : {"mtx", "dmat", "npy", "NPY"}) {
+      const std::string file = path("weights." + extension);
+      write_weights(file, weights);
+      EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
     }
   }
 };
@@ -74,45 +70,20 @@ std::string npy(const std::string& dictionary, char version = 1) {
 }
 
 TEST_F(WeightsFile, RoundTripsAreBitEqual) {
-  const WeightMatrix weights = awkward_weights();
-  for (const std::string extension : kExtensions) {
-    const std::string file = path("weights." + extension);
-    write_weights(file, weights);
-    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
-  }
-}
-
-TEST_F(WeightsFile, RoundTripsOfRandomBits) {
-  WeightMatrix weights(7, 300);
+  expect_round_trips(awkward_weights());
+  WeightMatrix random(7, 300);
   std::uint64_t state = 1;
-  for (double& value : weights.reshaped()) {
+  for (double& value : random.reshaped()) {
     do {
       state = state * 6364136223846793005u + 1442695040888963407u;
       const std::uint64_t bits = state ^ (state >> 29);
       std::memcpy(&value, &bits, sizeof value);
     } while (!std::isfinite(value) || value == 0);
   }
-  for (const std::string extension : kExtensions) {
-    const std::string file = path("weights." + extension);
-    write_weights(file, weights);
-    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
+  expect_round_trips(random);
+  for (const auto& [controls, points] : {std::pair{1, 1}, {1, 5}, {5, 1}, {4, 0}, {0, 4}}) {
+    expect_round_trips(WeightMatrix::Constant(controls, points, 0.25));
   }
-}
-
-TEST_F(WeightsFile, RoundTripsOfDegenerateSizes) {
-  for (const std::string extension : kExtensions) {
-    const std::string file = path("weights." + extension);
-    for (const auto& [controls, points] : {std::pair{1, 1}, {1, 5}, {5, 1}, {4, 0}, {0, 4}}) {
-      const WeightMatrix weights = WeightMatrix::Constant(controls, points, 0.25);
-      write_weights(file, weights);
-      EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
-    }
-  }
-}
-
-TEST_F(WeightsFile, TheCaseOfTheExtensionDoesNotMatter) {
-  write_weights(path("weights.NPY"), small_weights());
-  EXPECT_TRUE(bit_equal(read_weights(path("weights.NPY")), small_weights()));
 }
 
 TEST_F(WeightsFile, SparseWeightsGiveTheSameFile) {
@@ -345,18 +316,8 @@ TEST_F(WeightsFile, OtherExtensionsAreRefused) {
 }
 
 TEST_F(WeightsFile, FilesThatCannotBeOpened) {
-  for (const std::string extension : kExtensions) {
-    const std::string missing = path("missing." + extension);
-    expect_error<IoError>([&] { read_weights(missing); }, {missing, "No such file"});
-    const std::string nowhere = path("missing/w." + extension);
-    expect_error<IoError>([&] { write_weights(nowhere, small_weights()); },
-                          {nowhere, "No such file"});
-    const std::string folder = path("folder." + extension);
-    std::filesystem::create_directory(folder);
-    expect_error<IoError>([&] { read_weights(folder); }, {folder, "Is a directory"});
-    expect_error<IoError>([&] { write_weights(folder, small_weights()); },
-                          {folder, "Is a directory"});
-  }
+  expect_unopenable({std::begin(kExtensions), std::end(kExtensions)}, read_weights,
+                    [](const auto& file) { write_weights(file, small_weights()); });
 }
 
 TEST_F(WeightsFile, WeightsThatAreNotFiniteAreNotWritten) {
@@ -381,11 +342,7 @@ TEST_F(WeightsFile, NumbersDoNotDependOnTheLocale) {
   const std::locale previous = std::locale::global(std::locale({}, new CommaAndGroups));
   const std::string c_locale = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
-  for (const std::string extension : kExtensions) {
-    const std::string file = path("weights." + extension);
-    write_weights(file, weights);
-    EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
-  }
+  expect_round_trips(weights);
   std::setlocale(LC_ALL, c_locale.c_str());
   std::locale::global(previous);
 }
