@@ -2,6 +2,7 @@
 #include "flbc/openmesh/gradient_problem.h"
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/LU>
@@ -14,30 +15,32 @@
 namespace flbc::openmesh {
 namespace {
 
-// h of (9): on each boundary facet, the tangential gradients of the boundary values.
+// Tangential projectors of all facets; on boundary facets h of (9), the tangential gradients of the
+// boundary values.
 template <int Dim>
-std::vector<VectorRows<Dim>> boundary_slopes(const LbcProblem<Dim>& problem) {
-  const Index n = problem.num_control_points();
-  const auto& facets = problem.topology.facets;
-  std::vector<VectorRows<Dim>> slopes(static_cast<std::size_t>(problem.topology.num_facets()));
-  for (Index f = 0; f < problem.topology.num_facets(); ++f) {
-    if (!problem.topology.is_boundary(f)) continue;
+void set_up_facets(GradientProblem<Dim>& problem) {
+  const auto& [topology, boundary, points] =
+      std::tie(problem.base.topology, problem.base.boundary, problem.base.mesh.points);
+  const auto num_facets = static_cast<std::size_t>(topology.num_facets());
+  problem.slope.resize(num_facets);
+  problem.projector.resize(num_facets);
+  for (Index f = 0; f < topology.num_facets(); ++f) {
+    const auto corners = topology.facets.col(f);
     Eigen::Matrix<double, Dim, Dim - 1> edges;
-    Eigen::MatrixXd corner_weights = Eigen::MatrixXd::Zero(n, Dim);
+    for (int k = 1; k < Dim; ++k)
+      edges.col(k - 1) = points.col(corners[k]) - points.col(corners[0]);
+    const Eigen::Matrix<double, Dim - 1, Dim - 1> products = edges.transpose() * edges;
+    const Eigen::Matrix<double, Dim, Dim - 1> inverse = edges * products.inverse();
+    problem.projector[f] = inverse * edges.transpose();
+    if (!topology.is_boundary(f)) continue;
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(problem.base.num_control_points(), Dim);
     for (int k = 0; k < Dim; ++k) {
-      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)],
-                               corner_weights.col(k));
-      if (k > 0) {
-        edges.col(k - 1) =
-            problem.mesh.points.col(facets(k, f)) - problem.mesh.points.col(facets(0, f));
-      }
+      boundary.scatter(boundary.boundary_index[corners[k]], weights.col(k));
     }
     const Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> differences =
-        corner_weights.template rightCols<Dim - 1>().colwise() - corner_weights.col(0);
-    const Eigen::Matrix<double, Dim - 1, Dim - 1> products = edges.transpose() * edges;
-    slopes[static_cast<std::size_t>(f)] = edges * products.inverse() * differences.transpose();
+        weights.template rightCols<Dim - 1>().colwise() - weights.col(0);
+    problem.slope[f] = inverse * differences.transpose();
   }
-  return slopes;
 }
 
 // (8) in an orthonormal basis. Centering the control points keeps their span and the gradients.
@@ -129,7 +132,7 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   Eigen::VectorXd measures(mesh.num_cells());
   for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = signed_measure(mesh, s);
   problem.radius *= measures.asDiagonal();
-  problem.slope = boundary_slopes(problem.base);
+  set_up_facets(problem);
   set_up_barycentric_conditions(problem);
   set_up_periods(problem);
   // As Method::kGradient chooses it; docs/method.md, section 7.

@@ -17,30 +17,16 @@ void TetMesh::assign(const DomainMesh<3>& mesh) {
   assign_valid(valid);
 }
 
-void TetMesh::assign(const PointList<3>& points, const CellList<3>& cells) {
-  assign(DomainMesh<3>{points, cells});
-}
-
 void TetMesh::assign_valid(const DomainMesh<3>& mesh) {
-  const auto num_vertices = static_cast<std::size_t>(mesh.num_vertices());
-  const auto num_cells = static_cast<std::size_t>(mesh.num_cells());
-  TetMesh built;
-  // A ball of tetrahedra has about twice as many faces as cells and, by Euler's formula, one edge
-  // per vertex more than cells.
-  built.reserve(num_vertices, num_cells + num_vertices + num_cells / 16,
-                2 * num_cells + num_cells / 8, num_cells);
+  static_cast<TetConnectivity&>(*this) = TetConnectivity(mesh);
+  points_.clear();
   for (const auto& point : mesh.points.colwise()) {
-    built.append_vertex();
-    built.points_.emplace_back(point[0], point[1], point[2]);
+    points_.emplace_back(point[0], point[1], point[2]);
   }
-  for (const auto& cell : mesh.cells.colwise()) {
-    built.append_cell({cell[0], cell[1], cell[2], cell[3]});
-  }
-  built.forget_tables();
-
-  static_cast<TetConnectivity&>(*this) = static_cast<TetConnectivity&&>(built);
-  points_ = std::move(built.points_);
-  resize_properties();
+  container<VertexHandle>().resize(n_vertices());
+  container<EdgeHandle>().resize(n_edges());
+  container<FaceHandle>().resize(n_faces());
+  container<CellHandle>().resize(n_cells());
 }
 
 DomainMesh<3> TetMesh::domain() const {
@@ -56,50 +42,6 @@ DomainMesh<3> TetMesh::domain() const {
     for (int k = 0; k < 4; ++k) result.cells(k, cell.idx()) = corners[k].idx();
   }
   return result;
-}
-
-void TetMesh::clear() {
-  static_cast<TetConnectivity&>(*this) = TetMesh();
-  points_.clear();
-  resize_properties();
-}
-
-void TetMesh::reserve(std::size_t vertices, std::size_t edges, std::size_t faces,
-                      std::size_t cells) {
-  TetConnectivity::reserve(vertices, edges, faces, cells);
-  points_.reserve(vertices);
-  properties_.of<VertexHandle>().reserve(vertices);
-  properties_.of<EdgeHandle>().reserve(edges);
-  properties_.of<FaceHandle>().reserve(faces);
-  properties_.of<CellHandle>().reserve(cells);
-}
-
-TetMesh::VertexHandle TetMesh::add_vertex(const Point& point) {
-  points_.push_back(point);
-  const VertexHandle vertex = append_vertex();
-  properties_.grow<VertexHandle>(n_vertices());
-  return vertex;
-}
-
-CellHandle TetMesh::add_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) {
-  const CellHandle cell = append_cell({a.idx(), b.idx(), c.idx(), d.idx()});
-  properties_.grow<EdgeHandle>(n_edges());
-  properties_.grow<FaceHandle>(n_faces());
-  properties_.grow<CellHandle>(n_cells());
-  return cell;
-}
-
-void TetMesh::resize_properties() {
-  properties_.of<VertexHandle>().resize(n_vertices());
-  properties_.of<EdgeHandle>().resize(n_edges());
-  properties_.of<FaceHandle>().resize(n_faces());
-  properties_.of<CellHandle>().resize(n_cells());
-}
-
-void TetMesh::swap(TetMesh& other) noexcept {
-  std::swap(static_cast<TetConnectivity&>(*this), static_cast<TetConnectivity&>(other));
-  points_.swap(other.points_);
-  properties_.swap(other.properties_);
 }
 
 }  // namespace flbc::openmesh

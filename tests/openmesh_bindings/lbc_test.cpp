@@ -113,7 +113,8 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   CellRows<TypeParam> handle;
   openmesh::PropertyOptions properties;
   properties.gradients = true;
-  for (const auto method : {Method::kValue, Method::kGradient, Method::kHarmonic}) {
+  for (const auto method :
+       {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
     SolverOptions options;
     options.method = method;
     openmesh::solve(mesh, sample.cage, options, properties);
@@ -139,34 +140,6 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   EXPECT_TRUE(mesh.get_property_handle(handle, openmesh::gradients_name()));
   openmesh::set_influences(mesh, SparseWeights(openmesh::get_weights(mesh)));
   EXPECT_FALSE(mesh.get_property_handle(handle, openmesh::gradients_name()));
-}
-
-TYPED_TEST(LbcTest, OtherFormsOfTheWeights) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  auto mesh = build<TypeParam>(sample.mesh);
-  openmesh::solve(mesh, sample.cage);
-  const auto weights = openmesh::get_weights(mesh);
-  openmesh::write_vectors(mesh, "dense");
-  openmesh::write_pairs(mesh, "sparse", 1e-4);
-  OpenMesh::VPropHandleT<std::vector<double>> dense;
-  OpenMesh::VPropHandleT<std::vector<double>> values;
-  OpenMesh::VPropHandleT<std::vector<std::uint32_t>> indices;
-  ASSERT_TRUE(mesh.get_property_handle(dense, "dense"));
-  ASSERT_TRUE(mesh.get_property_handle(values, "sparse_values"));
-  ASSERT_TRUE(mesh.get_property_handle(indices, "sparse_indices"));
-  for (const auto v : mesh.vertices()) {
-    Eigen::VectorXd from_pairs = Eigen::VectorXd::Zero(weights.rows());
-    for (std::size_t k = 0; k < mesh.property(indices, v).size(); ++k) {
-      from_pairs[mesh.property(indices, v)[k]] = mesh.property(values, v)[k];
-    }
-    const auto& row = mesh.property(dense, v);
-    ASSERT_EQ(static_cast<Eigen::Index>(row.size()), weights.rows());
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      EXPECT_EQ(row[i], weights(i, v.idx()));
-      EXPECT_EQ(from_pairs[i], weights(i, v.idx()) > 1e-4 ? weights(i, v.idx()) : 0);
-    }
-  }
 }
 
 // An affine motion of the cage moves every point along.

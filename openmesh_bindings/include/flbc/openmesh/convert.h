@@ -145,7 +145,8 @@ std::vector<OpenMesh::VertexHandle> outline_vertices(const Mesh& mesh) {
 }
 
 //! The boundary loops of a mesh in a plane as a cage; inner ones are holes. Facets have the
-//! orientation of the faces. \throws InputError if the mesh has deleted elements or is not in a plane z = const
+//! orientation of the faces.
+//! \throws InputError if the mesh has deleted elements or is not in a plane z = const
 template <class Mesh>
 Cage<2> to_outline(const Mesh& mesh) {
   internal::refuse_deleted_elements(mesh);

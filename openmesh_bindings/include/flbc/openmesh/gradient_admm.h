@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-
-#include <Eigen/Geometry>
+#include <tuple>
 
 #include "flbc/harmonic.h"
 #include "flbc/openmesh/gradient_problem.h"
@@ -82,9 +81,11 @@ class GradientAdmm {
     if (!(options.penalty >= 0 && alpha_ > 0 && alpha_ < 2)) {
       throw OptionError("GradientAdmm: invalid option; use a penalty >= 0, a relaxation in (0, 2)");
     }
-    resumed_ = attach(gradient_, kGradient, kDim) & attach(extrapolated_, kExtrapolated, kDim) &
-               attach(cell_dual_, kCellDual, kDim) & attach(facet_dual_, kFacetDual, kDim) &
-               attach(period_dual_, kPeriodDual, problem_.periods.size());
+    resumed_ = attach<CellRows>(gradient_, kGradient, kDim) &
+               attach<CellRows>(extrapolated_, kExtrapolated, kDim) &
+               attach<CellRows>(cell_dual_, kCellDual, kDim) &
+               attach<FacetRows>(facet_dual_, kFacetDual, kDim) &
+               attach<MeshRows>(period_dual_, kPeriodDual, problem_.periods.size());
     if (!resumed_) restart();
   }
 
@@ -121,8 +122,8 @@ class GradientAdmm {
 
   //! Writes the weights whose gradients are nearest to the present ones as a property.
   void recover_weights() {
-    const CellFieldView<double, kDim> gradients{mesh_.property(gradient_).data(),
-                                                static_cast<std::size_t>(n_), n_};
+    const CellFieldView<double, kDim> gradients{gradient_->data(), static_cast<std::size_t>(n_),
+                                                n_};
     set_weights(mesh_, integrate_least_squares(problem_.base, gradients), options_.weights,
                 options_.persistent);
     set_rest_cage(mesh_, problem_.base.cage.points, options_.weights, options_.persistent);
@@ -140,6 +141,8 @@ class GradientAdmm {
  private:
   using CellRows = typename Elements<Mesh>::template CellProperty<Wide<double>>;
   using FacetRows = typename Elements<Mesh>::template FacetProperty<Wide<double>>;
+  using MeshRows = OpenMesh::MPropHandleT<Wide<double>>;
+  using Property = OpenMesh::PropertyT<Wide<double>>;
 
   // Squared changes in one iteration, for the residuals.
   struct Change {
@@ -155,7 +158,7 @@ class GradientAdmm {
       const auto& h = problem_.slope[static_cast<std::size_t>(facet.idx())];
       if (h.size() == 0) return Change{};
       sum = facet_dual(facet) + mu_ * (h - rows(extrapolated_, sides(facet)[0]));
-      projected.noalias() = tangent_projector(facet).lazyProduct(sum);
+      projected.noalias() = projector(facet).lazyProduct(sum);
       return move(facet_dual(facet), projected, 1);
     });
   }
@@ -166,7 +169,7 @@ class GradientAdmm {
       if (!second.is_valid()) return Change{};
       sum = rows(extrapolated_, second) - rows(extrapolated_, first);
       sum = facet_dual(facet) + (mu_ / 2) * sum;
-      projected.noalias() = tangent_projector(facet).lazyProduct(sum);
+      projected.noalias() = projector(facet).lazyProduct(sum);
       return move(facet_dual(facet), projected, 2);
     });
   }
@@ -195,12 +198,12 @@ class GradientAdmm {
         mean += problem_.periods[p].field.col(cell.idx()) * period_duals().row(p);
       }
       auto g = gradient(cell), e = rows(extrapolated_, cell);
-      mean = g + mean / (mu_ * M_);
+      mean = g + (1 / (mu_ * M_)) * mean;
       const Eigen::Matrix<double, kDim, kDim + 1> excess =
           mean.lazyProduct(problem_.basis) - problem_.target;
       mean.noalias() -= excess.lazyProduct(problem_.basis.transpose());
       step = mean - g;
-      const Change change{0, step.squaredNorm(), (e - mean).squaredNorm()};
+      const Change change{0, step.squaredNorm(), alpha_ == 1 ? (e - mean).squaredNorm() : 0};
       e = mean + step;
       g += alpha_ * step;
       return change;
@@ -255,34 +258,25 @@ class GradientAdmm {
     return sum;
   }
 
-  // b b^T of an edge b, I - n n^T of a triangle with normal n.
-  Eigen::Matrix<double, kDim, kDim> tangent_projector(Facet facet) const {
-    const auto corners = Elements<Mesh>::corners(mesh_, facet);
-    const auto point = [&](int k) { return problem_.base.mesh.points.col(corners[k].idx()); };
-    const Vector<kDim> edge = point(1) - point(0);
-    if constexpr (kDim == 2) {
-      return edge * edge.transpose() / edge.squaredNorm();
-    } else {
-      const Vector<3> normal = edge.cross(Vector<3>(point(2) - point(0)));
-      return Eigen::Matrix3d::Identity() - normal * normal.transpose() / normal.squaredNorm();
-    }
+  Eigen::Map<Rows> rows(Property* property, OpenMesh::BaseHandle element) const {
+    return Eigen::Map<Rows>((*property)[element.idx()].data(), kDim, n_);
   }
-
-  template <class Handle>
-  Eigen::Map<Rows> rows(Handle handle, typename Handle::Handle element) const {
-    return Eigen::Map<Rows>(mesh_.property(handle, element).data(), kDim, n_);
+  const auto& projector(Facet facet) const {
+    return problem_.projector[static_cast<std::size_t>(facet.idx())];
   }
   auto sides(Facet facet) const {
     return Elements<Mesh>::sides(mesh_, facet);
   }
   auto period_duals() const {
-    return mesh_.mproperty(period_dual_)[0].matrix();
+    return (*period_dual_)[0].matrix();
   }
 
   template <class Handle>
-  bool attach(Handle& handle, const char* name, std::size_t components) {
-    return internal::attach_rows(mesh_, handle, name, components, static_cast<std::size_t>(n_),
-                                 options_.persistent);
+  bool attach(Property*& property, const char* name, std::size_t components) {
+    bool is_there;
+    std::tie(property, is_there) = internal::attach_rows<Handle>(
+        mesh_, name, components, static_cast<std::size_t>(n_), options_.persistent);
+    return is_there;
   }
 
   Mesh& mesh_;
@@ -292,9 +286,8 @@ class GradientAdmm {
   const double mu_, alpha_;
   const double M_;  // copies of a gradient
   bool resumed_ = false;
-  CellRows gradient_, extrapolated_, cell_dual_;
-  FacetRows facet_dual_;
-  OpenMesh::MPropHandleT<Wide<double>> period_dual_;
+  // Pointers, because OpenMesh finds a property by a dynamic cast on every access.
+  Property *gradient_, *extrapolated_, *cell_dual_, *facet_dual_, *period_dual_;
 };
 
 }  // namespace flbc::openmesh

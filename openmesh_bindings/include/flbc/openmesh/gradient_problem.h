@@ -29,6 +29,8 @@ struct GradientProblem {
   LbcProblem<Dim> base;                //!< not scaled
   Eigen::MatrixXd radius;              //!< n x F, phi A
   std::vector<VectorRows<Dim>> slope;  //!< per facet, empty inside: tangential gradients h of (9)
+  //! Per facet: onto its tangents.
+  std::vector<Eigen::Matrix<double, Dim, Dim>> projector;
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis;  //!< Q: orthonormal columns, span [1; c]
   Eigen::Matrix<double, Dim, Dim + 1> target;            //!< g Q for every g that satisfies (8)
   std::vector<PeriodConstraint<Dim>> periods;

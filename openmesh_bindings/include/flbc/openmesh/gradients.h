@@ -32,10 +32,11 @@ Eigen::Matrix<double, Dim, Eigen::Dynamic> gradients_on_cell(const DomainMesh<Di
 template <int Dim, class Mesh>
 void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const WeightMatrix& weights,
                    const std::string& name, bool persistent) {
-  typename Elements<Mesh>::template CellProperty<Wide<double>> handle;
-  attach_rows(mesh, handle, name, Dim, static_cast<std::size_t>(weights.rows()), persistent);
+  using Handle = typename Elements<Mesh>::template CellProperty<Wide<double>>;
+  const auto n = static_cast<std::size_t>(weights.rows());
+  auto& gradients = *attach_rows<Handle>(mesh, name, Dim, n, persistent).first;
   for (Index s = 0; s < domain.num_cells(); ++s) {
-    mesh.property(handle)[s].matrix() = gradients_on_cell(domain, s, weights);
+    gradients[s].matrix() = gradients_on_cell(domain, s, weights);
   }
 }
 

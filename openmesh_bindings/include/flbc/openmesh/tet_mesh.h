@@ -1,63 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A tetrahedral mesh in OpenMesh's manner: handles, ranges, circulators, properties.
+//! A tetrahedral mesh in the manner of OpenMesh: handles, ranges, circulators, properties.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include <OpenMesh/Core/Geometry/VectorT.hh>
+#include <OpenMesh/Core/Utils/PropertyContainer.hh>
 
 #include "flbc/domain_mesh.h"
 #include "flbc/openmesh/tet_connectivity.h"
-#include "flbc/openmesh/tet_properties.h"
-#include "flbc/openmesh/tet_property.h"
 
 namespace flbc::openmesh {
 
-//! Vertices with points, edges, faces and tetrahedra. It is made at once from a DomainMesh or by
-//! adding vertices and cells; there are no deleted elements: to remove some, build the mesh anew.
+//! Vertices with points, edges, faces, and tetrahedra, made from a DomainMesh. To add or remove
+//! elements, assign another one.
 //!
-//! Properties are OpenMesh's PropertyT in OpenMesh's PropertyContainer, for vertices, edges, faces
-//! (with OpenMesh's property handles), cells (CPropHandleT) and the mesh. They always have as many
-//! elements as the mesh. Where they are accessed no range check is performed.
+//! Properties are OpenMesh's PropertyT, with the property handles of OpenMesh for vertices, edges,
+//! faces, and the mesh, and CPropHandleT for cells. They always have as many elements as the mesh.
+//! Access performs no range check.
 class TetMesh : public TetConnectivity {
  public:
   using Point = OpenMesh::Vec3d;
 
+  TetMesh() = default;
+
   //! A mesh with these vertices and cells. \throws InputError as assign() does
   static TetMesh from(const DomainMesh<3>& mesh);
 
-  //! Replaces points and cells. Cells with negative volume are turned round (their last two
-  //! vertices change places). Properties stay and are resized: what the elements hold that there
-  //! were before is left as it was, new ones have default values.
+  //! Replaces points and cells. Cells with negative volume are turned (their last two vertices
+  //! change places). Properties stay and are resized: elements keep the values of their numbers,
+  //! and new elements have default values.
   //! \throws InputError naming the element, and changes nothing, if normalize_and_validate() does
   void assign(const DomainMesh<3>& mesh);
-  void assign(const PointList<3>& points, const CellList<3>& cells);
 
-  //! The same for a mesh that normalize_and_validate() has seen; only the connectivity is made.
-  //! \throws InputError, and changes nothing, if add_cell() would
+  //! The same for a mesh that normalize_and_validate() has accepted; makes only the connectivity.
   void assign_valid(const DomainMesh<3>& mesh);
 
   //! The points and cells in their order.
   DomainMesh<3> domain() const;
-
-  //! Removes all elements. Properties stay and are empty.
-  void clear();
-
-  //! Provides memory; adding fewer elements than this moves no properties.
-  void reserve(std::size_t vertices, std::size_t edges, std::size_t faces, std::size_t cells);
-
-  //! Adds a vertex that belongs to no cell yet.
-  VertexHandle add_vertex(const Point& point);
-
-  //! Adds a cell with those of its edges and faces that are not there yet. It should be positively
-  //! oriented: (b - a) x (c - a) . (d - a) > 0; geometry is not checked here.
-  //! \throws InputError, and changes nothing, if a vertex does not exist or occurs twice, or if a
-  //! face has two cells already
-  CellHandle add_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d);
 
   const Point& point(VertexHandle vertex) const { return points_[index(vertex)]; }
   Point& point(VertexHandle vertex) { return points_[index(vertex)]; }
@@ -66,63 +51,52 @@ class TetMesh : public TetConnectivity {
   //! The number of elements of a kind; 1 for OpenMesh::MeshHandle.
   template <class Handle>
   std::size_t n_elements() const {
-    if constexpr (std::is_same_v<Handle, VertexHandle>) {
-      return n_vertices();
-    } else if constexpr (std::is_same_v<Handle, EdgeHandle>) {
-      return n_edges();
-    } else if constexpr (std::is_same_v<Handle, FaceHandle>) {
-      return n_faces();
-    } else if constexpr (std::is_same_v<Handle, CellHandle>) {
-      return n_cells();
-    } else {
-      static_assert(std::is_same_v<Handle, OpenMesh::MeshHandle>, "there are no such elements");
-      return 1;
-    }
+    return std::array{n_vertices(), n_edges(), n_faces(), n_cells(),
+                      std::size_t{1}}[kind<Handle>()];
   }
 
   //! Adds a property with default values. \param handle  becomes valid
   template <class PropHandle>
   void add_property(PropHandle& handle, const std::string& name = "<unknown>") {
     using Handle = typename PropHandle::Handle;
-    auto& container = properties_.of<Handle>();
-    handle = PropHandle(container.add(typename PropHandle::Value(), name));
-    container.resize(n_elements<Handle>());
+    handle = PropHandle(container<Handle>().add(typename PropHandle::Value(), name));
+    container<Handle>().resize(n_elements<Handle>());
   }
 
   //! Removes a property with its data. \param handle  becomes invalid; an invalid one does nothing
   template <class PropHandle>
   void remove_property(PropHandle& handle) {
-    if (handle.is_valid()) properties_.of<typename PropHandle::Handle>().remove(handle);
+    if (handle.is_valid()) container<typename PropHandle::Handle>().remove(handle);
     handle.reset();
   }
 
-  //! Looks for a property with this name and the handle's type.
+  //! Looks for a property with this name and the type of the handle.
   //! \param handle  becomes invalid if there is none \return whether there is one
   template <class PropHandle>
   bool get_property_handle(PropHandle& handle, const std::string& name) const {
-    const auto& container = properties_.of<typename PropHandle::Handle>();
-    handle = PropHandle(container.handle(typename PropHandle::Value(), name));
+    const auto& properties = properties_[kind<typename PropHandle::Handle>()];
+    handle = PropHandle(properties.handle(typename PropHandle::Value(), name));
     return handle.is_valid();
   }
 
   //! The property itself; for a property of the mesh, its one value.
   template <class PropHandle>
   decltype(auto) property(PropHandle handle) {
-    return access<PropHandle>(properties_.of<typename PropHandle::Handle>().property(handle));
+    return access<PropHandle>(container<typename PropHandle::Handle>().property(handle));
   }
   template <class PropHandle>
   decltype(auto) property(PropHandle handle) const {
-    return access<PropHandle>(properties_.of<typename PropHandle::Handle>().property(handle));
+    return access<PropHandle>(properties_[kind<typename PropHandle::Handle>()].property(handle));
   }
 
   //! A property of the mesh itself, as a property with one element.
   template <class T>
   OpenMesh::PropertyT<T>& mproperty(OpenMesh::MPropHandleT<T> handle) {
-    return properties_.of<OpenMesh::MeshHandle>().property(handle);
+    return container<OpenMesh::MeshHandle>().property(handle);
   }
   template <class T>
   const OpenMesh::PropertyT<T>& mproperty(OpenMesh::MPropHandleT<T> handle) const {
-    return properties_.of<OpenMesh::MeshHandle>().property(handle);
+    return properties_[kind<OpenMesh::MeshHandle>()].property(handle);
   }
 
   //! A property's value for an element.
@@ -137,22 +111,25 @@ class TetMesh : public TetConnectivity {
     return property(handle)[element.idx()];
   }
 
-  //! The container of the properties of a kind of element; whoever adds to it resizes it.
-  template <class Handle>
-  OpenMesh::PropertyContainer& properties() {
-    return properties_.of<Handle>();
-  }
-  template <class Handle>
-  const OpenMesh::PropertyContainer& properties() const {
-    return properties_.of<Handle>();
-  }
-
-  //! Swaps points, cells and properties; pointers to the data of properties stay valid.
-  void swap(TetMesh& other) noexcept;
-  friend void swap(TetMesh& a, TetMesh& b) noexcept { a.swap(b); }
-
  private:
   static std::size_t index(VertexHandle vertex) { return static_cast<std::size_t>(vertex.idx()); }
+
+  template <class Handle>
+  static constexpr std::size_t kind() {
+    constexpr bool kKinds[] = {
+        std::is_same_v<Handle, VertexHandle>, std::is_same_v<Handle, EdgeHandle>,
+        std::is_same_v<Handle, FaceHandle>, std::is_same_v<Handle, CellHandle>,
+        std::is_same_v<Handle, OpenMesh::MeshHandle>};
+    std::size_t kind = 0;
+    while (kind < 5 && !kKinds[kind]) ++kind;
+    return kind;
+  }
+
+  template <class Handle>
+  OpenMesh::PropertyContainer& container() {
+    static_assert(kind<Handle>() < 5, "a tetrahedral mesh has vertices, edges, faces, cells only");
+    return properties_[kind<Handle>()];
+  }
 
   template <class PropHandle, class Property>
   static decltype(auto) access(Property& property) {
@@ -163,10 +140,8 @@ class TetMesh : public TetConnectivity {
     }
   }
 
-  void resize_properties();
-
   std::vector<Point> points_;
-  TetProperties properties_;
+  std::array<OpenMesh::PropertyContainer, 5> properties_;  // per kind of element
 };
 
 }  // namespace flbc::openmesh

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The ranges of loops over a TetMesh. A range is valid until the mesh gets or loses elements.
+//! The ranges of loops over a TetMesh. A range is valid until the mesh gets other elements.
 #pragma once
 
 #include <cstddef>
 #include <iterator>
 
-#include <OpenMesh/Core/Mesh/Handles.hh>
-
-#include "flbc/openmesh/tet_handles.h"
-
 namespace flbc::openmesh {
 
 namespace internal {
 
-//! The types of a forward iterator over handles; they are made on the fly, not stored.
+//! The types of a forward iterator over handles, which are made from numbers when they are read.
 template <class HandleType>
 struct HandleIterator {
   using iterator_category = std::forward_iterator_tag;
@@ -22,23 +18,6 @@ struct HandleIterator {
   using difference_type = std::ptrdiff_t;
   using pointer = const HandleType*;
   using reference = HandleType;
-};
-
-//! What an entry of the list of a vertex refers to: the cell with this corner, ...
-struct CellOfCorner {
-  using Handle = CellHandle;
-  Handle operator()(int corner) const { return Handle(corner / 4); }
-};
-//! ... the edge with this end, ...
-struct EdgeOfEnd {
-  using Handle = OpenMesh::EdgeHandle;
-  Handle operator()(int end) const { return Handle(end / 2); }
-};
-//! ... or the vertex at that edge's other end.
-struct OppositeEnd {
-  using Handle = OpenMesh::VertexHandle;
-  Handle operator()(int end) const { return Handle(edge_vertices[end ^ 1]); }
-  const int* edge_vertices = nullptr;
 };
 
 }  // namespace internal
@@ -70,7 +49,7 @@ class ElementRange {
   int size_;
 };
 
-//! A few neighbours whose indices stand side by side.
+//! The neighbors of an element.
 template <class Handle>
 class HandleRange {
  public:
@@ -91,6 +70,7 @@ class HandleRange {
   iterator begin() const { return iterator(first_); }
   iterator end() const { return iterator(first_ + size_); }
   std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
 
   //! No range check is performed.
   Handle operator[](std::size_t k) const { return Handle(first_[k]); }
@@ -98,53 +78,6 @@ class HandleRange {
  private:
   const int* first_;
   std::size_t size_;
-};
-
-//! The neighbours of a vertex: a closed list of which the vertex knows the last entry.
-template <class Convert>
-class ListRange {
- public:
-  using Handle = typename Convert::Handle;
-
-  class iterator : public internal::HandleIterator<Handle> {
-   public:
-    iterator() = default;
-    iterator(const int* next, int last, int entry, Convert convert)
-        : next_(next), last_(last), entry_(entry), convert_(convert) {}
-    Handle operator*() const { return convert_(entry_); }
-    iterator& operator++() {
-      entry_ = entry_ == last_ ? -1 : next_[entry_];
-      return *this;
-    }
-    iterator operator++(int) {
-      const iterator old = *this;
-      ++*this;
-      return old;
-    }
-    bool operator==(const iterator& other) const { return entry_ == other.entry_; }
-    bool operator!=(const iterator& other) const { return entry_ != other.entry_; }
-
-   private:
-    const int* next_ = nullptr;
-    int last_ = -1;
-    int entry_ = -1;  // -1 past the last one
-    Convert convert_;
-  };
-
-  //! \param next  entry -> entry \param last  -1 if the list is empty
-  ListRange(const int* next, int last, Convert convert = {})
-      : next_(next), last_(last), convert_(convert) {}
-  iterator begin() const { return iterator(next_, last_, last_ < 0 ? -1 : next_[last_], convert_); }
-  iterator end() const { return iterator(next_, last_, -1, convert_); }
-  bool empty() const { return last_ < 0; }
-
-  //! Walks the list.
-  std::size_t size() const { return static_cast<std::size_t>(std::distance(begin(), end())); }
-
- private:
-  const int* next_;
-  int last_;
-  Convert convert_;
 };
 
 }  // namespace flbc::openmesh

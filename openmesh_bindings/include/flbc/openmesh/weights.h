@@ -4,12 +4,9 @@
 //! forms: Wide<double>, a row of all n weights per vertex, or Influences, the few that are not 0.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <OpenMesh/Core/Utils/Property.hh>
 
@@ -64,24 +61,26 @@ WeightMatrix to_matrix(const InfluenceBlock& block);
 //! \param most  pairs per point; 0 = as many as the point with the most of them has
 InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
 
-//! Finds a wide property or adds it, and gives it a shape. \return whether it was there with this
-//! shape; else its numbers are 0
-template <class Mesh, class Handle>
-bool attach_rows(Mesh& mesh, Handle& handle, const std::string& name, std::size_t components,
-                 std::size_t width, bool persistent) {
-  const bool is_there = mesh.get_property_handle(handle, name);
+//! Finds a wide property or adds it, and gives it a shape. \return the property, and whether it was
+//! there with this shape; else its numbers are 0
+template <class Handle, class Mesh>
+std::pair<OpenMesh::PropertyT<Wide<double>>*, bool> attach_rows(Mesh& mesh, const std::string& name,
+                                                                std::size_t components,
+                                                                std::size_t width,
+                                                                bool persistent) {
+  Handle handle;
+  bool is_there = mesh.get_property_handle(handle, name);
   if (!is_there) mesh.add_property(handle, name);
-  const auto attach = [&](auto& property) {
-    property.set_persistent(persistent);
-    if (property.components() == components && property.width() == width) return is_there;
-    property.set_shape(components, width);
-    return false;
-  };
+  OpenMesh::PropertyT<Wide<double>>* property;
   if constexpr (std::is_same_v<typename Handle::Handle, OpenMesh::MeshHandle>) {
-    return attach(mesh.mproperty(handle));
+    property = &mesh.mproperty(handle);
   } else {
-    return attach(mesh.property(handle));
+    property = &mesh.property(handle);
   }
+  is_there = is_there && property->components() == components && property->width() == width;
+  if (!is_there) property->set_shape(components, width);
+  property->set_persistent(persistent);
+  return {property, is_there};
 }
 
 std::string name_of_cage(const std::string& weights);
@@ -162,47 +161,6 @@ WeightMatrix get_weights(const Mesh& mesh, const std::string& name = kWeights) {
     return internal::to_matrix(influences->data_vector());
   }
   return internal::to_matrix(weights_property(mesh, name).data_vector());
-}
-
-//! Writes the weights as VProp<std::vector<double>> of this name, for programs that know nothing of
-//! this library. \param persistent  whether .om files keep them
-template <class Mesh>
-void write_vectors(Mesh& mesh, const std::string& name, const std::string& from = kWeights,
-                   bool persistent = false) {
-  const auto weights = get_weights(mesh, from);
-  auto& vectors = internal::get_property<std::vector<double>>(mesh, name);
-  for (const auto v : mesh.vertices()) {
-    const auto column = weights.col(v.idx());
-    vectors[v.idx()].assign(column.data(), column.data() + column.size());
-  }
-  if (persistent) vectors.set_persistent(true);
-}
-
-//! Writes the weights above a threshold as VProp<std::vector<std::uint32_t>> name + "_indices" and
-//! VProp<std::vector<double>> name + "_values", control points ascending.
-//! \param threshold  of the absolute value; 0 keeps all that are not zero
-//! \param persistent  whether .om files keep them
-template <class Mesh>
-void write_pairs(Mesh& mesh, const std::string& name, double threshold = 0,
-                 const std::string& from = kWeights, bool persistent = false) {
-  const auto weights = get_weights(mesh, from);
-  auto& indices = internal::get_property<std::vector<std::uint32_t>>(mesh, name + "_indices");
-  auto& values = internal::get_property<std::vector<double>>(mesh, name + "_values");
-  for (const auto v : mesh.vertices()) {
-    auto& kept = indices[v.idx()];
-    auto& numbers = values[v.idx()];
-    kept.clear();
-    numbers.clear();
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      const double weight = weights(i, v.idx());
-      if (!(std::abs(weight) > threshold)) continue;
-      kept.push_back(static_cast<std::uint32_t>(i));
-      numbers.push_back(weight);
-    }
-  }
-  if (!persistent) return;
-  indices.set_persistent(true);
-  values.set_persistent(true);
 }
 
 //! Keeps where the control points rest with the weights, as MProp<Wide<double>> of one element: a

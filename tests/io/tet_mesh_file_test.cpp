@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/openmesh/tet_mesh_io.h"
-
+// Files of tetrahedral meshes with fields per vertex, and .vtu.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -8,10 +7,11 @@
 #include <vector>
 
 #include "flbc/errors.h"
+#include "flbc/io/mesh_io.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"
 
-namespace flbc::openmesh {
+namespace flbc {
 namespace {
 
 using flbc::testing::bit_equal;
@@ -22,25 +22,24 @@ using Names = std::vector<std::string>;
 class TetMeshFile : public FolderTest {
  protected:
   // Coordinates with all their digits.
-  static TetMesh awkward_mesh() {
+  static DomainMesh<3> awkward_mesh() {
     auto mesh = flbc::testing::samples<3>().front().mesh;
     for (Index v = 0; v < mesh.num_vertices(); ++v) {
       mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<3>::Constant(1e-9 * v);
     }
-    return TetMesh::from(mesh);
+    return mesh;
   }
 
-  static std::vector<io::VertexField> fields_of(const TetMesh& mesh) {
-    Eigen::VectorXd values = mesh.domain().points.row(0).transpose() / 7.0;
+  static std::vector<io::VertexField> fields_of(const DomainMesh<3>& mesh) {
+    Eigen::VectorXd values = mesh.points.row(0).transpose() / 7.0;
     const auto awkward = flbc::testing::awkward_numbers();
     for (std::size_t k = 0; k < awkward.size(); ++k) values[static_cast<Index>(k)] = awkward[k];
     return {{"weight 0", values}, {"<b> & \"c\" \\ # d ", -values}, {"\xc3\xa9", values / 3e9}};
   }
 
-  static void expect_equal(const TetMesh& a, const TetMesh& b) {
-    EXPECT_TRUE(bit_equal(a.domain().points, b.domain().points));
-    EXPECT_EQ(a.domain().cells, b.domain().cells);
-    EXPECT_EQ(a.n_faces(), b.n_faces());
+  static void expect_equal(const DomainMesh<3>& a, const DomainMesh<3>& b) {
+    EXPECT_TRUE(bit_equal(a.points, b.points));
+    EXPECT_EQ(a.cells, b.cells);
   }
 
   static void expect_equal(const std::vector<io::VertexField>& a,
@@ -54,38 +53,28 @@ class TetMeshFile : public FolderTest {
 
   void expect_reference_tetrahedron(const std::string& name, const std::string& content) const {
     SCOPED_TRACE(name);
-    const auto mesh = read_tet_mesh(make(name, content));
-    ASSERT_EQ(mesh.n_vertices(), 4u);
-    ASSERT_EQ(mesh.n_cells(), 1u);
-    EXPECT_EQ(mesh.n_faces(), 4u);
+    const auto mesh = io::read_domain<3>(make(name, content));
+    ASSERT_EQ(mesh.num_vertices(), 4);
+    ASSERT_EQ(mesh.num_cells(), 1);
     Eigen::Matrix<double, 3, 4> expected;
     expected << Vector<3>::Zero(), Eigen::Matrix3d::Identity();
-    EXPECT_TRUE(bit_equal(mesh.domain().points, expected));
+    EXPECT_TRUE(bit_equal(mesh.points, expected));
   }
 };
 
-TEST_F(TetMeshFile, EveryFormatIsBitEqual) {
-  const TetMesh mesh = awkward_mesh();
-  for (const char* name : {"a.mesh", "a.node", "a.ele", "a.msh", "a.vtu", "B.VTU"}) {
-    SCOPED_TRACE(name);
-    write_tet_mesh(path(name), mesh);
-    expect_equal(read_tet_mesh(path(name)), mesh);
-  }
-}
-
 TEST_F(TetMeshFile, BothVersionsOfGmsh) {
-  const TetMesh mesh = awkward_mesh();
-  write_tet_mesh(path("2.msh"), mesh, {}, io::GmshVersion::k22);
-  write_tet_mesh(path("4.msh"), mesh, {}, io::GmshVersion::k41);
+  const DomainMesh<3> mesh = awkward_mesh();
+  io::write_domain<3>(path("2.msh"), mesh, {}, io::GmshVersion::k22);
+  io::write_domain<3>(path("4.msh"), mesh, {}, io::GmshVersion::k41);
   EXPECT_EQ(content("2.msh").substr(0, 16), "$MeshFormat\n2.2 ");
   EXPECT_EQ(content("4.msh").substr(0, 16), "$MeshFormat\n4.1 ");
-  expect_equal(read_tet_mesh(path("2.msh")), mesh);
-  expect_equal(read_tet_mesh(path("4.msh")), mesh);
+  expect_equal(io::read_domain<3>(path("2.msh")), mesh);
+  expect_equal(io::read_domain<3>(path("4.msh")), mesh);
 }
 
 TEST_F(TetMeshFile, Gmsh4DescribesItsVolume) {
   const auto box = flbc::testing::make_sample<3>(flbc::testing::Shape::kBox, 2).mesh;
-  write_tet_mesh(path("d.msh"), TetMesh::from(box), {}, io::GmshVersion::k41);
+  io::write_domain<3>(path("d.msh"), box, {}, io::GmshVersion::k41);
   std::istringstream file(content("d.msh"));
   std::string line;
   while (line != "$Entities") ASSERT_TRUE(std::getline(file, line));
@@ -103,39 +92,39 @@ TEST_F(TetMeshFile, Gmsh4DescribesItsVolume) {
 }
 
 TEST_F(TetMeshFile, FieldsTravelAlong) {
-  const TetMesh mesh = awkward_mesh();
+  const DomainMesh<3> mesh = awkward_mesh();
   const auto fields = fields_of(mesh);
   for (const char* name : {"a.vtu", "b.mesh"}) {
     SCOPED_TRACE(name);
-    write_tet_mesh(path(name), mesh, fields);
+    io::write_domain<3>(path(name), mesh, fields);
     std::vector<io::VertexField> read = {{"old", {}}};
-    expect_equal(read_tet_mesh(path(name), read), mesh);
+    expect_equal(io::read_domain<3>(path(name), read), mesh);
     expect_equal(read, fields);
-    expect_equal(read_tet_mesh(path(name)), mesh);
+    expect_equal(io::read_domain<3>(path(name)), mesh);
   }
   EXPECT_EQ(names(), (Names{"a.vtu", "b.mesh", "b.sol"}));
   std::vector<io::VertexField> read = fields;
-  write_tet_mesh(path("c.mesh"), mesh);
-  read_tet_mesh(path("c.mesh"), read);
+  io::write_domain<3>(path("c.mesh"), mesh);
+  io::read_domain<3>(path("c.mesh"), read);
   EXPECT_TRUE(read.empty());
   EXPECT_EQ(names(), (Names{"a.vtu", "b.mesh", "b.sol", "c.mesh"}));
 }
 
 TEST_F(TetMeshFile, SolutionsOfOthers) {
-  write_tet_mesh(path("d.mesh"), TetMesh::from({Eigen::Matrix<double, 3, 4>::Identity().eval(),
-                                                CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
+  io::write_domain<3>(path("d.mesh"), DomainMesh<3>({Eigen::Matrix<double, 3, 4>::Identity().eval(),
+                                                     CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
   make("d.sol",
        "MeshVersionFormatted\n2\n\nDimension\n3\n# by hand\nSolAtTetrahedra 1 1 1 5\n"
        "SolAtVertices\n4\n2 1 1\n1 2 3\n4 5 6 7 8\n\nEnd\n");
   std::vector<io::VertexField> fields;
-  read_tet_mesh(path("d.mesh"), fields);
+  io::read_domain<3>(path("d.mesh"), fields);
   expect_equal(fields, {{"solution 0", Eigen::Vector4d(1, 3, 5, 7)},
                         {"solution 1", Eigen::Vector4d(2, 4, 6, 8)}});
 }
 
 TEST_F(TetMeshFile, MalformedSolutions) {
-  write_tet_mesh(path("d.mesh"), TetMesh::from({Eigen::Matrix<double, 3, 4>::Identity().eval(),
-                                                CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
+  io::write_domain<3>(path("d.mesh"), DomainMesh<3>({Eigen::Matrix<double, 3, 4>::Identity().eval(),
+                                                     CellList<3>(Eigen::Vector4i(0, 1, 2, 3))}));
   struct Malformed {
     std::string content, place, message;
   };
@@ -155,17 +144,18 @@ TEST_F(TetMeshFile, MalformedSolutions) {
     SCOPED_TRACE(malformed.content);
     make("d.sol", malformed.content);
     std::vector<io::VertexField> fields = {{"old", {}}};
-    expect_error<InputError>([&] { read_tet_mesh(path("d.mesh"), fields); },
+    expect_error<InputError>([&] { io::read_domain<3>(path("d.mesh"), fields); },
                              {path("d.sol") + malformed.place, malformed.message});
     EXPECT_EQ(fields.size(), 1u);
-    EXPECT_EQ(read_tet_mesh(path("d.mesh")).n_cells(), 1u);  // who asks for no fields needs none
+    EXPECT_EQ(io::read_domain<3>(path("d.mesh")).num_cells(),
+              1);  // who asks for no fields needs none
   }
 }
 
 TEST_F(TetMeshFile, MeditWritesBothFilesOrNone) {
-  const TetMesh mesh = awkward_mesh();
+  const DomainMesh<3> mesh = awkward_mesh();
   std::filesystem::create_directory(path("d.sol"));
-  expect_error<IoError>([&] { write_tet_mesh(path("d.mesh"), mesh, fields_of(mesh)); },
+  expect_error<IoError>([&] { io::write_domain<3>(path("d.mesh"), mesh, fields_of(mesh)); },
                         {path("d.sol"), "Is a directory"});
   EXPECT_EQ(names(), Names{"d.sol"});
 }
@@ -207,7 +197,7 @@ TEST_F(TetMeshFile, VtuFieldsOfOthers) {
           "<PointData>\n<DataArray Name=\"&lt;&#65;&#x42;&apos;&gt;\">1 2 3\n4</DataArray>\n"
           "<DataArray Name=\"v\" NumberOfComponents=\"3\" format=\"appended\"/>\n</PointData>\n"));
   std::vector<io::VertexField> fields;
-  read_tet_mesh(file, fields);
+  io::read_domain<3>(file, fields);
   expect_equal(fields, {{"<AB'>", Eigen::Vector4d(1, 2, 3, 4)}});
 }
 
@@ -254,21 +244,22 @@ TEST_F(TetMeshFile, MalformedVtu) {
   for (const Malformed& malformed : cases) {
     SCOPED_TRACE(malformed.content);
     const std::string file = make("d.vtu", malformed.content);
-    expect_error<InputError>([&] { read_tet_mesh(file); },
+    expect_error<InputError>([&] { io::read_domain<3>(file); },
                              {file + malformed.place, malformed.message});
   }
-  EXPECT_EQ(read_tet_mesh(make("d.vtu", good)).n_cells(), 1u);
+  EXPECT_EQ(io::read_domain<3>(make("d.vtu", good)).num_cells(), 1);
 }
 
 TEST_F(TetMeshFile, OtherFilesAreRefused) {
-  const TetMesh mesh = awkward_mesh();
-  expect_error<OptionError>([&] { read_tet_mesh(path("d.obj")); }, {"d.obj", ".mesh"});
-  expect_error<OptionError>([&] { write_tet_mesh(path("d.obj"), mesh); }, {"d.obj", ".mesh"});
-  expect_error<IoError>([&] { read_tet_mesh(path("missing.vtu")); }, {"missing.vtu", "No such"});
-  expect_error<OptionError>([&] { write_tet_mesh(path("d.msh"), mesh, fields_of(mesh)); },
+  const DomainMesh<3> mesh = awkward_mesh();
+  expect_error<OptionError>([&] { io::read_domain<3>(path("d.obj")); }, {"d.obj", ".mesh"});
+  expect_error<OptionError>([&] { io::write_domain<3>(path("d.obj"), mesh); }, {"d.obj", ".mesh"});
+  expect_error<IoError>([&] { io::read_domain<3>(path("missing.vtu")); },
+                        {"missing.vtu", "No such"});
+  expect_error<OptionError>([&] { io::write_domain<3>(path("d.msh"), mesh, fields_of(mesh)); },
                             {"d.msh", "fields"});
   EXPECT_TRUE(names().empty());
 }
 
 }  // namespace
-}  // namespace flbc::openmesh
+}  // namespace flbc
