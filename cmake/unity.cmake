@@ -9,7 +9,7 @@ function(flbc_optimise_lightly target)
 endfunction()
 
 # \param most  files in one unit
-function(flbc_compile_rooms_together target most)
+function(flbc_compile_in_units target most)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)
