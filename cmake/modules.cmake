@@ -27,7 +27,7 @@ function(flbc_add_module name)
     target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   endif()
 
-  # What the module shows to others is a folder of links.
+  # Other modules find the headers of this one in a folder of links.
   set(view ${flbc_MODULES}/${id})
   file(REMOVE_RECURSE ${view})
   cmake_path(GET name PARENT_PATH parent)
