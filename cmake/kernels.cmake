@@ -4,8 +4,8 @@
 include_guard(DIRECTORY)
 set(flbc_kernel_flags -O3 -fno-math-errno -fno-trapping-math -Wno-psabi)
 
-# One kernel of a module: NAME_baseline.cpp and, on x86-64, NAME_avx2.cpp and NAME_avx512.cpp.
-function(flbc_add_kernel target name)
+# One kernel of a module: NAME.inl, once for every instruction set.
+function(flbc_add_kernel target module name)
   set(flags_baseline "")
   set(flags_avx2 -mavx2 -mfma -mf16c)
   set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mfma -mf16c)
@@ -14,8 +14,11 @@ function(flbc_add_kernel target name)
     list(APPEND sets avx2 avx512)
   endif()
   foreach(set IN LISTS sets)
-    target_sources(${target} PRIVATE ${name}_${set}.cpp)
-    set_source_files_properties(${name}_${set}.cpp PROPERTIES
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_${set}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT
+      "#define FLBC_ISA ${set}\n#include \"${module}/${name}.inl\"\n")
+    target_sources(${target} PRIVATE ${source})
+    set_source_files_properties(${source} PROPERTIES
       COMPILE_OPTIONS "${flbc_kernel_flags};${flags_${set}}"
       SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()

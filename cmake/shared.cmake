@@ -1,7 +1,7 @@
-# Shared libraries, with -DBUILD_SHARED_LIBS=ON: they carry their version, find each other wherever
-# the tree is moved, and export what a public header names and nothing else. The linker sees to that
-# by the list of names that is made here: visibility attributes would have to stand at every
-# function, because those of a namespace do not reach templates that are defined in source files.
+# Shared libraries, with -DBUILD_SHARED_LIBS=ON. They carry their version, find each other after the
+# tree has moved, and export only the names of public headers, by a list for the linker. Visibility
+# attributes would be needed at every function, because the attribute of a namespace does not apply
+# to templates that source files define.
 if(NOT BUILD_SHARED_LIBS)
   return()
 endif()
@@ -12,7 +12,7 @@ endif()
 include(GNUInstallDirs)
 
 set(shared_libraries flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
-# Inner headers of the core that libraries beside it call.
+# Internal headers of the core that the other libraries use.
 set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
@@ -28,7 +28,7 @@ function(flbc_words_of headers result)
     list(APPEND words ${found})
   endforeach()
   list(REMOVE_DUPLICATES words)
-  # Namespaces: the names in them are told one by one, or are nobody's business.
+  # Namespaces would export all names in them.
   list(REMOVE_ITEM words flbc io openmesh distance)
   set(mangled)
   foreach(word IN LISTS words)

@@ -9,7 +9,7 @@ function(flbc_optimise_lightly target)
 endfunction()
 
 # \param most  files in one unit
-function(flbc_compile_rooms_together target most)
+function(flbc_compile_in_units target most)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)
@@ -27,7 +27,7 @@ function(flbc_compile_rooms_together target most)
   endforeach()
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${FLBC_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
-  # GCC takes files that a unit includes for headers, which had better have no anonymous namespaces.
+  # GCC treats the files of a unit as headers and warns about their anonymous namespaces.
   if(FLBC_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()

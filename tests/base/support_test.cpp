@@ -4,11 +4,11 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
@@ -40,11 +40,6 @@ double enclosed_measure(const Cage<Dim>& cage) {
   return sum;
 }
 
-template <class Dimension>
-class SupportTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SupportTest, Dimensions);
-
 // The ridges (vertices of edges, edges of triangles) of a closed, consistently oriented cage are
 // met exactly once in each direction.
 template <int Dim>
@@ -61,8 +56,7 @@ std::map<std::array<Index, 2>, std::array<int, 2>> ridge_counts(const Cage<Dim>&
   return counts;
 }
 
-TYPED_TEST(SupportTest, SampleCagesAreClosedAndOrientedOutwards) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, SampleCagesAreClosedAndOrientedOutwards) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     for (const auto& [ridge, counts] : ridge_counts(sample.cage)) {
@@ -74,8 +68,7 @@ TYPED_TEST(SupportTest, SampleCagesAreClosedAndOrientedOutwards) {
   }
 }
 
-TYPED_TEST(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
   const auto box = make_sample<Dim>(Shape::kBox, 2).cage;
   const auto corner = make_sample<Dim>(Shape::kCorner, 2).cage;
   const auto ring = make_sample<Dim>(Shape::kRing, 2).cage;
@@ -98,8 +91,7 @@ TYPED_TEST(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
 }
 
 // Each cell of a Kuhn triangulation contains the main diagonal of its cube.
-TYPED_TEST(SupportTest, BoxSampleIsAStructuredGrid) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, BoxSampleIsAStructuredGrid) {
   const auto mesh = make_sample<Dim>(Shape::kBox, 3).mesh;
   EXPECT_EQ(mesh.num_vertices(), Dim == 2 ? 16 : 64);
   EXPECT_EQ(mesh.num_cells(), Dim == 2 ? 2 * 9 : 6 * 27);
@@ -112,8 +104,7 @@ TYPED_TEST(SupportTest, BoxSampleIsAStructuredGrid) {
   }
 }
 
-TYPED_TEST(SupportTest, SampleMeshesAreConformingAndFillTheirCages) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, SampleMeshesAreConformingAndFillTheirCages) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto& mesh = sample.mesh;
@@ -144,8 +135,7 @@ TYPED_TEST(SupportTest, SampleMeshesAreConformingAndFillTheirCages) {
   }
 }
 
-TYPED_TEST(SupportTest, JitterIsReproducibleAndMovesInteriorVerticesOnly) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, JitterIsReproducibleAndMovesInteriorVerticesOnly) {
   const auto straight = make_sample<Dim>(Shape::kBox, 3).mesh;
   const auto moved = make_sample<Dim>(Shape::kBox, 3, 0.25).mesh;
   EXPECT_EQ(moved.points, make_sample<Dim>(Shape::kBox, 3, 0.25).mesh.points);
@@ -157,8 +147,7 @@ TYPED_TEST(SupportTest, JitterIsReproducibleAndMovesInteriorVerticesOnly) {
   EXPECT_THROW(make_sample<Dim>(Shape::kBox, 0), std::invalid_argument);
 }
 
-TYPED_TEST(SupportTest, JudgeAcceptsHarmonicCoordinates) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, JudgeAcceptsHarmonicCoordinates) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto judgement = judge<Dim>(sample.cage, sample.mesh, harmonic_weights(sample), 1e-12);
@@ -169,8 +158,7 @@ TYPED_TEST(SupportTest, JudgeAcceptsHarmonicCoordinates) {
   }
 }
 
-TYPED_TEST(SupportTest, JudgeSeesBrokenInteriorWeights) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, JudgeSeesBrokenInteriorWeights) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   const MatrixXd good = harmonic_weights(sample);
   const auto interior = interior_vertices(sample.mesh);
@@ -205,8 +193,7 @@ TYPED_TEST(SupportTest, JudgeSeesBrokenInteriorWeights) {
   EXPECT_TRUE(std::isinf(judgement.min_weight));
 }
 
-TYPED_TEST(SupportTest, JudgeSeesBrokenBoundaryWeights) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, JudgeSeesBrokenBoundaryWeights) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 3);
   const MatrixXd good = harmonic_weights(sample);
   Index control = -1;
@@ -236,8 +223,7 @@ TYPED_TEST(SupportTest, JudgeSeesBrokenBoundaryWeights) {
   EXPECT_THROW(judge<Dim>(sample.cage, mesh, good.topRows(2)), std::invalid_argument);
 }
 
-TYPED_TEST(SupportTest, ObjectiveOfBarycentricCoordinatesFollowsFromTheFacets) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, ObjectiveOfBarycentricCoordinatesFollowsFromTheFacets) {
   const auto sample = make_sample<Dim>(Shape::kSimplex, 3, 0.2);
   MatrixXd phi(Dim + 1, sample.mesh.num_cells());
   double expected = 0;  // A |grad w_i| is the facet opposite to c_i over Dim
@@ -252,8 +238,7 @@ TYPED_TEST(SupportTest, ObjectiveOfBarycentricCoordinatesFollowsFromTheFacets) {
   EXPECT_NEAR(testing::objective(sample.mesh, harmonic_weights(sample), phi), expected, 1e-12);
 }
 
-TYPED_TEST(SupportTest, MeanSquaredDifferenceCountsInteriorVerticesOnly) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SupportTest, MeanSquaredDifferenceCountsInteriorVerticesOnly) {
   const auto sample = make_sample<Dim>(Shape::kBox, 3);  // 2^Dim interior vertices
   const auto interior = interior_vertices(sample.mesh);
   const MatrixXd a = MatrixXd::Random(sample.cage.size(), sample.mesh.num_vertices());

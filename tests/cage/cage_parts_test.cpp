@@ -2,23 +2,14 @@
 #include "flbc/cage_facts.h"
 
 #include <numeric>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::join;
-using flbc::testing::reversed;
-
-template <class T>
-class CagePartsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CagePartsTest, Dimensions);
 
 // Numbers from first on, as many as a box has corners.
 template <int Dim>
@@ -33,8 +24,7 @@ Cage<Dim> box_beside(double low, double high) {
   return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
 }
 
-TYPED_TEST(CagePartsTest, NestsAndNeighbours) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CagePartsTest, NestsAndNeighbours) {
   constexpr Index n = 1 << Dim;
   // A nest of five boxes around the origin, of which two are holes, given from the middle outwards
   // and inwards; and two boxes beside it, one with a hole.
@@ -70,8 +60,7 @@ TYPED_TEST(CagePartsTest, NestsAndNeighbours) {
   expect_part(4, {6, 7}, volume(1) - volume(0.6));
 }
 
-TYPED_TEST(CagePartsTest, OnePartIsTheWhole) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CagePartsTest, OnePartIsTheWhole) {
   const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.5));
   const auto parts = cage_parts(cage);
   ASSERT_EQ(parts.size(), 1u);
@@ -80,4 +69,4 @@ TYPED_TEST(CagePartsTest, OnePartIsTheWhole) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

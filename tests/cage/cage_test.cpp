@@ -7,22 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::has_model;
-using flbc::testing::join;
-using flbc::testing::load_cage;
-using flbc::testing::reversed;
-using flbc::testing::without_facet;
 
 // True if some defect's message has all the pieces and concerns all the vertices.
 ::testing::AssertionResult reports(const std::vector<Defect>& defects,
@@ -43,21 +36,14 @@ using flbc::testing::without_facet;
   return ::testing::AssertionFailure() << "no such defect among:" << all;
 }
 
-template <class T>
-class CageTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CageTest, Dimensions);
-
-TYPED_TEST(CageTest, SizeIsTheDiagonalAndFollowsScaling) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, SizeIsTheDiagonalAndFollowsScaling) {
   const Cage<Dim> cage = box_cage<Dim>(1);
   EXPECT_DOUBLE_EQ(bounding_box_diagonal<Dim>(cage.points), 2 * std::sqrt(double(Dim)));
   EXPECT_DOUBLE_EQ(bounding_box_diagonal<Dim>(1e-9 * cage.points), 2e-9 * std::sqrt(double(Dim)));
   EXPECT_EQ(bounding_box_diagonal<Dim>(PointList<Dim>(Dim, 0)), 0);
 }
 
-TYPED_TEST(CageTest, SoundCagesHaveNoDefects) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, SoundCagesHaveNoDefects) {
   const Cage<Dim> box = box_cage<Dim>(1);
   const Cage<Dim> with_hole = join(box, box_cage<Dim>(0.25));
   for (const Cage<Dim>& cage :
@@ -70,8 +56,7 @@ TYPED_TEST(CageTest, SoundCagesHaveNoDefects) {
   EXPECT_TRUE(find_defects(tiny).empty());
 }
 
-TYPED_TEST(CageTest, ExtremeExtent) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, ExtremeExtent) {
   const auto scaled = [](double factor, double shift) {
     Cage<Dim> cage = box_cage<Dim>(1);
     cage.points = (factor * cage.points).array() + shift;
@@ -86,8 +71,7 @@ TYPED_TEST(CageTest, ExtremeExtent) {
   EXPECT_TRUE(reports(scaled(1e-6, -1e5), {"too far from the origin", "control point 0 at"}));
 }
 
-TYPED_TEST(CageTest, TooFewControlPointsOrFacets) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, TooFewControlPointsOrFacets) {
   Cage<Dim> cage;
   EXPECT_TRUE(reports(find_defects(cage), {"0 control points", std::to_string(Dim + 1)}));
   cage = box_cage<Dim>(1);
@@ -96,8 +80,7 @@ TYPED_TEST(CageTest, TooFewControlPointsOrFacets) {
       reports(find_defects(cage), {std::to_string(Dim) + (Dim == 2 ? " edges" : " triangles")}));
 }
 
-TYPED_TEST(CageTest, NumbersThatAreNotFinite) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, NumbersThatAreNotFinite) {
   for (double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Cage<Dim> cage = box_cage<Dim>(1);
     cage.points(1, 2) = bad;
@@ -106,8 +89,7 @@ TYPED_TEST(CageTest, NumbersThatAreNotFinite) {
   }
 }
 
-TYPED_TEST(CageTest, IndicesOutOfRange) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, IndicesOutOfRange) {
   for (Index bad : {-1, 1 << Dim}) {
     Cage<Dim> cage = box_cage<Dim>(1);
     cage.facets(1, 3) = bad;
@@ -117,15 +99,13 @@ TYPED_TEST(CageTest, IndicesOutOfRange) {
   }
 }
 
-TYPED_TEST(CageTest, FacetThatNamesAControlPointTwice) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, FacetThatNamesAControlPointTwice) {
   Cage<Dim> cage = box_cage<Dim>(1);
   cage.facets(Dim - 1, 2) = cage.facets(0, 2);
   EXPECT_TRUE(reports(find_defects(cage), {"twice", Dim == 2 ? "edge 2" : "triangle 2"}));
 }
 
-TYPED_TEST(CageTest, CoincidingControlPointsAreCalledUnwelded) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, CoincidingControlPointsAreCalledUnwelded) {
   const Cage<Dim> box = box_cage<Dim>(1);
   for (double gap : {0.0, 1e-11}) {
     Cage<Dim> cage = box;
@@ -139,8 +119,7 @@ TYPED_TEST(CageTest, CoincidingControlPointsAreCalledUnwelded) {
   EXPECT_TRUE(find_defects(close).empty());
 }
 
-TYPED_TEST(CageTest, UnreferencedControlPoint) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, UnreferencedControlPoint) {
   Cage<Dim> cage = box_cage<Dim>(1);
   cage.points.conservativeResize(Dim, cage.size() + 1);
   cage.points.col(cage.size() - 1).setConstant(0.125);
@@ -150,8 +129,7 @@ TYPED_TEST(CageTest, UnreferencedControlPoint) {
                       {last}));
 }
 
-TYPED_TEST(CageTest, FlatCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, FlatCage) {
   // Sheared, so that the flat direction is no axis.
   Cage<Dim> cage = box_cage<Dim>(1);
   cage.points.row(Dim - 1) = cage.points.row(0) * 0.7;
@@ -163,8 +141,7 @@ TYPED_TEST(CageTest, FlatCage) {
       reports(find_defects(cage), {"all control points lie in one", Dim == 2 ? "line" : "plane"}));
 }
 
-TYPED_TEST(CageTest, FacetThatOccursTwice) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, FacetThatOccursTwice) {
   Cage<Dim> cage = box_cage<Dim>(1);
   const Index first = 1, last = static_cast<Index>(cage.facets.cols());
   cage.facets.conservativeResize(Dim, last + 1);
@@ -172,8 +149,7 @@ TYPED_TEST(CageTest, FacetThatOccursTwice) {
   EXPECT_TRUE(reports(find_defects(cage), {"1 and " + std::to_string(last) + " are the same"}));
 }
 
-TYPED_TEST(CageTest, OpenCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, OpenCage) {
   const Cage<Dim> box = box_cage<Dim>(1);
   const std::vector<Defect> defects = find_defects(without_facet(box, 0));
   const std::size_t rims = Dim;  // a missing facet has Dim vertices (2D) or edges (3D)
@@ -189,8 +165,7 @@ TYPED_TEST(CageTest, OpenCage) {
   EXPECT_THROW(validate(without_facet(box, 0)), InputError);
 }
 
-TYPED_TEST(CageTest, LimitCutsTheListAndTheMostFundamentalComesFirst) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageTest, LimitCutsTheListAndTheMostFundamentalComesFirst) {
   Cage<Dim> cage = join(box_cage<Dim>(1), box_cage<Dim>(1));  // every control point twice
   EXPECT_EQ(find_defects(cage, 3).size(), 3u);
   cage.points(0, 0) = std::nan("");
@@ -296,4 +271,4 @@ TEST(RealCageTest, DefectiveOnes) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

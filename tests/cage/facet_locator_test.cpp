@@ -2,19 +2,14 @@
 #include "cage/facet_locator.h"
 
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
 namespace flbc {
 namespace {
-
-template <class T>
-class FacetLocatorTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(FacetLocatorTest, Dimensions);
 
 // A box with one more corner beside the last: in 3D two facets are needles of that width.
 Cage<2> box_with_short_edge(double width) {
@@ -49,8 +44,7 @@ Cage<Dim> narrow_cage(double width) {
 }
 
 // Points made of known coordinates in a facet are found on the cage, up to rounding.
-TYPED_TEST(FacetLocatorTest, PointsOnNeedlesAreWhereTheyAre) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(FacetLocatorTest, PointsOnNeedlesAreWhereTheyAre) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0, 1);
   for (const double width : {1e-2, 1e-4, 1e-6, 1e-8}) {

@@ -3,21 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <type_traits>
-
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::join;
-using flbc::testing::reversed;
-
-template <class T>
-class InsideTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(InsideTest, Dimensions);
 
 // The true answer for a nest of boxes around the origin with the given half sides.
 template <int Dim>
@@ -28,8 +18,7 @@ Containment expected(const Vector<Dim>& point, const std::vector<double>& halves
   return enclosing % 2 == 1 ? Containment::kInside : Containment::kOutside;
 }
 
-TYPED_TEST(InsideTest, NestsOfBoxesWhateverTheirOrientation) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(InsideTest, NestsOfBoxesWhateverTheirOrientation) {
   const std::vector<double> halves{1, 0.6, 0.3};
   const Cage<Dim> outer = box_cage<Dim>(1), middle = box_cage<Dim>(0.6), core = box_cage<Dim>(0.3);
   Cage<Dim> mixed = join(join(reversed(outer), middle), reversed(core));
@@ -52,8 +41,7 @@ TYPED_TEST(InsideTest, NestsOfBoxesWhateverTheirOrientation) {
   }
 }
 
-TYPED_TEST(InsideTest, PointsOnTheCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(InsideTest, PointsOnTheCage) {
   const Cage<Dim> cage = box_cage<Dim>(1);
   const CageLocator<Dim> locator(cage, 1e-9);
   for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
@@ -71,8 +59,7 @@ TYPED_TEST(InsideTest, PointsOnTheCage) {
   }
 }
 
-TYPED_TEST(InsideTest, ShellsAreNumberedInTheOrderOfTheirFacets) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(InsideTest, ShellsAreNumberedInTheOrderOfTheirFacets) {
   const Cage<Dim> box = box_cage<Dim>(1);
   const std::vector<Index> shells = facet_shells(join(join(box, box_cage<Dim>(0.5)), box));
   const auto count = static_cast<std::size_t>(box.facets.cols());
@@ -83,4 +70,4 @@ TYPED_TEST(InsideTest, ShellsAreNumberedInTheOrderOfTheirFacets) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -3,19 +3,14 @@
 
 #include <algorithm>
 #include <string>
-#include <type_traits>
 
 #include "flbc/meshing.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::has_model;
-using flbc::testing::join;
-using flbc::testing::load_cage;
 
 bool mentions(const Defect& defect, const std::string& text) {
   return defect.message.find(text) != std::string::npos;
@@ -32,20 +27,13 @@ Cage<2> loop(const PointList<2>& points) {
   return cage;
 }
 
-template <class T>
-class SelfIntersectionTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SelfIntersectionTest, Dimensions);
-
-TYPED_TEST(SelfIntersectionTest, SoundCagesHaveNone) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SelfIntersectionTest, SoundCagesHaveNone) {
   const Cage<Dim> box = box_cage<Dim>(1);
   EXPECT_TRUE(find_self_intersections(box).empty());
   EXPECT_TRUE(find_self_intersections(join(box, box_cage<Dim>(0.999999))).empty());
 }
 
-TYPED_TEST(SelfIntersectionTest, OverlappingBoxes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SelfIntersectionTest, OverlappingBoxes) {
   const Cage<Dim> box = box_cage<Dim>(1);
   Cage<Dim> shifted = box;
   for (int axis = 0; axis < Dim; ++axis) {
@@ -64,8 +52,7 @@ TYPED_TEST(SelfIntersectionTest, OverlappingBoxes) {
   EXPECT_EQ(find_self_intersections(both, 1).size(), 1u);
 }
 
-TYPED_TEST(SelfIntersectionTest, CornerOnAFacetTouches) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SelfIntersectionTest, CornerOnAFacetTouches) {
   // An inner simplex whose last corner lies exactly on the side x = 1.
   Cage<Dim> cage = box_cage<Dim>(1);
   Cage<Dim> inner;
@@ -139,4 +126,4 @@ TEST(SelfIntersectionRealTest, RealCages) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

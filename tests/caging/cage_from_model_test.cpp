@@ -5,7 +5,6 @@
 #include <limits>
 #include <random>
 #include <string>
-#include <type_traits>
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -13,13 +12,12 @@
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using namespace flbc::testing;
 
 template <int Dim>
 void expect_cage_of(const Cage<Dim>& model, const CagingOptions& options,
@@ -72,13 +70,7 @@ Cage<Dim> soup(Index count) {
   return facets;
 }
 
-template <class T>
-class CageFromModelTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CageFromModelTest, Dimensions);
-
-TYPED_TEST(CageFromModelTest, EnclosesWithAtMostSoManyControlPoints) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, EnclosesWithAtMostSoManyControlPoints) {
   const auto model = crossed_bars<Dim>();
   for (const Index count : {Dim + 1, 2 * Dim + 2, 20, 60}) {
     CagingOptions options;
@@ -87,8 +79,7 @@ TYPED_TEST(CageFromModelTest, EnclosesWithAtMostSoManyControlPoints) {
   }
 }
 
-TYPED_TEST(CageFromModelTest, MoreControlPointsFollowTheModelMoreClosely) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, MoreControlPointsFollowTheModelMoreClosely) {
   const auto model = crossed_bars<Dim>();
   double previous = std::numeric_limits<double>::infinity();
   for (const Index count : {8, 24, 80}) {
@@ -101,8 +92,7 @@ TYPED_TEST(CageFromModelTest, MoreControlPointsFollowTheModelMoreClosely) {
   EXPECT_LT(previous, 0.03 * bounding_box_diagonal<Dim>(model.points));
 }
 
-TYPED_TEST(CageFromModelTest, AnyStateOfTheModel) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, AnyStateOfTheModel) {
   const auto box = box_cage<Dim>(1);
   auto far = box_cage<Dim>(0.3);
   far.points.array() += 3;
@@ -128,16 +118,14 @@ TYPED_TEST(CageFromModelTest, AnyStateOfTheModel) {
   }
 }
 
-TYPED_TEST(CageFromModelTest, FlatModels) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, FlatModels) {
   Cage<Dim> flat{PointList<Dim>::Zero(Dim, Dim), FacetList<Dim>(Dim, 1)};
   for (int k = 0; k < Dim; ++k) flat.facets(k, 0) = k;
   for (int k = 1; k < Dim; ++k) flat.points(k, k) = k;
   make(flat, {});
 }
 
-TYPED_TEST(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
   // Symmetric across x = 0.5 only.
   auto model = join(crossed_bars<Dim>(), box_cage<Dim>(0.3));
   model.points.bottomRightCorner(Dim - 1, box_cage<Dim>(1).size()).array() += 0.9;
@@ -163,16 +151,14 @@ TYPED_TEST(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
   EXPECT_EQ(make(model, free).symmetry_axis, -1);
 }
 
-TYPED_TEST(CageFromModelTest, SameInputSameCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, SameInputSameCage) {
   const auto model = crossed_bars<Dim>();
   const auto one = make(model, {}).cage, other = make(model, {}).cage;
   EXPECT_EQ(one.points, other.points);
   EXPECT_EQ(one.facets, other.facets);
 }
 
-TYPED_TEST(CageFromModelTest, UnitsDoNotMatter) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, UnitsDoNotMatter) {
   const auto model = crossed_bars<Dim>();
   const auto cage = make(model, {}).cage;
   for (const double unit : {0x1p-80, 0x1p60}) {
@@ -182,8 +168,7 @@ TYPED_TEST(CageFromModelTest, UnitsDoNotMatter) {
   }
 }
 
-TYPED_TEST(CageFromModelTest, OffsetIsADistance) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, OffsetIsADistance) {
   const auto model = box_cage<Dim>(1);
   CagingOptions options;
   options.offset = 0.5;
@@ -192,16 +177,14 @@ TYPED_TEST(CageFromModelTest, OffsetIsADistance) {
   EXPECT_LT(cage.points.maxCoeff(), 2.5);
 }
 
-TYPED_TEST(CageFromModelTest, CagesCanBeMeshed) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, CagesCanBeMeshed) {
   const auto cage = make(crossed_bars<Dim>(), {}).cage;
   if constexpr (Dim == 2) {
     EXPECT_GT(triangulate(cage, {500}).num_cells(), 0);
   }
 }
 
-TYPED_TEST(CageFromModelTest, RefusesWhatHasNoCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   const auto model = box_cage<Dim>(1);
   CagingOptions options;
   options.control_points = Dim;
@@ -232,4 +215,4 @@ TEST(CageFromRealModelTest, RealModels) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -6,20 +6,18 @@
 #include <limits>
 #include <set>
 #include <string>
-#include <type_traits>
 
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 #include "flbc/repair_cage.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using namespace flbc::testing;
 
 template <int Dim>
 RepairedCage<Dim> repair(const Cage<Dim>& cage) {
@@ -58,13 +56,7 @@ void expect_box(const Cage<Dim>& cage) {
   EXPECT_NEAR(measure_cage(cage).measure, std::pow(2.0, Dim), 1e-9);
 }
 
-template <class T>
-class RepairCageTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(RepairCageTest, Dimensions);
-
-TYPED_TEST(RepairCageTest, SoundCagesStayAsTheyAre) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, SoundCagesStayAsTheyAre) {
   const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.5));
   const auto repaired = repair(cage);
   EXPECT_TRUE(repaired.changes.empty());
@@ -74,8 +66,7 @@ TYPED_TEST(RepairCageTest, SoundCagesStayAsTheyAre) {
 }
 
 // Every facet has corners of its own, some of them a little off.
-TYPED_TEST(RepairCageTest, UnweldedCagesAreWelded) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, UnweldedCagesAreWelded) {
   const auto box = box_cage<Dim>(1);
   const auto count = static_cast<Index>(box.facets.cols());
   Cage<Dim> loose{PointList<Dim>(Dim, Dim * count), FacetList<Dim>(Dim, count)};
@@ -95,8 +86,7 @@ TYPED_TEST(RepairCageTest, UnweldedCagesAreWelded) {
   EXPECT_NEAR(measure_cage(repaired.cage).measure, std::pow(2.0, Dim), 1e-6);
 }
 
-TYPED_TEST(RepairCageTest, RepeatedAndDegenerateFacetsGo) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, RepeatedAndDegenerateFacetsGo) {
   const auto box = box_cage<Dim>(1);
   const auto count = box.facets.cols();
   auto cage = box;
@@ -112,16 +102,14 @@ TYPED_TEST(RepairCageTest, RepeatedAndDegenerateFacetsGo) {
                    kind<Dim>() + std::to_string(count + 1) + " has the same corner twice"));
 }
 
-TYPED_TEST(RepairCageTest, HolesAreClosed) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, HolesAreClosed) {
   const auto repaired = repair(without_facet(box_cage<Dim>(1), 1));
   EXPECT_TRUE(repaired.keeps_numbers);
   EXPECT_EQ(repaired.changes.size(), 1u);
   expect_box(repaired.cage);
 }
 
-TYPED_TEST(RepairCageTest, FlapsGo) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, FlapsGo) {
   auto cage = box_cage<Dim>(1);
   const Index flap = static_cast<Index>(cage.facets.cols());
   cage.points.conservativeResize(Dim, cage.size() + 1);
@@ -136,8 +124,7 @@ TYPED_TEST(RepairCageTest, FlapsGo) {
   expect_box(repaired.cage);
 }
 
-TYPED_TEST(RepairCageTest, CagesThatIntersectThemselvesAreWrapped) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, CagesThatIntersectThemselvesAreWrapped) {
   auto other = box_cage<Dim>(1);
   other.points.array() += 0.7;
   const auto both = join(box_cage<Dim>(1), other);
@@ -150,8 +137,7 @@ TYPED_TEST(RepairCageTest, CagesThatIntersectThemselvesAreWrapped) {
   EXPECT_EQ(count_crossings(both, repaired.cage), 0);
 }
 
-TYPED_TEST(RepairCageTest, RefusesWhatIsNoCage) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(RepairCageTest, RefusesWhatIsNoCage) {
   auto cage = box_cage<Dim>(1);
   cage.facets.resize(Dim, 0);
   EXPECT_THROW(repair_cage(cage), InputError);
@@ -207,4 +193,4 @@ TEST(RepairRealCageTest, RealCages) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

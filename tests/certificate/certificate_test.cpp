@@ -5,19 +5,19 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "polytope/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
 #include "mesh/cell_geometry.h"
+#include "polytope/vertex_linear_program.h"
+#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 #include "support/judge.h"
@@ -25,11 +25,6 @@
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class CertificateTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CertificateTest, Dimensions);
 
 // A cell field, padded by three numbers of rubbish per component.
 template <class Scalar, int Dim>
@@ -95,26 +90,25 @@ WeightMatrix feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   return weights;
 }
 
-TYPED_TEST(CertificateTest, LinearProgramFindsTheBestVertex) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CertificateTest, LinearProgramFindsTheBestVertex) {
   Numbers numbers(5);
-  for (int n = kDim + 1; n <= 9; ++n) {
+  for (int n = Dim + 1; n <= 9; ++n) {
     SCOPED_TRACE(n);
     for (int trial = 0; trial < 60; ++trial) {
-      PointList<kDim> control_points = numbers.matrix(kDim, n, -1, 1);
+      PointList<Dim> control_points = numbers.matrix(Dim, n, -1, 1);
       // Control points in few places and planes make many ties.
       if (trial % 3 == 0) control_points = (2 * control_points).array().round() / 2;
       Eigen::VectorXd weights = numbers.convex(n);
       if (trial % 4 == 1) weights = Eigen::VectorXd::Unit(n, numbers.below(n));
-      const Vector<kDim> point = control_points * weights;
-      const auto vertices = feasible_vertices<kDim>(control_points, point, 1e-12);
+      const Vector<Dim> point = control_points * weights;
+      const auto vertices = feasible_vertices<Dim>(control_points, point, 1e-12);
       if (vertices.empty()) continue;  // the control points lie in a plane
       Eigen::VectorXd costs = numbers.matrix(n, 1, -1, 1);
       if (trial % 5 == 0) costs = (2 * costs).array().round();
       double least = std::numeric_limits<double>::infinity();
       for (const auto& vertex : vertices) least = std::min(least, costs.dot(vertex));
 
-      VertexLinearProgram<kDim> program(control_points);
+      VertexLinearProgram<Dim> program(control_points);
       const Eigen::VectorXd useless = numbers.matrix(n, 1, -1, 1);
       for (const Eigen::VectorXd& start :
            {weights, vertices.back(), useless, Eigen::VectorXd::Zero(n).eval()}) {
@@ -126,29 +120,27 @@ TYPED_TEST(CertificateTest, LinearProgramFindsTheBestVertex) {
   }
 }
 
-TYPED_TEST(CertificateTest, LinearProgramIsOptimalForManyControlPoints) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CertificateTest, LinearProgramIsOptimalForManyControlPoints) {
   Numbers numbers(6);
-  const PointList<kDim> control_points = numbers.matrix(kDim, 250, -1, 1);
-  VertexLinearProgram<kDim> program(control_points);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 250, -1, 1);
+  VertexLinearProgram<Dim> program(control_points);
   for (int trial = 0; trial < 50; ++trial) {
     // Costs that are an affine function f, except for a few which are larger: the minimum is f(x).
-    const Eigen::VectorXd slope = numbers.matrix(kDim, 1, -1, 1);
+    const Eigen::VectorXd slope = numbers.matrix(Dim, 1, -1, 1);
     Eigen::VectorXd costs = control_points.transpose() * slope;
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(250);
     weights.head(240) = numbers.convex(240);
     costs.tail(10) += numbers.matrix(10, 1, 0, 1);
-    const Vector<kDim> point = control_points * weights;
+    const Vector<Dim> point = control_points * weights;
     const double bound = program.lower_bound(point, costs, numbers.convex(250));
     EXPECT_LE(bound, slope.dot(point) + 1e-15);
     EXPECT_GE(bound, slope.dot(point) - 1e-12);
   }
 }
 
-TYPED_TEST(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
   Numbers numbers(8);
-  for (const auto& sample : samples<kDim>()) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     const Index n = problem.num_control_points();
@@ -156,16 +148,16 @@ TYPED_TEST(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
     std::vector<WeightMatrix> others{harmonic};
     for (int k = 0; k < 2; ++k) {
       others.push_back(
-          feasible<kDim>(problem, numbers.matrix(n, problem.mesh.num_vertices(), -1, 1)));
+          feasible<Dim>(problem, numbers.matrix(n, problem.mesh.num_vertices(), -1, 1)));
     }
     double least = std::numeric_limits<double>::infinity();
     for (const auto& weights : others) {
       least = std::min(least, testing::objective(problem.mesh, weights, problem.phi.dense()));
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    Field<double, kDim> field(problem);
+    Field<double, Dim> field(problem);
     for (const double size : {0.0, 1e-3, 1.0, 1e3, 1e100, 1e300, nan}) {
-      field.fill([&](Index, Index) { return numbers.matrix(kDim, 1, -size, size); });
+      field.fill([&](Index, Index) { return numbers.matrix(Dim, 1, -size, size); });
       const double bound = lower_bound(problem, field.view, harmonic);
       EXPECT_GE(bound, 0);
       EXPECT_LE(bound, least * (1 + 1e-12));
@@ -182,12 +174,11 @@ TYPED_TEST(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
 
 // sum over v of w(v) D p(v) is what it is, also for a flux that is admissible and weights that
 // attain every minimum: in a simplex there is only one feasible w, the linear one.
-TYPED_TEST(CertificateTest, BoundIsTheOptimumInASimplex) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CertificateTest, BoundIsTheOptimumInASimplex) {
   Numbers numbers(9);
-  const auto sample = make_sample<kDim>(Shape::kSimplex, 5, 0.2);
+  const auto sample = make_sample<Dim>(Shape::kSimplex, 5, 0.2);
   auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  Eigen::MatrixXd phi = numbers.matrix(kDim + 1, problem.mesh.num_cells(), 0, 1);
+  Eigen::MatrixXd phi = numbers.matrix(Dim + 1, problem.mesh.num_cells(), 0, 1);
   phi.col(0).setZero();
   phi.col(1).setConstant(1e-300);
   problem.phi = phi;
@@ -206,15 +197,15 @@ TYPED_TEST(CertificateTest, BoundIsTheOptimumInASimplex) {
   EXPECT_GE(bound, optimum * (1 - 1e-11));
 
   // A useless guess at the weights changes nothing; nor does the sign of a non-finite vector.
-  const WeightMatrix useless = WeightMatrix::Constant(kDim + 1, weights.cols(), -1);
+  const WeightMatrix useless = WeightMatrix::Constant(Dim + 1, weights.cols(), -1);
   EXPECT_GE(lower_bound(problem, field.view, useless), optimum * (1 - 1e-11));
 
   // Another flux: the dual function is the sum of p . grad w, which may be below 0 and counts as 0.
   double expected = 0;
   field.fill([&](Index s, Index i) {
     const double radius = problem.phi(i, s) * signed_measure(problem.mesh, s);
-    const Vector<kDim> gradient = gradient_of(problem.mesh, weights, s, i);
-    const Vector<kDim> p = (radius * numbers.uniform(0, 1) / gradient.norm()) * gradient;
+    const Vector<Dim> gradient = gradient_of(problem.mesh, weights, s, i);
+    const Vector<Dim> p = (radius * numbers.uniform(0, 1) / gradient.norm()) * gradient;
     expected += p.dot(gradient);
     return p;
   });
@@ -223,26 +214,24 @@ TYPED_TEST(CertificateTest, BoundIsTheOptimumInASimplex) {
   EXPECT_EQ(lower_bound(problem, field.view, weights), 0);
 }
 
-TYPED_TEST(CertificateTest, VectorsThatAreNotFiniteCountAsZero) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(CertificateTest, VectorsThatAreNotFiniteCountAsZero) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto weights = harmonic_coordinates(problem);
   auto broken = aligned_flux<float>(problem, weights);
   auto zeroed = aligned_flux<float>(problem, weights);
   for (Index s = 0; s < problem.mesh.num_cells(); s += 7) {
-    broken.at(s, s % kDim, 1) = s % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                           : -std::numeric_limits<float>::infinity();
-    for (int d = 0; d < kDim; ++d) zeroed.at(s, d, 1) = 0;
+    broken.at(s, s % Dim, 1) = s % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                          : -std::numeric_limits<float>::infinity();
+    for (int d = 0; d < Dim; ++d) zeroed.at(s, d, 1) = 0;
   }
   const double bound = lower_bound(problem, zeroed.view, weights);
   EXPECT_GT(bound, 0);
   EXPECT_EQ(lower_bound(problem, broken.view, weights), bound);
 }
 
-TYPED_TEST(CertificateTest, ThreadsDoNotMatter) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 12 : 5, 0.2);
+TEST_IN_2D_AND_3D(CertificateTest, ThreadsDoNotMatter) {
+  const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 12 : 5, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   ASSERT_GT(problem.mesh.num_vertices(), 512);  // enough for several threads
   const auto weights = harmonic_coordinates(problem);
@@ -256,10 +245,9 @@ TYPED_TEST(CertificateTest, ThreadsDoNotMatter) {
   EXPECT_EQ(bounds[0], bounds[2]);
 }
 
-TYPED_TEST(CertificateTest, CertifyMakesWeightsFeasible) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CertificateTest, CertifyMakesWeightsFeasible) {
   Numbers numbers(10);
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
   const auto harmonic = harmonic_coordinates(problem);
   const auto field = aligned_flux<double>(problem, harmonic);
@@ -274,21 +262,19 @@ TYPED_TEST(CertificateTest, CertifyMakesWeightsFeasible) {
   const WeightMatrix spoilt =
       harmonic + numbers.matrix(harmonic.rows(), harmonic.cols(), -0.5, 0.5);
   const auto mended = certify(problem, field.view, spoilt);
-  EXPECT_NEAR(
-      mended.objective,
-      testing::objective(problem.mesh, feasible<kDim>(problem, spoilt), problem.phi.dense()),
-      1e-12 * mended.objective);
+  EXPECT_NEAR(mended.objective,
+              testing::objective(problem.mesh, feasible<Dim>(problem, spoilt), problem.phi.dense()),
+              1e-12 * mended.objective);
   EXPECT_GT(mended.objective, sound.objective);
   // The linear programs end at the same minimum, wherever they start.
   EXPECT_NEAR(mended.lower_bound, sound.lower_bound, 1e-10 * sound.objective);
 }
 
-TYPED_TEST(CertificateTest, SizesThatDoNotFitAreErrors) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 3, 0.2);
+TEST_IN_2D_AND_3D(CertificateTest, SizesThatDoNotFitAreErrors) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 3, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const auto weights = harmonic_coordinates(problem);
-  Field<double, kDim> field(problem);
+  Field<double, Dim> field(problem);
   const Index n = problem.num_control_points();
   expect_error<InputError>([&] { lower_bound(problem, field.view, weights.leftCols(2).eval()); },
                            {"2 points", std::to_string(n)});

@@ -3,23 +3,17 @@
 #include "flbc/interpolate.h"
 #include "flbc/quality.h"
 
-#include <type_traits>
-
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/recovery.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class CoordinatesTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CoordinatesTest, Dimensions);
 
 // Points inside cells at known barycentric coordinates, several per cell.
 template <int Dim>
@@ -36,9 +30,8 @@ PointList<Dim> points_in_cells(const DomainMesh<Dim>& mesh) {
   return points;
 }
 
-TYPED_TEST(CoordinatesTest, InterpolationKeepsLinearFunctionsAndTheConstraints) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(CoordinatesTest, InterpolationKeepsLinearFunctionsAndTheConstraints) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     const auto weights = harmonic_coordinates(problem);
@@ -55,19 +48,17 @@ TYPED_TEST(CoordinatesTest, InterpolationKeepsLinearFunctionsAndTheConstraints) 
   }
 }
 
-TYPED_TEST(CoordinatesTest, VerticesAreFoundAndGiveTheirOwnWeights) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+TEST_IN_2D_AND_3D(CoordinatesTest, VerticesAreFoundAndGiveTheirOwnWeights) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   const WeightMatrix weights = WeightMatrix::Random(5, sample.mesh.num_vertices());
   const auto rows =
       interpolate(sample.mesh, weights, locate_points(sample.mesh, sample.mesh.points));
   EXPECT_LT((rows - weights).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TYPED_TEST(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 2);
-  PointList<kDim> points(kDim, 4);
+TEST_IN_2D_AND_3D(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 2);
+  PointList<Dim> points(Dim, 4);
   points.col(0) = sample.mesh.points.col(0);
   points.col(1).setConstant(0.5);
   points.col(2).setConstant(0.5);
@@ -86,9 +77,8 @@ TYPED_TEST(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
   EXPECT_NO_THROW(locate_points(sample.mesh, points));
 }
 
-TYPED_TEST(CoordinatesTest, QualityAgreesWithTheJudge) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+TEST_IN_2D_AND_3D(CoordinatesTest, QualityAgreesWithTheJudge) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   WeightMatrix weights = WeightMatrix::Random(sample.cage.size(), sample.mesh.num_vertices());
   const auto quality = measure_quality(sample.cage.points, sample.mesh.points, weights);
   const auto judgement = judge(sample.cage, sample.mesh, weights);

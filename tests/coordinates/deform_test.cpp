@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <type_traits>
 
 #include "flbc/errors.h"
+#include "support/dimensions.h"
 
 namespace flbc {
 namespace {
 
-template <class T>
-class Deform : public ::testing::Test {
- protected:
+template <int Dim>
+struct Deform {
   static constexpr Index kControlPoints = 7;
 
   // Weights that sum to 1, half of them zero; some are negative.
@@ -30,76 +29,67 @@ class Deform : public ::testing::Test {
     return weights;
   }
 
-  static PointList<T::value> make_pose() {
-    PointList<T::value> pose(T::value, kControlPoints);
-    for (Index k = 0; k < pose.size(); ++k)
-      pose(k % T::value, k / T::value) = std::cos(2.0 + 5 * k);
+  static PointList<Dim> make_pose() {
+    PointList<Dim> pose(Dim, kControlPoints);
+    for (Index k = 0; k < pose.size(); ++k) pose(k % Dim, k / Dim) = std::cos(2.0 + 5 * k);
     return pose;
   }
 };
 
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(Deform, Dimensions);
-
-TYPED_TEST(Deform, SumsWeightsTimesControlPoints) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(Deform, SumsWeightsTimesControlPoints) {
   const Index num_points = 5003;
-  const auto weights = TestFixture::make_weights(num_points);
-  const auto pose = TestFixture::make_pose();
-  const PointList<kDim> moved = deform(weights, pose);
-  const PointList<kDim> sparse = deform(SparseWeights(weights), pose);
+  const auto weights = Deform<Dim>::make_weights(num_points);
+  const auto pose = Deform<Dim>::make_pose();
+  const PointList<Dim> moved = deform(weights, pose);
+  const PointList<Dim> sparse = deform(SparseWeights(weights), pose);
   ASSERT_EQ(moved.cols(), num_points);
   ASSERT_EQ(sparse.cols(), num_points);
   for (Index p = 0; p < num_points; ++p) {
-    Vector<kDim> expected = Vector<kDim>::Zero();
+    Vector<Dim> expected = Vector<Dim>::Zero();
     for (Index i = 0; i < pose.cols(); ++i) expected += weights(i, p) * pose.col(i);
     ASSERT_NEAR((moved.col(p) - expected).norm(), 0, 1e-14) << p;
     ASSERT_NEAR((sparse.col(p) - expected).norm(), 0, 1e-14) << p;
   }
 }
 
-TYPED_TEST(Deform, ThreadsChangeNoBit) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(Deform, ThreadsChangeNoBit) {
   // Seven weights each, half of them zero: more than one thread takes, in both forms.
-  const auto weights = TestFixture::make_weights(1'200'000);
-  const auto pose = TestFixture::make_pose();
+  const auto weights = Deform<Dim>::make_weights(1'200'000);
+  const auto pose = Deform<Dim>::make_pose();
   const SparseWeights sparse(weights);
-  const PointList<kDim> alone = deform(weights, pose, 1);
-  const PointList<kDim> alone_sparse = deform(sparse, pose, 1);
+  const PointList<Dim> alone = deform(weights, pose, 1);
+  const PointList<Dim> alone_sparse = deform(sparse, pose, 1);
   for (const int threads : {0, 2, 3}) {
     EXPECT_EQ(deform(weights, pose, threads), alone) << threads;
     EXPECT_EQ(deform(sparse, pose, threads), alone_sparse) << threads;
   }
 }
 
-TYPED_TEST(Deform, FollowsAffineMapsOfTheCage) {
-  constexpr int kDim = TypeParam::value;
-  const auto weights = TestFixture::make_weights(300);
-  const auto pose = TestFixture::make_pose();
-  Eigen::Matrix<double, kDim, kDim> linear;
-  for (int k = 0; k < kDim * kDim; ++k) linear(k) = std::sin(4.0 * k);
-  const Vector<kDim> shift = Vector<kDim>::LinSpaced(3, -2);
-  const PointList<kDim> mapped_pose = (linear * pose).colwise() + shift;
-  const PointList<kDim> expected = (linear * deform(weights, pose)).colwise() + shift;
+TEST_IN_2D_AND_3D(Deform, FollowsAffineMapsOfTheCage) {
+  const auto weights = Deform<Dim>::make_weights(300);
+  const auto pose = Deform<Dim>::make_pose();
+  Eigen::Matrix<double, Dim, Dim> linear;
+  for (int k = 0; k < Dim * Dim; ++k) linear(k) = std::sin(4.0 * k);
+  const Vector<Dim> shift = Vector<Dim>::LinSpaced(3, -2);
+  const PointList<Dim> mapped_pose = (linear * pose).colwise() + shift;
+  const PointList<Dim> expected = (linear * deform(weights, pose)).colwise() + shift;
   EXPECT_LT((deform(weights, mapped_pose) - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TYPED_TEST(Deform, MeasuresDisplacements) {
-  constexpr int kDim = TypeParam::value;
-  const PointList<kDim> pose = TestFixture::make_pose();
-  PointList<kDim> moved = pose;
+TEST_IN_2D_AND_3D(Deform, MeasuresDisplacements) {
+  const PointList<Dim> pose = Deform<Dim>::make_pose();
+  PointList<Dim> moved = pose;
   moved(0, 2) += 3;
   moved(1, 2) -= 4;
   const auto lengths = displacements(pose, moved);
   EXPECT_NEAR(lengths[2], 5, 1e-14);
   EXPECT_NEAR(lengths.sum(), 5, 1e-14);
-  EXPECT_THROW(displacements(pose, PointList<kDim>(kDim, 3)), InputError);
+  EXPECT_THROW(displacements(pose, PointList<Dim>(Dim, 3)), InputError);
 }
 
-TYPED_TEST(Deform, RefusesPosesOfAnotherCage) {
-  constexpr int kDim = TypeParam::value;
-  const auto weights = TestFixture::make_weights(4);
-  const PointList<kDim> pose = PointList<kDim>::Zero(kDim, 8);
+TEST_IN_2D_AND_3D(Deform, RefusesPosesOfAnotherCage) {
+  const auto weights = Deform<Dim>::make_weights(4);
+  const PointList<Dim> pose = PointList<Dim>::Zero(Dim, 8);
   const auto expect_refused = [&](const auto& any) {
     try {
       deform(any, pose);

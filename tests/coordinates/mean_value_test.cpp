@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +16,7 @@
 #include "flbc/interpolate.h"
 #include "flbc/quality.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
 
@@ -24,11 +24,6 @@ namespace flbc::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-template <class Dimension>
-class MeanValueTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(MeanValueTest, Dimensions);
 
 // Cages of all kinds with points inside, among them the centres of their cells.
 template <int Dim>
@@ -115,16 +110,15 @@ WeightMatrix integrate_over_directions(const Cage<Dim>& cage, const Vector<Dim>&
   return sum / sum.sum();
 }
 
-TYPED_TEST(MeanValueTest, IsWhatItsDefinitionSaysInsideAndOutside) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : cages<kDim>()) {
+TEST_IN_2D_AND_3D(MeanValueTest, IsWhatItsDefinitionSaysInsideAndOutside) {
+  for (const auto& sample : cages<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto points = scattered_points(sample.cage, 6);
     const auto weights = mean_value_coordinates(sample.cage, points);
     for (Index p = 0; p < points.cols(); ++p) {
-      const auto expected = integrate_over_directions<kDim>(sample.cage, points.col(p));
+      const auto expected = integrate_over_directions<Dim>(sample.cage, points.col(p));
       EXPECT_LT((weights.col(p) - expected).cwiseAbs().maxCoeff(),
-                (kDim == 2 ? 1e-3 : 1e-2) * (1 + expected.cwiseAbs().maxCoeff()))
+                (Dim == 2 ? 1e-3 : 1e-2) * (1 + expected.cwiseAbs().maxCoeff()))
           << points.col(p).transpose() << "\n"
           << weights.col(p).transpose() << "\n"
           << expected.transpose();
@@ -132,9 +126,8 @@ TYPED_TEST(MeanValueTest, IsWhatItsDefinitionSaysInsideAndOutside) {
   }
 }
 
-TYPED_TEST(MeanValueTest, SumToOneAndReproduceEverywhere) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : cages<kDim>()) {
+TEST_IN_2D_AND_3D(MeanValueTest, SumToOneAndReproduceEverywhere) {
+  for (const auto& sample : cages<Dim>()) {
     SCOPED_TRACE(sample.name);
     for (const auto& points :
          {sample.mesh.points, centres(sample.mesh), scattered_points(sample.cage, 500)}) {
@@ -147,32 +140,30 @@ TYPED_TEST(MeanValueTest, SumToOneAndReproduceEverywhere) {
   }
 }
 
-TYPED_TEST(MeanValueTest, InASimplexAreItsBarycentricCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kSimplex, 1);
+TEST_IN_2D_AND_3D(MeanValueTest, InASimplexAreItsBarycentricCoordinates) {
+  const auto sample = make_sample<Dim>(Shape::kSimplex, 1);
   const auto points = scattered_points(sample.cage, 200);
-  Eigen::Matrix<double, kDim + 1, kDim + 1> system;
-  system << sample.cage.points, Eigen::RowVectorXd::Ones(kDim + 1);
-  Eigen::MatrixXd right(kDim + 1, points.cols());
+  Eigen::Matrix<double, Dim + 1, Dim + 1> system;
+  system << sample.cage.points, Eigen::RowVectorXd::Ones(Dim + 1);
+  Eigen::MatrixXd right(Dim + 1, points.cols());
   right << points, Eigen::RowVectorXd::Ones(points.cols());
   const Eigen::MatrixXd expected = system.inverse() * right;
   const auto weights = mean_value_coordinates(sample.cage, points);
   EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TYPED_TEST(MeanValueTest, LagrangeAndLinearOnFacets) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : cages<kDim>()) {
+TEST_IN_2D_AND_3D(MeanValueTest, LagrangeAndLinearOnFacets) {
+  for (const auto& sample : cages<Dim>()) {
     const auto& cage = sample.cage;
     const auto at_corners = mean_value_coordinates(cage, cage.points);
     EXPECT_EQ(at_corners, WeightMatrix::Identity(cage.size(), cage.size())) << sample.name;
     for (Index f = 0; f < cage.facets.cols(); ++f) {
-      for (int opposite = -1; opposite < kDim; ++opposite) {  // inside, then on the edges
+      for (int opposite = -1; opposite < Dim; ++opposite) {  // inside, then on the edges
         Eigen::VectorXd expected = Eigen::VectorXd::Zero(cage.size());
-        for (int k = 0; k < kDim; ++k)
+        for (int k = 0; k < Dim; ++k)
           expected[cage.facets(k, f)] = k == opposite ? 0 : 1 + 0.37 * k;
         expected /= expected.sum();
-        const auto weights = weights_at<kDim>(cage, cage.points * expected);
+        const auto weights = weights_at<Dim>(cage, cage.points * expected);
         EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-12) << sample.name;
       }
     }
@@ -197,45 +188,42 @@ void expect_bounded_slope(const Cage<Dim>& cage, const Vector<Dim>& place, doubl
   }
 }
 
-TYPED_TEST(MeanValueTest, ContinuousTowardsFacetsEdgesAndCorners) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : cages<kDim>()) {
+TEST_IN_2D_AND_3D(MeanValueTest, ContinuousTowardsFacetsEdgesAndCorners) {
+  for (const auto& sample : cages<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto& cage = sample.cage;
     for (Index f = 0; f < cage.facets.cols(); ++f) {
-      Vector<kDim> middle = Vector<kDim>::Zero();
-      for (int k = 0; k < kDim; ++k) middle += cage.points.col(cage.facets(k, f)) / kDim;
-      expect_bounded_slope<kDim>(cage, middle, 200);
-      const Vector<kDim> on_edge =
+      Vector<Dim> middle = Vector<Dim>::Zero();
+      for (int k = 0; k < Dim; ++k) middle += cage.points.col(cage.facets(k, f)) / Dim;
+      expect_bounded_slope<Dim>(cage, middle, 200);
+      const Vector<Dim> on_edge =
           0.3 * cage.points.col(cage.facets(0, f)) + 0.7 * cage.points.col(cage.facets(1, f));
-      expect_bounded_slope<kDim>(cage, on_edge, 200);
-      expect_bounded_slope<kDim>(cage, cage.points.col(cage.facets(0, f)), 200);
+      expect_bounded_slope<Dim>(cage, on_edge, 200);
+      expect_bounded_slope<Dim>(cage, cage.points.col(cage.facets(0, f)), 200);
     }
   }
 }
 
-TYPED_TEST(MeanValueTest, ContinuousAcrossThePlanesOfFacets) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 1);  // coordinates are whole numbers
-  Vector<kDim> x = Vector<kDim>::Constant(0.4);
+TEST_IN_2D_AND_3D(MeanValueTest, ContinuousAcrossThePlanesOfFacets) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 1);  // coordinates are whole numbers
+  Vector<Dim> x = Vector<Dim>::Constant(0.4);
   x[1] = 1;  // in the plane of a facet, within the interior
-  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  expect_bounded_slope<Dim>(sample.cage, x, 200);
   x[0] = 1 - 1e-7;  // and near that facet
-  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  expect_bounded_slope<Dim>(sample.cage, x, 200);
   x[0] = 1;
   x[1] = 0.4;
-  expect_bounded_slope<kDim>(sample.cage, x, 200);
-  x = Vector<kDim>::Constant(2);  // outside, where planes of several facets meet
+  expect_bounded_slope<Dim>(sample.cage, x, 200);
+  x = Vector<Dim>::Constant(2);  // outside, where planes of several facets meet
   x[0] = -3;
-  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  expect_bounded_slope<Dim>(sample.cage, x, 200);
   x[0] = 1;
-  expect_bounded_slope<kDim>(sample.cage, x, 200);
+  expect_bounded_slope<Dim>(sample.cage, x, 200);
 }
 
-TYPED_TEST(MeanValueTest, NotNegativeInsideConvexCages) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeanValueTest, NotNegativeInsideConvexCages) {
   for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
-    const auto sample = make_sample<kDim>(shape, 5, 0.2);
+    const auto sample = make_sample<Dim>(shape, 5, 0.2);
     EXPECT_GT(mean_value_coordinates(sample.cage, centres(sample.mesh)).minCoeff(), 0);
   }
 }
@@ -249,19 +237,18 @@ TEST(MeanValueTest2D, NegativeSomewhereInAConcavePolygon) {
   }
 }
 
-TYPED_TEST(MeanValueTest, InvariantToRotationScaleAndTranslation) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : cages<kDim>()) {
+TEST_IN_2D_AND_3D(MeanValueTest, InvariantToRotationScaleAndTranslation) {
+  for (const auto& sample : cages<Dim>()) {
     const auto points = scattered_points(sample.cage, 200);
     const auto weights = mean_value_coordinates(sample.cage, points);
     const double largest = weights.cwiseAbs().maxCoeff();
-    Eigen::Matrix<double, kDim, kDim> rotation = Eigen::Matrix<double, kDim, kDim>::Identity();
+    Eigen::Matrix<double, Dim, Dim> rotation = Eigen::Matrix<double, Dim, Dim>::Identity();
     rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.7).toRotationMatrix();
     for (const double scale : {1e-30, 0.01, 3.0, 1e30}) {
-      Cage<kDim> moved = sample.cage;
-      const Vector<kDim> shift = Vector<kDim>::Constant(2);
+      Cage<Dim> moved = sample.cage;
+      const Vector<Dim> shift = Vector<Dim>::Constant(2);
       moved.points = scale * ((rotation * moved.points).colwise() + shift);
-      const PointList<kDim> moved_points = scale * ((rotation * points).colwise() + shift);
+      const PointList<Dim> moved_points = scale * ((rotation * points).colwise() + shift);
       EXPECT_LT((mean_value_coordinates(moved, moved_points) - weights).cwiseAbs().maxCoeff(),
                 1e-10 * largest)
           << sample.name << " at scale " << scale;
@@ -269,16 +256,14 @@ TYPED_TEST(MeanValueTest, InvariantToRotationScaleAndTranslation) {
   }
 }
 
-TYPED_TEST(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
-  constexpr int kDim = TypeParam::value;
-  const Cage<kDim> outer = box_cage<kDim>(1), hole = box_cage<kDim>(0.6),
-                   core = box_cage<kDim>(0.3);
-  const Cage<kDim> sound = join(join(outer, reversed(hole)), core);
+TEST_IN_2D_AND_3D(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
+  const Cage<Dim> outer = box_cage<Dim>(1), hole = box_cage<Dim>(0.6), core = box_cage<Dim>(0.3);
+  const Cage<Dim> sound = join(join(outer, reversed(hole)), core);
   const auto points = scattered_points(sound, 200);
   const auto expected = mean_value_coordinates(sound, points);
-  std::vector<Cage<kDim>> others{join(join(outer, hole), core),
-                                 join(join(reversed(outer), hole), reversed(core))};
-  if (kDim == 2) {  // where even the edges of one loop may run against each other
+  std::vector<Cage<Dim>> others{join(join(outer, hole), core),
+                                join(join(reversed(outer), hole), reversed(core))};
+  if (Dim == 2) {  // where even the edges of one loop may run against each other
     others.push_back(sound);
     others.back().facets.col(2).reverseInPlace();
     others.back().facets.col(4).reverseInPlace();
@@ -287,27 +272,25 @@ TYPED_TEST(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
     EXPECT_LT((mean_value_coordinates(cage, points) - expected).cwiseAbs().maxCoeff(),
               1e-10 * expected.cwiseAbs().maxCoeff());
   }
-  const Vector<kDim> in_hole = Vector<kDim>::Constant(0.45);
-  EXPECT_LT((weights_at<kDim>(sound, in_hole) - integrate_over_directions<kDim>(sound, in_hole))
+  const Vector<Dim> in_hole = Vector<Dim>::Constant(0.45);
+  EXPECT_LT((weights_at<Dim>(sound, in_hole) - integrate_over_directions<Dim>(sound, in_hole))
                 .cwiseAbs()
                 .maxCoeff(),
             1e-2);
 }
 
-TYPED_TEST(MeanValueTest, SameBitsForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 3);
+TEST_IN_2D_AND_3D(MeanValueTest, SameBitsForAnyNumberOfThreads) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 3);
   const ThreadScope one(1);
   const auto alone = mean_value_coordinates(sample.cage, sample.mesh.points);
   const ThreadScope three(3);
   EXPECT_EQ(mean_value_coordinates(sample.cage, sample.mesh.points), alone);
 }
 
-TYPED_TEST(MeanValueTest, NoPointsAndPointsThatAreNone) {
-  constexpr int kDim = TypeParam::value;
-  const auto cage = box_cage<kDim>(1);
-  EXPECT_EQ(mean_value_coordinates(cage, PointList<kDim>(kDim, 0)).rows(), cage.size());
-  PointList<kDim> points = PointList<kDim>::Zero(kDim, 3);
+TEST_IN_2D_AND_3D(MeanValueTest, NoPointsAndPointsThatAreNone) {
+  const auto cage = box_cage<Dim>(1);
+  EXPECT_EQ(mean_value_coordinates(cage, PointList<Dim>(Dim, 0)).rows(), cage.size());
+  PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);
   points(1, 2) = std::numeric_limits<double>::quiet_NaN();
   try {
     mean_value_coordinates(cage, points);

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/harmonic.h"
 #include "flbc/recovery.h"
-
-#include <type_traits>
+#include "flbc/harmonic.h"
 
 #include <gtest/gtest.h>
 
 #include "base/aligned_array.h"
 #include "base/parallel.h"
 #include "mesh/cell_geometry.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class RecoveryTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(RecoveryTest, Dimensions);
 
 // Gradients of weights in the layout of the solver, padded by two numbers of rubbish.
 template <class Scalar, int Dim>
@@ -66,14 +60,13 @@ WeightMatrix feasible_weights(const LbcProblem<Dim>& problem) {
   return weights;
 }
 
-TYPED_TEST(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     const auto weights = feasible_weights(problem);
-    const Gradients<double, kDim> exact(problem.mesh, weights);
-    const Gradients<float, kDim> rounded(problem.mesh, weights);
+    const Gradients<double, Dim> exact(problem.mesh, weights);
+    const Gradients<float, Dim> rounded(problem.mesh, weights);
     const auto difference = [&](const WeightMatrix& other) {
       return (other - weights).cwiseAbs().maxCoeff();
     };
@@ -84,12 +77,11 @@ TYPED_TEST(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights) {
   }
 }
 
-TYPED_TEST(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrable) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+TEST_IN_2D_AND_3D(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrable) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const auto weights = feasible_weights(problem);
-  Gradients<float, kDim> gradients(problem.mesh, weights);
+  Gradients<float, Dim> gradients(problem.mesh, weights);
   for (std::size_t k = 0; k < gradients.numbers.size(); ++k) {
     gradients.numbers[k] *= 1 + 0.1f * std::sin(static_cast<float>(k));
   }
@@ -106,9 +98,8 @@ TYPED_TEST(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrab
       (integrate_breadth_first(problem, gradients.view).array() == breadth_first.array()).all());
 }
 
-TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     const auto judgement = judge(problem.cage, problem.mesh, harmonic_coordinates(problem), 1e-12);
@@ -120,10 +111,9 @@ TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
 }
 
 // Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbours.
-TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   for (const Index subdivisions : {3, 4, 5}) {
-    const auto sample = make_sample<kDim>(Shape::kBox, subdivisions);
+    const auto sample = make_sample<Dim>(Shape::kBox, subdivisions);
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     ASSERT_FALSE(problem.boundary.interior_vertices().empty());
@@ -137,9 +127,8 @@ TYPED_TEST(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
 }
 
 // The judge of the test above finds an extremum where there is one.
-TYPED_TEST(RecoveryTest, ExtremaInsideAreFound) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4);
+TEST_IN_2D_AND_3D(RecoveryTest, ExtremaInsideAreFound) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   auto weights = harmonic_coordinates(problem);
   const Index v = problem.boundary.interior_vertices()[0];

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +13,7 @@
 #include "flbc/interpolate.h"
 #include "flbc/quality.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
 #include "support/hollow_sample.h"
 #include "support/judge.h"
@@ -22,11 +22,6 @@
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class CheckTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CheckTest, Dimensions);
 
 // A sample with sound weights at its vertices.
 template <int Dim>
@@ -50,10 +45,9 @@ void expect_one_violation(const WeightCheck<Dim>& check, const std::string& word
   EXPECT_NE(violations.front().find(words), std::string::npos) << violations.front();
 }
 
-TYPED_TEST(CheckTest, SoundWeightsAreSound) {
-  constexpr int kDim = TypeParam::value;
-  auto all = samples<kDim>();
-  all.push_back(make_hollow_sample<kDim>());
+TEST_IN_2D_AND_3D(CheckTest, SoundWeightsAreSound) {
+  auto all = samples<Dim>();
+  all.push_back(make_hollow_sample<Dim>());
   for (const auto& sample : all) {
     SCOPED_TRACE(sample.name);
     const auto weights = harmonic_weights(sample);
@@ -73,9 +67,8 @@ TYPED_TEST(CheckTest, SoundWeightsAreSound) {
 }
 
 // Everything that the judge measures, too, in code of its own, on weights without any property.
-TYPED_TEST(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const WeightMatrix weights =
         harmonic_weights(sample) +
@@ -103,9 +96,8 @@ TYPED_TEST(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
   }
 }
 
-TYPED_TEST(CheckTest, EveryViolationIsFoundWhereItIs) {
-  constexpr int kDim = TypeParam::value;
-  const Weighted<kDim> sound;
+TEST_IN_2D_AND_3D(CheckTest, EveryViolationIsFoundWhereItIs) {
+  const Weighted<Dim> sound;
   const auto& mesh = sound.sample.mesh;
   const auto judgement = judge(sound.sample.cage, mesh, sound.weights);
   const Index inside = sound.first_vertex(true);
@@ -161,10 +153,9 @@ TYPED_TEST(CheckTest, EveryViolationIsFoundWhereItIs) {
   EXPECT_LT(judgement.linearity_error, 1e-9);
 }
 
-TYPED_TEST(CheckTest, NegativeWeightsAreCountedAndNoViolation) {
-  constexpr int kDim = TypeParam::value;
-  Cage<kDim> cage = box_cage<kDim>(1);
-  const PointList<kDim> centre = PointList<kDim>::Zero(kDim, 2);
+TEST_IN_2D_AND_3D(CheckTest, NegativeWeightsAreCountedAndNoViolation) {
+  Cage<Dim> cage = box_cage<Dim>(1);
+  const PointList<Dim> centre = PointList<Dim>::Zero(Dim, 2);
   WeightMatrix weights = WeightMatrix::Constant(cage.size(), 2, 1.0 / cage.size());
   // The difference of two diagonals' ends reproduces zero.
   const double shift = 0.5;
@@ -190,9 +181,8 @@ TYPED_TEST(CheckTest, NegativeWeightsAreCountedAndNoViolation) {
   EXPECT_EQ(check_weights(cage, centre, weights).negative, 0);
 }
 
-TYPED_TEST(CheckTest, WeightsThatAreNoNumbersAreSetApart) {
-  constexpr int kDim = TypeParam::value;
-  auto broken = Weighted<kDim>();
+TEST_IN_2D_AND_3D(CheckTest, WeightsThatAreNoNumbersAreSetApart) {
+  auto broken = Weighted<Dim>();
   const Index v = broken.first_vertex(true);
   broken.weights(4, v) = std::numeric_limits<double>::quiet_NaN();
   broken.weights(5, v) = std::numeric_limits<double>::infinity();
@@ -208,18 +198,17 @@ TYPED_TEST(CheckTest, WeightsThatAreNoNumbersAreSetApart) {
                            std::to_string(v));
 }
 
-TYPED_TEST(CheckTest, PointsOnTheCageAreFoundByGeometry) {
-  constexpr int kDim = TypeParam::value;
-  const auto cage = make_sample<kDim>(Shape::kCorner, 1).cage;
+TEST_IN_2D_AND_3D(CheckTest, PointsOnTheCageAreFoundByGeometry) {
+  const auto cage = make_sample<Dim>(Shape::kCorner, 1).cage;
   // The middle of every facet, two control points, and a point inside.
   const auto num_facets = static_cast<Index>(cage.facets.cols());
   WeightMatrix weights = WeightMatrix::Zero(cage.size(), num_facets + 3);
   for (Index f = 0; f < num_facets; ++f) {
-    for (int k = 0; k < kDim; ++k) weights(cage.facets(k, f), f) += 1.0 / kDim;
+    for (int k = 0; k < Dim; ++k) weights(cage.facets(k, f), f) += 1.0 / Dim;
   }
   weights(1, num_facets) = weights(4, num_facets + 1) = 1;
   weights.col(num_facets + 2).setConstant(1.0 / cage.size());
-  PointList<kDim> points = cage.points * weights;
+  PointList<Dim> points = cage.points * weights;
   points.rightCols(1).setConstant(0.4);
   points.col(0).array() += 1e-12;   // still on the cage
   points.col(1).array() += 1.1e-7;  // no longer, at least not in the plane of the facet
@@ -242,10 +231,9 @@ TYPED_TEST(CheckTest, PointsOnTheCageAreFoundByGeometry) {
   EXPECT_EQ(check.linearity.point, num_facets - 1);
 }
 
-TYPED_TEST(CheckTest, ExtremaCountFromAMarginOn) {
-  constexpr int kDim = TypeParam::value;
-  Weighted<kDim> sound;
-  sound.sample = make_sample<kDim>(Shape::kBox, 5);  // of right angles, so none to begin with
+TEST_IN_2D_AND_3D(CheckTest, ExtremaCountFromAMarginOn) {
+  Weighted<Dim> sound;
+  sound.sample = make_sample<Dim>(Shape::kBox, 5);  // of right angles, so none to begin with
   sound.weights = harmonic_weights(sound.sample);
   const auto before = sound.check();
   const Index v = sound.first_vertex(true);
@@ -278,9 +266,8 @@ TYPED_TEST(CheckTest, ExtremaCountFromAMarginOn) {
   EXPECT_EQ(count(lowest - 5e-7, false), 0);
 }
 
-TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
-  constexpr int kDim = TypeParam::value;
-  const Weighted<kDim> sound;
+TEST_IN_2D_AND_3D(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
+  const Weighted<Dim> sound;
   const auto& cage = sound.sample.cage;
   const auto& mesh = sound.sample.mesh;
   const auto message = [](const auto& action) -> std::string {
@@ -291,7 +278,7 @@ TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
     }
     return "no error";
   };
-  const PointList<kDim> fewer = mesh.points.leftCols(7);
+  const PointList<Dim> fewer = mesh.points.leftCols(7);
   EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("belong to 7 points"),
             std::string::npos);
   const WeightMatrix other = sound.weights.topRows(5);
@@ -303,9 +290,8 @@ TYPED_TEST(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
             std::string::npos);
 }
 
-TYPED_TEST(CheckTest, SameResultForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  Weighted<kDim> weighted;
+TEST_IN_2D_AND_3D(CheckTest, SameResultForAnyNumberOfThreads) {
+  Weighted<Dim> weighted;
   weighted.weights += 0.01 * WeightMatrix::Random(weighted.weights.rows(), weighted.weights.cols());
   const auto with = [&](int threads) {
     const ThreadScope scope(threads);
@@ -318,20 +304,18 @@ TYPED_TEST(CheckTest, SameResultForAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh->local_minima, three.mesh->local_minima);
 }
 
-TYPED_TEST(CheckTest, FactsOfNestedBoxes) {
-  constexpr int kDim = TypeParam::value;
-  const Cage<kDim> outer = box_cage<kDim>(1), hole = box_cage<kDim>(0.6),
-                   core = box_cage<kDim>(0.3);
-  const Vector<kDim> far = Vector<kDim>::Constant(1000);
+TEST_IN_2D_AND_3D(CheckTest, FactsOfNestedBoxes) {
+  const Cage<Dim> outer = box_cage<Dim>(1), hole = box_cage<Dim>(0.6), core = box_cage<Dim>(0.3);
+  const Vector<Dim> far = Vector<Dim>::Constant(1000);
   for (const auto& cage :
        {join(join(hole, core), outer), join(join(reversed(hole), core), outer)}) {
-    Cage<kDim> moved = cage;
+    Cage<Dim> moved = cage;
     moved.points.colwise() += far;
     const auto facts = measure_cage(moved);
     EXPECT_EQ(facts.parts, 2);
     EXPECT_EQ(facts.holes, 1);
-    EXPECT_NEAR(facts.size, 2 * std::sqrt(kDim), 1e-12);
-    const double expected = std::pow(2, kDim) - std::pow(1.2, kDim) + std::pow(0.6, kDim);
+    EXPECT_NEAR(facts.size, 2 * std::sqrt(Dim), 1e-12);
+    const double expected = std::pow(2, Dim) - std::pow(1.2, Dim) + std::pow(0.6, Dim);
     EXPECT_NEAR(facts.measure, expected, 1e-9);
     EXPECT_NEAR(facts.shortest_edge, 0.6, 1e-9);
     EXPECT_EQ(facts.shortest_ends[0] / hole.size(), 1);  // both in the core
@@ -343,13 +327,12 @@ TYPED_TEST(CheckTest, FactsOfNestedBoxes) {
   }
 }
 
-TYPED_TEST(CheckTest, PointsOutsideAreNamed) {
-  constexpr int kDim = TypeParam::value;
-  const auto cage = join(box_cage<kDim>(1), box_cage<kDim>(0.5));
-  PointList<kDim> points = PointList<kDim>::Zero(kDim, 6);
+TEST_IN_2D_AND_3D(CheckTest, PointsOutsideAreNamed) {
+  const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.5));
+  PointList<Dim> points = PointList<Dim>::Zero(Dim, 6);
   points.row(0) << 0.75, 0.25, 1.5, 1, 1 + 1e-8, -1 - 1e-5;
   EXPECT_EQ(points_outside(cage, points), (std::vector<Index>{1, 2, 5}));
-  EXPECT_TRUE(points_outside(cage, PointList<kDim>(kDim, 0)).empty());
+  EXPECT_TRUE(points_outside(cage, PointList<Dim>(Dim, 0)).empty());
 }
 
 }  // namespace

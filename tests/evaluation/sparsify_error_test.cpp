@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -10,18 +9,13 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
+#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class SparsifyErrorTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SparsifyErrorTest, Dimensions);
-
-TYPED_TEST(SparsifyErrorTest, InfluencesNormsAndPoses) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyErrorTest, InfluencesNormsAndPoses) {
   Numbers numbers(14);
   const PointList<Dim> control_points = numbers.matrix(Dim, 4, -1, 1);
   WeightMatrix before = WeightMatrix::Zero(4, 2), after = before;

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 namespace flbc::dense {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +14,7 @@
 #include "flbc/solver.h"
 #include "mesh/cell_geometry.h"
 #include "problem/laplacian.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
@@ -67,16 +67,10 @@ double contraction(const RowMatrix& matrix, Multigrid<double>& multigrid) {
   return factor;
 }
 
-template <class Dimension>
-class MultigridTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(MultigridTest, Dimensions);
-
-TYPED_TEST(MultigridTest, ContractsAlikeOnCoarseAndFineMeshes) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(MultigridTest, ContractsAlikeOnCoarseAndFineMeshes) {
   for (const double perturbation : {0.0, 0.25}) {
-    for (const Index subdivisions : {kDim == 2 ? 60 : 16, kDim == 2 ? 200 : 36}) {
-      const auto matrix = interior_matrix<kDim>(Shape::kBox, subdivisions, perturbation);
+    for (const Index subdivisions : {Dim == 2 ? 60 : 16, Dim == 2 ? 200 : 36}) {
+      const auto matrix = interior_matrix<Dim>(Shape::kBox, subdivisions, perturbation);
       Multigrid<double> multigrid(matrix, kStride);
       EXPECT_LT(contraction(matrix, multigrid), 0.75) << subdivisions << ' ' << perturbation;
       EXPECT_LT(multigrid.operator_complexity(), 1.6);
@@ -84,9 +78,8 @@ TYPED_TEST(MultigridTest, ContractsAlikeOnCoarseAndFineMeshes) {
   }
 }
 
-TYPED_TEST(MultigridTest, IsLinearAndSymmetric) {
-  constexpr int kDim = TypeParam::value;
-  const auto matrix = interior_matrix<kDim>(Shape::kCorner, kDim == 2 ? 50 : 12, 0.2);
+TEST_IN_2D_AND_3D(MultigridTest, IsLinearAndSymmetric) {
+  const auto matrix = interior_matrix<Dim>(Shape::kCorner, Dim == 2 ? 50 : 12, 0.2);
   Multigrid<double> multigrid(matrix, kStride);
   const auto x = random_rows(matrix.rows(), 1);
   const auto y = random_rows(matrix.rows(), 2);
@@ -104,18 +97,16 @@ TYPED_TEST(MultigridTest, IsLinearAndSymmetric) {
   EXPECT_TRUE((energy.array() > 0).all());
 }
 
-TYPED_TEST(MultigridTest, SinglePrecisionIsTheSameCycle) {
-  constexpr int kDim = TypeParam::value;
-  const auto matrix = interior_matrix<kDim>(Shape::kRing, kDim == 2 ? 24 : 6, 0);
+TEST_IN_2D_AND_3D(MultigridTest, SinglePrecisionIsTheSameCycle) {
+  const auto matrix = interior_matrix<Dim>(Shape::kRing, Dim == 2 ? 24 : 6, 0);
   Multigrid<double> exact(matrix, kStride);
   Multigrid<float> multigrid(matrix, kStride);
   const auto x = random_rows(matrix.rows(), 3);
   EXPECT_LT((cycle(multigrid, x) - cycle(exact, x)).norm(), 1e-5 * cycle(exact, x).norm());
 }
 
-TYPED_TEST(MultigridTest, EverySliceGivesTheSameBits) {
-  constexpr int kDim = TypeParam::value;
-  const auto matrix = interior_matrix<kDim>(Shape::kBox, kDim == 2 ? 50 : 14, 0.2);
+TEST_IN_2D_AND_3D(MultigridTest, EverySliceGivesTheSameBits) {
+  const auto matrix = interior_matrix<Dim>(Shape::kBox, Dim == 2 ? 50 : 14, 0.2);
   Multigrid<float> multigrid(matrix, kStride);
   const RowMajor<float> right_side = random_rows(matrix.rows(), 4).template cast<float>();
   const auto run = [&](std::initializer_list<std::size_t> borders) {
@@ -134,9 +125,8 @@ TYPED_TEST(MultigridTest, EverySliceGivesTheSameBits) {
 
 // As accurate as it says, for right-hand sides of any size, and the same bits for any number of
 // threads.
-TYPED_TEST(MultigridTest, PreconditionsConjugateGradients) {
-  constexpr int kDim = TypeParam::value;
-  const auto matrix = interior_matrix<kDim>(Shape::kCorner, kDim == 2 ? 50 : 12, 0.2);
+TEST_IN_2D_AND_3D(MultigridTest, PreconditionsConjugateGradients) {
+  const auto matrix = interior_matrix<Dim>(Shape::kCorner, Dim == 2 ? 50 : 12, 0.2);
   const MultigridCg solver(matrix);
   RowMajor<double> exact = random_rows(matrix.rows(), 6);
   exact.col(1) *= 1e-20;
@@ -158,9 +148,8 @@ TYPED_TEST(MultigridTest, PreconditionsConjugateGradients) {
 }
 
 // The optimum does not depend on how the linear systems are solved.
-TYPED_TEST(MultigridTest, LeavesTheOptimumWhereItIs) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(MultigridTest, LeavesTheOptimumWhereItIs) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     SolverOptions options;

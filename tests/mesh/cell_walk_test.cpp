@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class CellWalkTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CellWalkTest, Dimensions);
 
 template <int Dim>
 PointList<Dim> shuffled(const PointList<Dim>& points) {
@@ -43,20 +38,19 @@ PointList<Dim> points_in(Shape shape) {
 }
 
 // The ring has a hole, and the corner is not convex: straight ways leave them.
-TYPED_TEST(CellWalkTest, FindsTheCellsWhateverTheOrderOfThePoints) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CellWalkTest, FindsTheCellsWhateverTheOrderOfThePoints) {
   for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kRing}) {
-    const auto mesh = make_sample<kDim>(shape, 4, 0.2).mesh;
+    const auto mesh = make_sample<Dim>(shape, 4, 0.2).mesh;
     const auto topology = build_topology(mesh);
-    const auto in_order = points_in<kDim>(shape);
-    for (const auto& points : {in_order, shuffled<kDim>(in_order)}) {
+    const auto in_order = points_in<Dim>(shape);
+    for (const auto& points : {in_order, shuffled<Dim>(in_order)}) {
       const auto places = walk_to_points(mesh, topology, points);
       ASSERT_EQ(places.size(), static_cast<std::size_t>(points.cols()));
       for (std::size_t p = 0; p < places.size(); ++p) {
         EXPECT_GE(places[p].coordinates.minCoeff(), 0);
         EXPECT_NEAR(places[p].coordinates.sum(), 1, 1e-14);
-        Vector<kDim> point = Vector<kDim>::Zero();
-        for (int k = 0; k <= kDim; ++k) {
+        Vector<Dim> point = Vector<Dim>::Zero();
+        for (int k = 0; k <= Dim; ++k) {
           point += places[p].coordinates[k] * mesh.points.col(mesh.cells(k, places[p].cell));
         }
         EXPECT_LT((point - points.col(static_cast<Index>(p))).norm(), 1e-9);
@@ -65,14 +59,13 @@ TYPED_TEST(CellWalkTest, FindsTheCellsWhateverTheOrderOfThePoints) {
   }
 }
 
-TYPED_TEST(CellWalkTest, IsTheSameForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  const auto mesh = make_sample<kDim>(Shape::kRing, 3, 0.2).mesh;
+TEST_IN_2D_AND_3D(CellWalkTest, IsTheSameForAnyNumberOfThreads) {
+  const auto mesh = make_sample<Dim>(Shape::kRing, 3, 0.2).mesh;
   const auto topology = build_topology(mesh);
-  const auto points = points_in<kDim>(Shape::kRing).replicate(1, 5).eval();
+  const auto points = points_in<Dim>(Shape::kRing).replicate(1, 5).eval();
   const auto walk = [&](int count) {
     const ThreadScope threads(count);
-    return walk_to_points<kDim>(mesh, topology, points);
+    return walk_to_points<Dim>(mesh, topology, points);
   };
   const auto one = walk(1);
   for (const int count : {2, 4, 7}) {
@@ -84,12 +77,11 @@ TYPED_TEST(CellWalkTest, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TYPED_TEST(CellWalkTest, RefusesPointsOutside) {
-  constexpr int kDim = TypeParam::value;
-  const auto mesh = make_sample<kDim>(Shape::kCorner, 3, 0.2).mesh;
-  auto points = points_in<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(CellWalkTest, RefusesPointsOutside) {
+  const auto mesh = make_sample<Dim>(Shape::kCorner, 3, 0.2).mesh;
+  auto points = points_in<Dim>(Shape::kCorner);
   points.col(11) *= 50;
-  EXPECT_THROW(walk_to_points<kDim>(mesh, build_topology(mesh), points), InputError);
+  EXPECT_THROW(walk_to_points<Dim>(mesh, build_topology(mesh), points), InputError);
 }
 
 }  // namespace

@@ -2,21 +2,16 @@
 #include "flbc/domain_mesh.h"
 
 #include <limits>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
 #include "flbc/errors.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class DomainMeshTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(DomainMeshTest, Dimensions);
 
 template <int Dim>
 void expect_refused(DomainMesh<Dim> mesh, const std::string& words) {
@@ -28,15 +23,14 @@ void expect_refused(DomainMesh<Dim> mesh, const std::string& words) {
   }
 }
 
-TYPED_TEST(DomainMeshTest, TopologyIsConsistent) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(DomainMeshTest, TopologyIsConsistent) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto& mesh = sample.mesh;
     const auto topology = build_topology(mesh);
     std::vector<int> visits(topology.num_facets(), 0);
     for (Index s = 0; s < mesh.num_cells(); ++s) {
-      for (int k = 0; k <= kDim; ++k) {
+      for (int k = 0; k <= Dim; ++k) {
         const Index f = topology.cell_facets(k, s);
         ++visits[f];
         EXPECT_TRUE(topology.sides(0, f) == s || topology.sides(1, f) == s);
@@ -52,9 +46,8 @@ TYPED_TEST(DomainMeshTest, TopologyIsConsistent) {
   }
 }
 
-TYPED_TEST(DomainMeshTest, TurnsCellsRound) {
-  constexpr int kDim = TypeParam::value;
-  auto mesh = make_sample<kDim>(Shape::kBox, 2).mesh;
+TEST_IN_2D_AND_3D(DomainMeshTest, TurnsCellsRound) {
+  auto mesh = make_sample<Dim>(Shape::kBox, 2).mesh;
   std::swap(mesh.cells(0, 1), mesh.cells(1, 1));
   ASSERT_LT(signed_measure(mesh, 1), 0);
   normalize_and_validate(mesh);
@@ -71,10 +64,9 @@ DomainMesh<Dim> joined(const DomainMesh<Dim>& a, const DomainMesh<Dim>& b, doubl
   return both;
 }
 
-TYPED_TEST(DomainMeshTest, NamesDefects) {
-  constexpr int kDim = TypeParam::value;
-  const auto sound = make_sample<kDim>(Shape::kBox, 2).mesh;
-  expect_refused(DomainMesh<kDim>{}, "no cells");
+TEST_IN_2D_AND_3D(DomainMeshTest, NamesDefects) {
+  const auto sound = make_sample<Dim>(Shape::kBox, 2).mesh;
+  expect_refused(DomainMesh<Dim>{}, "no cells");
 
   auto mesh = sound;
   mesh.points(0, 1) = std::numeric_limits<double>::quiet_NaN();
@@ -89,18 +81,18 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   expect_refused(mesh, "cell 3 of the domain mesh is degenerate");
 
   mesh = sound;
-  mesh.points.conservativeResize(kDim, mesh.points.cols() + 1);
+  mesh.points.conservativeResize(Dim, mesh.points.cols() + 1);
   mesh.points.rightCols(1).setConstant(0.5);
   expect_refused(mesh, "belongs to no cell");
 
   mesh = sound;  // one cell thrice
-  mesh.cells.conservativeResize(kDim + 1, mesh.cells.cols() + 2);
+  mesh.cells.conservativeResize(Dim + 1, mesh.cells.cols() + 2);
   mesh.cells.rightCols(2).colwise() = sound.cells.col(0);
   expect_refused(mesh, "share one facet");
 
   mesh = sound;  // the centre vertex beyond the boundary: cells fold over each other
   Index inner = 0;
-  (sound.points.colwise() - Vector<kDim>::Constant(0.5)).colwise().norm().minCoeff(&inner);
+  (sound.points.colwise() - Vector<Dim>::Constant(0.5)).colwise().norm().minCoeff(&inner);
   mesh.points.col(inner).setConstant(3);
   expect_refused(mesh, "overlap");
 
@@ -110,7 +102,7 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   mesh = joined(sound, sound, 1);  // they share a corner, and that alone
   const auto corner = [&](double x) {
     Index vertex = 0;
-    (mesh.points.colwise() - Vector<kDim>::Constant(x)).colwise().norm().minCoeff(&vertex);
+    (mesh.points.colwise() - Vector<Dim>::Constant(x)).colwise().norm().minCoeff(&vertex);
     return vertex;
   };
   const Index first = corner(1);
@@ -121,14 +113,13 @@ TYPED_TEST(DomainMeshTest, NamesDefects) {
   const Index last = mesh.num_vertices() - 1;
   mesh.points.col(second) = mesh.points.col(last);
   for (Index& v : mesh.cells.reshaped()) v = v == last ? second : v;
-  mesh.points.conservativeResize(kDim, last);
+  mesh.points.conservativeResize(Dim, last);
   expect_refused(mesh, "merely touch, at (1, 1");
 }
 
 // Found by several threads, each in its part of the mesh.
-TYPED_TEST(DomainMeshTest, NamesTheFirstOfManyDefectsForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  const auto sound = make_sample<kDim>(Shape::kBox, kDim == 2 ? 40 : 12).mesh;
+TEST_IN_2D_AND_3D(DomainMeshTest, NamesTheFirstOfManyDefectsForAnyNumberOfThreads) {
+  const auto sound = make_sample<Dim>(Shape::kBox, Dim == 2 ? 40 : 12).mesh;
   ASSERT_GT(sound.num_vertices(), 1500);
   const Index many = sound.num_cells();
   for (const int threads : {1, 2, 5}) {
@@ -138,7 +129,7 @@ TYPED_TEST(DomainMeshTest, NamesTheFirstOfManyDefectsForAnyNumberOfThreads) {
     expect_refused(mesh, "cell 77 of the domain mesh is degenerate");
 
     mesh = sound;
-    mesh.cells.conservativeResize(kDim + 1, many + 4);
+    mesh.cells.conservativeResize(Dim + 1, many + 4);
     for (const Index k : {0, 1}) mesh.cells.col(many + k) = sound.cells.col(many - 1);
     for (const Index k : {2, 3}) mesh.cells.col(many + k) = sound.cells.col(0);
     expect_refused(mesh, "cells 0, " + std::to_string(many + 2) + " and " +

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -13,17 +12,13 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
+#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class EdgeListTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(EdgeListTest, Dimensions);
 
 // sum k |f(a) - f(b)|^2
 double energy(const EdgeList& edges, const Eigen::VectorXd& values) {
@@ -49,8 +44,7 @@ DomainMesh<Dim> regular_cell() {
   return mesh;
 }
 
-TYPED_TEST(EdgeListTest, EdgesOfCellsAreTheNonZerosOfTheStiffnessMatrix) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(EdgeListTest, EdgesOfCellsAreTheNonZerosOfTheStiffnessMatrix) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto edges = edges_of_cells(sample.mesh);
@@ -69,8 +63,7 @@ TYPED_TEST(EdgeListTest, EdgesOfCellsAreTheNonZerosOfTheStiffnessMatrix) {
   }
 }
 
-TYPED_TEST(EdgeListTest, OnARegularCellTheEnergyIsThatOfFiniteElements) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(EdgeListTest, OnARegularCellTheEnergyIsThatOfFiniteElements) {
   const auto mesh = regular_cell<Dim>();
   const Eigen::MatrixXd stiffness = stiffness_matrix(mesh);
   Numbers numbers(3);
@@ -80,8 +73,7 @@ TYPED_TEST(EdgeListTest, OnARegularCellTheEnergyIsThatOfFiniteElements) {
   }
 }
 
-TYPED_TEST(EdgeListTest, TheSumOverCoordinatesIsTheMeasure) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(EdgeListTest, TheSumOverCoordinatesIsTheMeasure) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     double measure = 0, sum = 0;
@@ -171,8 +163,7 @@ TEST(EdgesOfPolygons, RefusesWhatCannotBe) {
   }
 }
 
-TYPED_TEST(EdgeListTest, EdgeErrorIsRelativeToTheEdges) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(EdgeListTest, EdgeErrorIsRelativeToTheEdges) {
   Numbers numbers(4);
   // Points 0 and 1 at a distance of 2, and 2 at a distance of 1 from 1.
   PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);

@@ -7,22 +7,16 @@
 #include <array>
 #include <cstdlib>
 #include <set>
-#include <type_traits>
 
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
 namespace flbc {
 namespace {
 
-template <class T>
-class SpatialOrderTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SpatialOrderTest, Dimensions);
-
 // The properties that define a Hilbert curve: it visits all cells of the grid, each once, steps
 // from each to one of its neighbours, and refines the curve of the coarser grid.
-TYPED_TEST(SpatialOrderTest, CurveVisitsAllCellsInUnitSteps) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SpatialOrderTest, CurveVisitsAllCellsInUnitSteps) {
   for (int levels : {1, 2, 3, 4}) {
     const std::uint32_t side = 1u << levels;
     const std::size_t count = std::size_t{1} << (levels * Dim);
@@ -53,8 +47,7 @@ TYPED_TEST(SpatialOrderTest, CurveVisitsAllCellsInUnitSteps) {
   }
 }
 
-TYPED_TEST(SpatialOrderTest, OrderIsAPermutationWithShortSteps) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SpatialOrderTest, OrderIsAPermutationWithShortSteps) {
   std::srand(1);
   const PointList<Dim> points = PointList<Dim>::Random(Dim, 4000);
   const std::vector<Index> order = spatial_order<Dim>(points);
@@ -67,16 +60,14 @@ TYPED_TEST(SpatialOrderTest, OrderIsAPermutationWithShortSteps) {
   EXPECT_LT(along_curve, 0.15 * along_input);
 }
 
-TYPED_TEST(SpatialOrderTest, NoPointsOnePointAndCoincidingPoints) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SpatialOrderTest, NoPointsOnePointAndCoincidingPoints) {
   EXPECT_TRUE(spatial_order<Dim>(PointList<Dim>(Dim, 0)).empty());
   EXPECT_EQ(spatial_order<Dim>(PointList<Dim>::Constant(Dim, 1, 3.0)), std::vector<Index>{0});
   EXPECT_EQ(spatial_order<Dim>(PointList<Dim>::Constant(Dim, 3, 3.0)),
             (std::vector<Index>{0, 1, 2}));
 }
 
-TYPED_TEST(SpatialOrderTest, ReorderingKeepsFixedVerticesAndTheMesh) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SpatialOrderTest, ReorderingKeepsFixedVerticesAndTheMesh) {
   // A fan of cells round the origin, which is the last point.
   const Cage<Dim> cage = flbc::testing::box_cage<Dim>(1);
   DomainMesh<Dim> mesh;

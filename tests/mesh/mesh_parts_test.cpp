@@ -2,20 +2,15 @@
 #include "flbc/domain_mesh.h"
 
 #include <algorithm>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class MeshPartsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(MeshPartsTest, Dimensions);
 
 template <int Dim>
 DomainMesh<Dim> moved(DomainMesh<Dim> mesh, double distance) {
@@ -41,9 +36,8 @@ std::vector<MeshPart<Dim>> three_parts() {
   return parts;
 }
 
-TYPED_TEST(MeshPartsTest, PartsOfTheJoinedAreTheParts) {
-  constexpr int kDim = TypeParam::value;
-  const auto parts = three_parts<kDim>();
+TEST_IN_2D_AND_3D(MeshPartsTest, PartsOfTheJoinedAreTheParts) {
+  const auto parts = three_parts<Dim>();
   auto whole = join_parts(parts);
   EXPECT_EQ(count_parts(whole), 3);
   ASSERT_NO_THROW(normalize_and_validate(whole));
@@ -58,9 +52,8 @@ TYPED_TEST(MeshPartsTest, PartsOfTheJoinedAreTheParts) {
   }
 }
 
-TYPED_TEST(MeshPartsTest, OnePartIsTheWhole) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(MeshPartsTest, OnePartIsTheWhole) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     EXPECT_EQ(count_parts(sample.mesh), 1);
     const auto parts = mesh_parts(sample.mesh);
@@ -71,10 +64,9 @@ TYPED_TEST(MeshPartsTest, OnePartIsTheWhole) {
   }
 }
 
-TYPED_TEST(MeshPartsTest, RefusalNamesAPlaceInEachOfTwoParts) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeshPartsTest, RefusalNamesAPlaceInEachOfTwoParts) {
   try {
-    require_connected(join_parts(three_parts<kDim>()));
+    require_connected(join_parts(three_parts<Dim>()));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("3 parts, one with (0, 0"), std::string::npos)

@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 
-#include <type_traits>
-
 #include <gtest/gtest.h>
 
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
 
-using flbc::testing::box_cage;
-
-template <class Dimension>
-class EmbeddablePointsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(EmbeddablePointsTest, Dimensions);
-
-TYPED_TEST(EmbeddablePointsTest, InsideAndEachOnce) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(EmbeddablePointsTest, InsideAndEachOnce) {
   for (const double size : {1e-3, 1.0, 1e5}) {
     const Cage<Dim> cage = box_cage<Dim>(size);
     PointList<Dim> points(Dim, 9);
     for (int p = 0; p < 9; ++p) points.col(p).setConstant(0.1 * p);
-    points.col(2) = points.col(1);                             // the same
-    points(0, 5) = 1;                                          // on the cage
-    points(0, 6) = 1 + 1e-7;                                   // outside
-    points.col(7) = Vector<Dim>::Ones();                       // a control point
-    points.col(8) = points.col(0).array() + 1e-10;             // as good as the same
+    points.col(2) = points.col(1);                  // the same
+    points(0, 5) = 1;                               // on the cage
+    points(0, 6) = 1 + 1e-7;                        // outside
+    points.col(7) = Vector<Dim>::Ones();            // a control point
+    points.col(8) = points.col(0).array() + 1e-10;  // as good as the same
     points *= size;
     const auto found = embeddable_points<Dim>(cage, points);
     EXPECT_EQ(found.number, (std::vector<Index>{0, 1, 1, 2, 3, -1, -1, -1, 0}));
@@ -38,4 +29,4 @@ TYPED_TEST(EmbeddablePointsTest, InsideAndEachOnce) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -7,11 +7,8 @@
 #include "support/code_cages.h"
 #include "support/mesh_checks.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::covers_edges;
-using flbc::testing::expect_fills;
 
 // A pyramid over the unit square 0 1 2 3 with apex 4; the cage's base is split along 0-2.
 Cage<3> pyramid() {
@@ -108,4 +105,4 @@ TEST(FlatPartsTest, FlatCellInsideIsRefused) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -12,14 +11,10 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "support/code_cages.h"
+#include "support/dimensions.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class T>
-class MeshInPartsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(MeshInPartsTest, Dimensions);
 
 template <int Dim>
 DomainMesh<Dim> fill(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
@@ -49,8 +44,7 @@ double measure_of(const DomainMesh<Dim>& mesh) {
   return sum;
 }
 
-TYPED_TEST(MeshInPartsTest, PartsAreThoseMadeAlone) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   const auto cage = three_parts<Dim>();
   MeshingOptions<Dim> options;
   options.vertices = Dim == 2 ? 2000 : 6000;
@@ -75,8 +69,7 @@ TYPED_TEST(MeshInPartsTest, PartsAreThoseMadeAlone) {
 }
 
 // They follow all control points in the order given, whichever part they are in.
-TYPED_TEST(MeshInPartsTest, EmbedsEachPointInItsPart) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeshInPartsTest, EmbedsEachPointInItsPart) {
   const auto cage = three_parts<Dim>();
   MeshingOptions<Dim> options;
   options.embedded_points.resize(Dim, 5);
@@ -95,8 +88,7 @@ TYPED_TEST(MeshInPartsTest, EmbedsEachPointInItsPart) {
   }
 }
 
-TYPED_TEST(MeshInPartsTest, NamesThePartThatFails) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeshInPartsTest, NamesThePartThatFails) {
   const auto cage = three_parts<Dim>();
   const PartMesher<Dim> failing = [](const Cage<Dim>& part, const MeshingOptions<Dim>& options) {
     if (part.points.minCoeff() > 1) throw InputError("no");
@@ -113,8 +105,7 @@ TYPED_TEST(MeshInPartsTest, NamesThePartThatFails) {
   }
 }
 
-TYPED_TEST(MeshInPartsTest, MeshersAloneTakeOnePart) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(MeshInPartsTest, MeshersAloneTakeOnePart) {
   EXPECT_THROW(fill<Dim>(three_parts<Dim>(), {}), InputError);
 }
 

@@ -9,14 +9,8 @@
 #include "support/code_cages.h"
 #include "support/mesh_checks.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::enclosed_measure;
-using flbc::testing::join;
-using flbc::testing::lies_in_one_facet;
-using flbc::testing::sum_of_facets;
 
 constexpr std::size_t kMany = 1'000'000;
 
@@ -68,4 +62,4 @@ TEST(SurfaceSubdivisionTest, NeedlesThatWouldTakeMillionsOfPointsAreRefused) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

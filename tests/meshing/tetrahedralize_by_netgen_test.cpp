@@ -13,26 +13,8 @@
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::covers_edges;
-using flbc::testing::enclosed_measure;
-using flbc::testing::expect_count;
-using flbc::testing::expect_fills;
-using flbc::testing::has_model;
-using flbc::testing::join;
-using flbc::testing::load_cage;
-using flbc::testing::message_of;
-using flbc::testing::reversed;
-using flbc::testing::without_facet;
-
-MeshingOptions<3> vertices(Index count) {
-  MeshingOptions<3> options;
-  options.vertices = count;
-  return options;
-}
 
 // A box on which TetGen asks for more than a million vertices.
 Cage<3> flat_box() {
@@ -43,7 +25,7 @@ TEST(TetrahedralizeByNetgenTest, CountAndCoverWhateverTheSizeAndOrientation) {
   for (double size : {1e-6, 1.0, 1e5}) {
     const Cage<3> cage = box_cage<3>(size);
     for (Index count : {0, 600}) {
-      const DomainMesh<3> mesh = tetrahedralize_by_netgen(reversed(cage), vertices(count));
+      const DomainMesh<3> mesh = tetrahedralize_by_netgen(reversed(cage), vertices<3>(count));
       expect_fills(cage, mesh, 8 * size * size * size);
       EXPECT_TRUE(covers_edges(cage, mesh));
       if (count > 0) expect_count(mesh, count, 0.4);  // twelve facets alike
@@ -54,7 +36,7 @@ TEST(TetrahedralizeByNetgenTest, CountAndCoverWhateverTheSizeAndOrientation) {
 TEST(TetrahedralizeByNetgenTest, CavitiesStayEmpty) {
   const Cage<3> box = box_cage<3>(1), cavity = box_cage<3>(0.5);
   for (const Cage<3>& cage : {join(box, cavity), join(reversed(cavity), box)}) {
-    expect_fills(cage, tetrahedralize_by_netgen(cage, vertices(600)), 7);
+    expect_fills(cage, tetrahedralize_by_netgen(cage, vertices<3>(600)), 7);
   }
 }
 
@@ -62,7 +44,7 @@ TEST(TetrahedralizeByNetgenTest, ThinWallsTakeFlatCellsAndWeightsAreCoordinates)
   const Cage<3> flat = flat_box();
   const Cage<3> wall = join(box_cage<3>(1), box_cage<3>(0.999));
   for (const Cage<3>& cage : {flat, wall}) {
-    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices(500));
+    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices<3>(500));
     const double volume = cage.size() == 8 ? 4e-3 : 8 * (1 - 0.999 * 0.999 * 0.999);
     expect_fills(cage, mesh, volume);
     EXPECT_TRUE(covers_edges(cage, mesh));
@@ -77,28 +59,26 @@ TEST(TetrahedralizeByNetgenTest, ThinWallsTakeFlatCellsAndWeightsAreCoordinates)
 }
 
 TEST(TetrahedralizeByNetgenTest, RunsAgreeBitByBit) {
-  const DomainMesh<3> first = tetrahedralize_by_netgen(flat_box(), vertices(150));
-  const DomainMesh<3> second = tetrahedralize_by_netgen(flat_box(), vertices(150));
-  ASSERT_EQ(first.num_vertices(), second.num_vertices());
-  EXPECT_EQ(first.points, second.points);
-  EXPECT_EQ(first.cells, second.cells);
+  expect_reproducible([&] { return tetrahedralize_by_netgen(flat_box(), vertices<3>(150)); });
 }
 
 TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
   const Cage<3> cage = box_cage<3>(1);
-  EXPECT_NE(message_of<InputError>([&] { tetrahedralize_by_netgen(without_facet(cage, 4)); })
-                .find("open at the edge"),
+  EXPECT_NE(message_of<InputError>([&] {
+              tetrahedralize_by_netgen(without_facet(cage, 4));
+            }).find("open at the edge"),
             std::string::npos);
-  EXPECT_THROW(tetrahedralize_by_netgen(cage, vertices(-1)), OptionError);
+  EXPECT_THROW(tetrahedralize_by_netgen(cage, vertices<3>(-1)), OptionError);
   MeshingOptions<3> embedding;
   embedding.embedded_points = Vector<3>(0.1, 0.2, 0.3);
-  EXPECT_NE(message_of<OptionError>([&] { tetrahedralize_by_netgen(cage, embedding); })
-                .find("--embed"),
-            std::string::npos);
-  MeshingOptions<3> hasty = vertices(300000);
+  EXPECT_NE(
+      message_of<OptionError>([&] { tetrahedralize_by_netgen(cage, embedding); }).find("--embed"),
+      std::string::npos);
+  MeshingOptions<3> hasty = vertices<3>(300000);
   hasty.time_limit = 0.2;
-  EXPECT_NE(message_of<InputError>([&] { tetrahedralize_by_netgen(cage, hasty); })
-                .find("time limit of 0.2 s (--mesh-timeout)"),
+  EXPECT_NE(message_of<InputError>([&] {
+              tetrahedralize_by_netgen(cage, hasty);
+            }).find("time limit of 0.2 s (--mesh-timeout)"),
             std::string::npos);
   // One limit for all that is tried where a run fails.
   hasty.time_limit = 2;
@@ -115,7 +95,7 @@ TEST(TetrahedralizeByNetgenTest, RealCages) {
   for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
     SCOPED_TRACE(name);
     const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
-    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices(1500));
+    const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices<3>(1500));
     expect_fills(cage, mesh, enclosed_measure(cage));
     expect_count(mesh, 1500, 0.15);
     EXPECT_TRUE(covers_edges(cage, mesh));
@@ -123,4 +103,4 @@ TEST(TetrahedralizeByNetgenTest, RealCages) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -16,33 +16,8 @@
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
-
-using flbc::testing::box_cage;
-using flbc::testing::covers_edges;
-using flbc::testing::enclosed_measure;
-using flbc::testing::expect_count;
-using flbc::testing::expect_fills;
-using flbc::testing::expect_vertices;
-using flbc::testing::has_model;
-using flbc::testing::join;
-using flbc::testing::load_cage;
-using flbc::testing::message_of;
-using flbc::testing::reversed;
-using flbc::testing::without_facet;
-
-MeshingOptions<3> vertices(Index count) {
-  MeshingOptions<3> options;
-  options.vertices = count;
-  return options;
-}
-
-MeshingOptions<3> embedding(const PointList<3>& points, Index count = 0) {
-  MeshingOptions<3> options = vertices(count);
-  options.embedded_points = points;
-  return options;
-}
 
 // Circumradius over shortest edge, largest over the cells: what TetGen is asked to bound.
 double worst_radius_edge_ratio(const DomainMesh<3>& mesh) {
@@ -73,7 +48,7 @@ TEST(TetrahedralizeTest, CountAndCover) {
   for (double size : {1e-6, 1.0, 1e5}) {
     const Cage<3> cage = box_cage<3>(size);
     for (Index count : {0, 300, 5000}) {
-      const DomainMesh<3> mesh = tetrahedralize(cage, vertices(count));
+      const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(count));
       expect_fills(cage, mesh, 8 * size * size * size);
       if (count > 0) expect_count(mesh, count, 0.10);
       // A regular cage's count jumps unless the cells' shapes are bounded less tightly.
@@ -88,7 +63,7 @@ TEST(TetrahedralizeTest, TiltedBoxesWhoseCoplanarFacetsAreNotQuiteCoplanarInDoub
     Cage<3> cage = box_cage<3>(1);
     const Eigen::AngleAxisd turn(0.37 * k, Vector<3>(1, 0.3 * k, -0.7).normalized());
     cage.points = turn * Vector<3>(1, 0.6, 0.8).asDiagonal() * cage.points;
-    const DomainMesh<3> mesh = tetrahedralize(cage, vertices(1000));
+    const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(1000));
     expect_fills(cage, mesh, 8 * 0.6 * 0.8);
     expect_count(mesh, 1000, 0.10);
     num_covered += covers_edges(cage, mesh);
@@ -98,7 +73,7 @@ TEST(TetrahedralizeTest, TiltedBoxesWhoseCoplanarFacetsAreNotQuiteCoplanarInDoub
 
 TEST(TetrahedralizeTest, InwardOrientationDoesNotMatter) {
   const Cage<3> cage = reversed(box_cage<3>(1));
-  expect_fills(cage, tetrahedralize(cage, vertices(500)), 8);
+  expect_fills(cage, tetrahedralize(cage, vertices<3>(500)), 8);
 }
 
 TEST(TetrahedralizeTest, CavitiesStayEmptyWhateverTheirOrientationAndOrder) {
@@ -106,7 +81,7 @@ TEST(TetrahedralizeTest, CavitiesStayEmptyWhateverTheirOrientationAndOrder) {
   const Cage<3> second = box_cage<3>(Vector<3>::Constant(0.7), Vector<3>::Constant(0.9));
   for (const Cage<3>& cage : {join(box, cavity), join(box, reversed(cavity)), join(cavity, box)}) {
     for (Index count : {0, 2000}) {
-      const DomainMesh<3> mesh = tetrahedralize(cage, vertices(count));
+      const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(count));
       expect_fills(cage, mesh, 7);
       if (count > 0) expect_count(mesh, count, 0.10);
     }
@@ -140,7 +115,7 @@ TEST(TetrahedralizeTest, SelfIntersectionsGiveAnErrorAndTheProcessSurvives) {
 }
 
 TEST(TetrahedralizeTest, TimeLimit) {
-  MeshingOptions<3> options = vertices(2000000);
+  MeshingOptions<3> options = vertices<3>(2000000);
   options.time_limit = 0.3;
   const auto start = std::chrono::steady_clock::now();
   const std::string text = message_of<InputError>([&] { tetrahedralize(box_cage<3>(1), options); });
@@ -151,7 +126,7 @@ TEST(TetrahedralizeTest, TimeLimit) {
 
 TEST(TetrahedralizeTest, AThinWallIsNamedWhereMeshingDoesNotEnd) {
   const Cage<3> flat = box_cage<3>(Vector<3>(-1, -1, -1e-4), Vector<3>(1, 1, 1e-4));
-  MeshingOptions<3> options = vertices(4000);
+  MeshingOptions<3> options = vertices<3>(4000);
   options.time_limit = 0.5;
   const std::string text = message_of<InputError>([&] { tetrahedralize(flat, options); });
   EXPECT_NE(text.find("thinnest between control point"), std::string::npos) << text;
@@ -165,7 +140,7 @@ TEST(TetrahedralizeTest, EmbeddedPointsFollowTheControlPoints) {
       0.6, 0.1, 0.1, 0.33333;
   const Cage<3> cage = join(box_cage<3>(1), box_cage<3>(0.5));
   for (Index count : {0, 3000}) {
-    const DomainMesh<3> mesh = tetrahedralize(cage, embedding(points, count));
+    const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(count, points));
     expect_fills(cage, mesh, 7);
     expect_vertices<3>(mesh, cage.size(), points);
     if (count > 0) expect_count(mesh, count, 0.10);
@@ -177,7 +152,7 @@ TEST(TetrahedralizeTest, PointsThatCannotBeEmbedded) {
   const auto refusal = [&](const Vector<3>& second) {
     PointList<3> points(3, 2);
     points << Vector<3>(0.75, 0.75, 0.75), second;
-    return message_of<InputError>([&] { tetrahedralize(cage, embedding(points)); });
+    return message_of<InputError>([&] { tetrahedralize(cage, vertices<3>(0, points)); });
   };
   EXPECT_NE(refusal({2, 0.5, 0}).find("point 1 at (2, 0.5, 0) cannot be embedded: it lies outside"),
             std::string::npos);
@@ -193,11 +168,11 @@ TEST(TetrahedralizeTest, OptionsOutOfRange) {
   for (Index i = 0; i < cage.size(); ++i) cage.points(i % 3, i) *= 1 + 0.01 * i;
   const Index minimum = tetrahedralize(cage).num_vertices();
   const std::string text =
-      message_of<TooFewVertices>([&] { tetrahedralize(cage, vertices(minimum / 2)); });
+      message_of<TooFewVertices>([&] { tetrahedralize(cage, vertices<3>(minimum / 2)); });
   EXPECT_NE(text.find("--vertices"), std::string::npos);
   EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
-  EXPECT_THROW(tetrahedralize(cage, vertices(-1)), OptionError);
-  EXPECT_THROW(tetrahedralize(cage, vertices(2000000000)), OptionError);
+  EXPECT_THROW(tetrahedralize(cage, vertices<3>(-1)), OptionError);
+  EXPECT_THROW(tetrahedralize(cage, vertices<3>(2000000000)), OptionError);
   MeshingOptions<3> no_time;
   no_time.time_limit = 0;
   EXPECT_THROW(tetrahedralize(cage, no_time), OptionError);
@@ -208,7 +183,7 @@ TEST(TetrahedralizeTest, MoreVerticesThanTheFewestAreNeverTooFew) {
   const Cage<3> rod = box_cage<3>({0, 0, 0}, {1, 0.001, 0.001});
   const Index fewest = tetrahedralize(rod).num_vertices();
   for (const Index count : {fewest, 2 * fewest}) {
-    const DomainMesh<3> mesh = tetrahedralize(rod, vertices(count));
+    const DomainMesh<3> mesh = tetrahedralize(rod, vertices<3>(count));
     expect_fills(rod, mesh, 1e-6);
     EXPECT_TRUE(covers_edges(rod, mesh));
     EXPECT_NEAR(mesh.num_vertices(), count, 0.3 * count);  // many of its cells are halved at once
@@ -220,7 +195,7 @@ TEST(TetrahedralizeTest, RoughlyAsManyVertices) {
   const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 2, 1));
   const Index coarsest = tetrahedralize(cage).num_vertices();
   for (const Index count : {1, 500, 3000}) {
-    MeshingOptions<3> options = vertices(count);
+    MeshingOptions<3> options = vertices<3>(count);
     options.roughly = true;
     const auto mesh = tetrahedralize(cage, options);
     EXPECT_GE(3 * mesh.num_vertices(), count);
@@ -231,18 +206,14 @@ TEST(TetrahedralizeTest, RoughlyAsManyVertices) {
 
 TEST(TetrahedralizeTest, RunsAgreeBitByBit) {
   const Cage<3> cage = box_cage<3>(1);
-  const DomainMesh<3> first = tetrahedralize(cage, vertices(2000));
-  const DomainMesh<3> second = tetrahedralize(cage, vertices(2000));
-  ASSERT_EQ(first.num_vertices(), second.num_vertices());
-  EXPECT_EQ(first.points, second.points);
-  EXPECT_EQ(first.cells, second.cells);
+  expect_reproducible([&] { return tetrahedralize(cage, vertices<3>(2000)); });
 }
 
 TEST(TetrahedralizeTest, RealCages) {
   if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
   for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
     const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
-    const DomainMesh<3> mesh = tetrahedralize(cage, vertices(5900));
+    const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(5900));
     expect_fills(cage, mesh, enclosed_measure(cage));
     expect_count(mesh, 5900, 0.10);
     EXPECT_TRUE(covers_edges(cage, mesh)) << name;
@@ -253,7 +224,7 @@ TEST(TetrahedralizeTest, RealModelEmbedded) {
   if (!has_model("3d/shark.obj")) GTEST_SKIP() << "the real models are absent";
   const Cage<3> cage = load_cage<3>("3d/shark_cage.obj");
   const PointList<3> model = load_cage<3>("3d/shark.obj").points;
-  const DomainMesh<3> mesh = tetrahedralize(cage, embedding(model));
+  const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(0, model));
   expect_fills(cage, mesh, enclosed_measure(cage));
   expect_vertices<3>(mesh, cage.size(), model);
 }
@@ -268,4 +239,4 @@ TEST(TetrahedralizeTest, RealCagesThatCrashTetgen) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

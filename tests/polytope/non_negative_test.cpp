@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,16 +16,12 @@
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "polytope/nearest_point_in_hull.h"
+#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class NonNegativeTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(NonNegativeTest, Dimensions);
 
 template <int Dim>
 struct ControlPoints {
@@ -134,40 +129,38 @@ void expect_feasible(const PointList<Dim>& control_points, const PointList<Dim>&
   }
 }
 
-TYPED_TEST(NonNegativeTest, RowsAreFeasibleForAwkwardCagesPointsAndRows) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& [name, control_points] : awkward_control_points<kDim>()) {
+TEST_IN_2D_AND_3D(NonNegativeTest, RowsAreFeasibleForAwkwardCagesPointsAndRows) {
+  for (const auto& [name, control_points] : awkward_control_points<Dim>()) {
     SCOPED_TRACE(name);
     Numbers numbers(7);
-    const auto points = awkward_points<kDim>(control_points, numbers, 120);
+    const auto points = awkward_points<Dim>(control_points, numbers, 120);
     auto weights = awkward_rows(control_points.cols(), points.cols(), numbers);
-    project_non_negative<kDim>(control_points, points, weights);
-    expect_feasible<kDim>(control_points, points, weights);
+    project_non_negative<Dim>(control_points, points, weights);
+    expect_feasible<Dim>(control_points, points, weights);
   }
 }
 
 // The projection w of y is the only feasible row with (w - y) . (z - w) >= 0 for all feasible z,
 // that is for the vertices of the set of feasible rows.
-TYPED_TEST(NonNegativeTest, NoFeasibleRowIsNearer) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(NonNegativeTest, NoFeasibleRowIsNearer) {
   Numbers numbers(11);
-  std::vector<PointList<kDim>> cages{lattice<kDim>(2), numbers.matrix(kDim, 9, -1, 1)};
-  for (int n = kDim + 1; n < 9; ++n) cages.push_back(numbers.matrix(kDim, n, -1, 1));
+  std::vector<PointList<Dim>> cages{lattice<Dim>(2), numbers.matrix(Dim, 9, -1, 1)};
+  for (int n = Dim + 1; n < 9; ++n) cages.push_back(numbers.matrix(Dim, n, -1, 1));
   // Three in a line, and two in one place.
-  PointList<kDim> box = lattice<kDim>(2);
-  box.conservativeResize(kDim, box.cols() + 2);
+  PointList<Dim> box = lattice<Dim>(2);
+  box.conservativeResize(Dim, box.cols() + 2);
   box.rightCols(2) << (box.col(0) + box.col(1)) / 2, box.col(2);
   cages.push_back(box);
   for (const auto& control_points : cages) {
     SCOPED_TRACE(control_points.cols());
-    const auto points = awkward_points<kDim>(control_points, numbers, 60);
+    const auto points = awkward_points<Dim>(control_points, numbers, 60);
     const auto rows = awkward_rows(control_points.cols(), points.cols(), numbers);
     auto weights = rows;
-    project_non_negative<kDim>(control_points, points, weights);
-    expect_feasible<kDim>(control_points, points, weights);
+    project_non_negative<Dim>(control_points, points, weights);
+    expect_feasible<Dim>(control_points, points, weights);
     for (Eigen::Index k = 0; k < points.cols(); ++k) {
       const Eigen::VectorXd gradient = weights.col(k) - rows.col(k);
-      const auto vertices = feasible_vertices<kDim>(control_points, points.col(k), 1e-9);
+      const auto vertices = feasible_vertices<Dim>(control_points, points.col(k), 1e-9);
       ASSERT_FALSE(vertices.empty());
       for (const auto& vertex : vertices) {
         EXPECT_GE(gradient.dot(vertex - weights.col(k)), -1e-8 * (1 + rows.col(k).norm()))
@@ -178,24 +171,23 @@ TYPED_TEST(NonNegativeTest, NoFeasibleRowIsNearer) {
 }
 
 // w_i - y_i = mu . (1, c_i) where w_i > 0, and at least that elsewhere.
-TYPED_TEST(NonNegativeTest, MultipliersExistForManyControlPoints) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(NonNegativeTest, MultipliersExistForManyControlPoints) {
   Numbers numbers(13);
-  const PointList<kDim> control_points = numbers.matrix(kDim, 250, -1, 1);
-  Eigen::MatrixXd constraints(250, kDim + 1);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 250, -1, 1);
+  Eigen::MatrixXd constraints(250, Dim + 1);
   constraints << Eigen::VectorXd::Ones(250), control_points.transpose();
-  PointList<kDim> points(kDim, 50);
+  PointList<Dim> points(Dim, 50);
   WeightMatrix rows = numbers.matrix(250, 50, -0.05, 0.05);
   for (int k = 0; k < 50; ++k) points.col(k) = control_points * numbers.convex(250);
   auto weights = rows;
-  project_non_negative<kDim>(control_points, points, weights);
-  expect_feasible<kDim>(control_points, points, weights);
+  project_non_negative<Dim>(control_points, points, weights);
+  expect_feasible<Dim>(control_points, points, weights);
   for (int k = 0; k < 50; ++k) {
     std::vector<int> support;
     for (int i = 0; i < 250; ++i) {
       if (weights(i, k) > 0) support.push_back(i);
     }
-    ASSERT_GT(support.size(), kDim + 1);
+    ASSERT_GT(support.size(), Dim + 1);
     ASSERT_LT(support.size(), 250);
     const Eigen::VectorXd change = weights.col(k) - rows.col(k);
     const Eigen::VectorXd multipliers =
@@ -206,100 +198,97 @@ TYPED_TEST(NonNegativeTest, MultipliersExistForManyControlPoints) {
   }
 }
 
-TYPED_TEST(NonNegativeTest, FeasibleColumnsAndColumnsNotAskedForStay) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(NonNegativeTest, FeasibleColumnsAndColumnsNotAskedForStay) {
   Numbers numbers(17);
-  const PointList<kDim> control_points = lattice<kDim>(3);
+  const PointList<Dim> control_points = lattice<Dim>(3);
   const auto n = control_points.cols();
   WeightMatrix weights(n, 3);
   for (int k = 0; k < 3; ++k) weights.col(k) = numbers.convex(n);
   weights(0, 0) = 0;
   weights.col(0) /= weights.col(0).sum();
   weights(0, 0) = -0.0;
-  const PointList<kDim> points = control_points * weights;
+  const PointList<Dim> points = control_points * weights;
   weights(0, 1) = -5;
   weights(1, 2) = std::numeric_limits<double>::quiet_NaN();
   const WeightMatrix before = weights;
-  project_non_negative<kDim>(control_points, points, weights, {0});
+  project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{0});
   EXPECT_TRUE(bit_equal(weights.rightCols(2), before.rightCols(2)));
   EXPECT_TRUE(
       bit_equal(weights.bottomRows(n - 1).leftCols(1), before.bottomRows(n - 1).leftCols(1)));
   EXPECT_FALSE(std::signbit(weights(0, 0)));
 
-  project_non_negative<kDim>(control_points, points, weights, {1});
+  project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{1});
   EXPECT_TRUE(bit_equal(weights.col(2), before.col(2)));
   EXPECT_GE(weights.col(1).minCoeff(), 0);
 }
 
-TYPED_TEST(NonNegativeTest, PointsOutsideAreNamed) {
-  constexpr int kDim = TypeParam::value;
-  const PointList<kDim> control_points = 10 * lattice<kDim>(3);
-  const double size = bounding_box_diagonal<kDim>(control_points);
-  PointList<kDim> points = PointList<kDim>::Constant(kDim, 400, 5);
+TEST_IN_2D_AND_3D(NonNegativeTest, PointsOutsideAreNamed) {
+  const PointList<Dim> control_points = 10 * lattice<Dim>(3);
+  const double size = bounding_box_diagonal<Dim>(control_points);
+  PointList<Dim> points = PointList<Dim>::Constant(Dim, 400, 5);
   points(0, 5) = 10 + 0.5e-6 * size;
   points(0, 123) = 10.25;
   points(0, 321) = -1;
   const WeightMatrix rows = WeightMatrix::Constant(control_points.cols(), 400, -1);
   auto weights = rows;
-  expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
+  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
                            {"point 123", "(10.25, 5", "by 0.25"});
   weights = rows;
   const double inf = std::numeric_limits<double>::infinity();
   weights(2, 7) = inf;
-  expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
+  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
                            {"point 7", "(5, 5"});
   weights = rows;
   points(0, 123) = inf;
-  expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
+  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
                            {"point 123"});
   expect_error<InputError>(
-      [&] { project_non_negative<kDim>(control_points, points, weights, {400}); }, {"400"});
-  points.conservativeResize(kDim, 300);
-  expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
+      [&] { project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{400}); },
+      {"400"});
+  points.conservativeResize(Dim, 300);
+  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
                            {"300", "400"});
   points(0, 123) = 10 + 2e-6 * size;
   weights.conservativeResize(control_points.cols(), 300);
-  expect_error<InputError>([&] { project_non_negative<kDim>(control_points, points, weights); },
+  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
                            {"point 123"});
   points(0, 123) = 10 + 0.5e-6 * size;
-  project_non_negative<kDim>(control_points, points, weights);
+  project_non_negative<Dim>(control_points, points, weights);
   EXPECT_LE((control_points * weights.col(123) - points.col(123)).norm(), 0.6e-6 * size);
 }
 
-TYPED_TEST(NonNegativeTest, ThreadsDoNotMatter) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(NonNegativeTest, ThreadsDoNotMatter) {
   Numbers numbers(19);
-  const PointList<kDim> control_points = numbers.matrix(kDim, 30, -1, 1);
-  const auto points = awkward_points<kDim>(control_points, numbers, 1000);
+  const PointList<Dim> control_points = numbers.matrix(Dim, 30, -1, 1);
+  const auto points = awkward_points<Dim>(control_points, numbers, 1000);
   const auto rows = awkward_rows(30, 1000, numbers);
   auto weights = rows, others = rows;
   {
     const ThreadScope threads(1);
-    project_non_negative<kDim>(control_points, points, weights);
+    project_non_negative<Dim>(control_points, points, weights);
   }
   const ThreadScope threads(3);
-  project_non_negative<kDim>(control_points, points, others);
+  project_non_negative<Dim>(control_points, points, others);
   EXPECT_TRUE(bit_equal(weights, others));
 }
 
 // The nearest point of a hull: h with (x - h) . (c - h) <= 0 for all c.
-TYPED_TEST(NonNegativeTest, NearestPointOfTheHull) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& [name, control_points] : awkward_control_points<kDim>()) {
+TEST_IN_2D_AND_3D(NonNegativeTest, NearestPointOfTheHull) {
+  for (const auto& [name, control_points] : awkward_control_points<Dim>()) {
     SCOPED_TRACE(name);
     Numbers numbers(23);
-    const double size = bounding_box_diagonal<kDim>(control_points);
+    const double size = bounding_box_diagonal<Dim>(control_points);
     for (int k = 0; k < 100; ++k) {
-      const Vector<kDim> query =
+      const Vector<Dim> query =
           control_points.rowwise().mean() +
-          Vector<kDim>(numbers.matrix(kDim, 1, -size, size) * (k % 2 == 0 ? 1 : 0.2));
-      const auto nearest = nearest_point_in_hull<kDim>(control_points, query);
-      const Vector<kDim> normal = query - nearest.point;
+          Vector<Dim>(numbers.matrix(Dim, 1, -size, size) * (k % 2 == 0 ? 1 : 0.2));
+      const auto nearest = nearest_point_in_hull<Dim>(control_points, query);
+      const Vector<Dim> normal = query - nearest.point;
       EXPECT_NEAR(normal.norm(), nearest.distance, 1e-12 * size);
-      const PointList<kDim> offsets = control_points.colwise() - nearest.point;
+      const PointList<Dim> offsets = control_points.colwise() - nearest.point;
       EXPECT_LE((normal.transpose() * offsets).maxCoeff(), 1e-12 * size * size);
       double sum = 0;
-      Vector<kDim> combination = Vector<kDim>::Zero();
+      Vector<Dim> combination = Vector<Dim>::Zero();
       for (int m = 0; m < nearest.size; ++m) {
         EXPECT_GT(nearest.weights[m], 0);
         sum += nearest.weights[m];

@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/boundary_values.h"
 
-#include <type_traits>
-
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class BoundaryValuesTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(BoundaryValuesTest, Dimensions);
-
 template <int Dim>
 BoundaryValues<Dim> values_of(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
   return boundary_values(cage, mesh, build_topology(mesh));
 }
 
-TYPED_TEST(BoundaryValuesTest, EqualTheJudgesBarycentricCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(BoundaryValuesTest, EqualTheJudgesBarycentricCoordinates) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto boundary = values_of(sample.cage, sample.mesh);
     const auto expected = demanded_boundary_weights(sample.cage, sample.mesh);
@@ -43,26 +36,24 @@ TYPED_TEST(BoundaryValuesTest, EqualTheJudgesBarycentricCoordinates) {
 }
 
 // Points on an edge of the cage belong to the edge: exactly two control points in 3D too.
-TYPED_TEST(BoundaryValuesTest, PointsOnCageEdgesHaveExactZerosElsewhere) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 3);
+TEST_IN_2D_AND_3D(BoundaryValuesTest, PointsOnCageEdgesHaveExactZerosElsewhere) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 3);
   const auto boundary = values_of(sample.cage, sample.mesh);
   int on_edges = 0;
   for (std::size_t b = 0; b < boundary.vertices.size(); ++b) {
-    const Vector<kDim> point = sample.mesh.points.col(boundary.vertices[b]);
+    const Vector<Dim> point = sample.mesh.points.col(boundary.vertices[b]);
     int inner_axes = 0;  // of the unit box
     for (const double x : point) inner_axes += x > 1e-9 && x < 1 - 1e-9 ? 1 : 0;
     if (inner_axes != 1) continue;
     ++on_edges;
     EXPECT_EQ((boundary.values.col(b).array() > 0).count(), 2);
   }
-  EXPECT_EQ(on_edges, kDim == 2 ? 8 : 24);
+  EXPECT_EQ(on_edges, Dim == 2 ? 8 : 24);
 }
 
 // Rounding of coordinates to single precision is made good; vertices farther away stay.
-TYPED_TEST(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto topology = build_topology(sample.mesh);
     auto rounded = sample.mesh;
@@ -74,7 +65,7 @@ TYPED_TEST(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(sample.cage.size());
       boundary.scatter(static_cast<Index>(b), row);
       EXPECT_LT((row - expected.col(boundary.vertices[b])).cwiseAbs().maxCoeff(), 1e-5);
-      const Vector<kDim> reproduced = sample.cage.points * row;
+      const Vector<Dim> reproduced = sample.cage.points * row;
       EXPECT_LT((reproduced - rounded.points.col(boundary.vertices[b])).norm(), 1e-13);
     }
     auto exact = sample.mesh;
@@ -82,29 +73,28 @@ TYPED_TEST(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
     EXPECT_LT((exact.points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-14);
     auto far = sample.mesh;
     far.points *= 1.01;
-    const PointList<kDim> before = far.points;
+    const PointList<Dim> before = far.points;
     snap_to_cage(sample.cage, topology, 1e-6, far);
     EXPECT_LT((far.points - before).cwiseAbs().maxCoeff(), 1e-5);
   }
 }
 
-TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 2);
+TEST_IN_2D_AND_3D(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 2);
   auto bigger = sample.cage;
   bigger.points *= 1.01;
   EXPECT_THROW(values_of(bigger, sample.mesh), InputError);
 
   // A control point in the middle of a facet's edge, where the mesh has no vertex.
-  const auto coarse = make_sample<kDim>(Shape::kBox, 1);
-  auto refined = make_sample<kDim>(Shape::kBox, 1).cage;
-  refined.points.conservativeResize(kDim, refined.points.cols() + 1);
+  const auto coarse = make_sample<Dim>(Shape::kBox, 1);
+  auto refined = make_sample<Dim>(Shape::kBox, 1).cage;
+  refined.points.conservativeResize(Dim, refined.points.cols() + 1);
   const auto added = static_cast<Index>(refined.points.cols() - 1);
   const Index a = refined.facets(0, 0);
   const Index b = refined.facets(1, 0);
   refined.points.col(added) = (refined.points.col(a) + refined.points.col(b)) / 2;
   const auto old = refined.facets;
-  refined.facets.resize(kDim, old.cols() * 2);
+  refined.facets.resize(Dim, old.cols() * 2);
   Index count = 0;
   for (Index f = 0; f < old.cols(); ++f) {  // split every facet with the edge a b
     const bool has_edge = (old.col(f).array() == a).any() && (old.col(f).array() == b).any();
@@ -116,7 +106,7 @@ TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
     }
     ++count;
   }
-  refined.facets.conservativeResize(kDim, count);
+  refined.facets.conservativeResize(Dim, count);
   try {
     values_of(refined, coarse.mesh);
     FAIL() << "accepted a mesh without vertex at a control point";
@@ -126,14 +116,13 @@ TYPED_TEST(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
 }
 
 // A ring one cell thick from which a cell is taken keeps all its vertices on the cage.
-TYPED_TEST(BoundaryValuesTest, RefusesAMeshWithAGapAcrossTheCage) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 1);
+TEST_IN_2D_AND_3D(BoundaryValuesTest, RefusesAMeshWithAGapAcrossTheCage) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 1);
   int refused = 0;
   for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
     auto mesh = sample.mesh;
     mesh.cells.col(s) = mesh.cells.rightCols(1).eval();
-    mesh.cells.conservativeResize(kDim + 1, mesh.num_cells() - 1);
+    mesh.cells.conservativeResize(Dim + 1, mesh.num_cells() - 1);
     try {
       values_of(sample.cage, mesh);
       ADD_FAILURE() << "accepted a mesh without cell " << s;

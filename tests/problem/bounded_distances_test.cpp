@@ -3,92 +3,91 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class BoundedDistancesTest : public ::testing::Test {
- protected:
-  static constexpr int kDimension = Dimension::value;
-
+template <int Dim>
+struct BoundedDistancesTest {
   BoundedDistancesTest()
-      : sample_(make_sample<kDimension>(Shape::kRing, kDimension == 2 ? 16 : 5, 0.2)),
-        topology_(build_topology(sample_.mesh)),
-        sources_(boundary_values(sample_.cage, sample_.mesh, topology_).control_vertices),
-        exact_(geodesic_distances(sample_.mesh, topology_, sources_)) {}
+      : sample(make_sample<Dim>(Shape::kRing, Dim == 2 ? 16 : 5, 0.2)),
+        topology(build_topology(sample.mesh)),
+        sources(boundary_values(sample.cage, sample.mesh, topology).control_vertices),
+        exact(geodesic_distances(sample.mesh, topology, sources)) {}
 
   // Vertices within a part of the largest distance, by source.
   VertexItems<Index> within(double part) const {
-    return items_by_vertex<Index>(static_cast<Index>(sources_.size()), [&](const auto& visit) {
-      for (Index i = 0; i < exact_.rows(); ++i) {
-        for (Index v = 0; v < exact_.cols(); ++v) {
-          if (exact_(i, v) <= part * exact_.maxCoeff()) visit(i, v);
+    return items_by_vertex<Index>(static_cast<Index>(sources.size()), [&](const auto& visit) {
+      for (Index i = 0; i < exact.rows(); ++i) {
+        for (Index v = 0; v < exact.cols(); ++v) {
+          if (exact(i, v) <= part * exact.maxCoeff()) visit(i, v);
         }
       }
     });
   }
   BoundedDistances bounded(const VertexItems<Index>& needed) const {
-    return bounded_distances(sample_.mesh, topology_, sources_, needed);
+    return bounded_distances(sample.mesh, topology, sources, needed);
   }
-  double rounding() const { return 1e-6 * bounding_box_diagonal(sample_.cage.points); }
+  double rounding() const { return 1e-6 * bounding_box_diagonal(sample.cage.points); }
 
-  const Sample<kDimension> sample_;
-  const MeshTopology<kDimension> topology_;
-  const std::vector<Index> sources_;
-  const DistanceMatrix exact_;
+  const Sample<Dim> sample;
+  const MeshTopology<Dim> topology;
+  const std::vector<Index> sources;
+  const DistanceMatrix exact;
 };
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(BoundedDistancesTest, Dimensions);
 
-TYPED_TEST(BoundedDistancesTest, AreExactWhereTheyAreNeededAndNeverTooLong) {
-  const auto needed = this->within(0.3);
-  const auto bounded = this->bounded(needed);
+TEST_IN_2D_AND_3D(BoundedDistancesTest, AreExactWhereTheyAreNeededAndNeverTooLong) {
+  BoundedDistancesTest<Dim> t;
+  const auto needed = t.within(0.3);
+  const auto bounded = t.bounded(needed);
   Index beyond = 0;
-  for (Index i = 0; i < this->exact_.rows(); ++i) {
+  for (Index i = 0; i < t.exact.rows(); ++i) {
     for (const Index v : needed.of(i)) {
-      EXPECT_LE(this->exact_(i, v), bounded.reach[i] + this->rounding());
+      EXPECT_LE(t.exact(i, v), bounded.reach[i] + t.rounding());
     }
-    for (Index v = 0; v < this->exact_.cols(); ++v) {
-      const float exact = this->exact_(i, v);
-      EXPECT_LE(bounded.distances(i, v), exact + this->rounding());
-      if (exact < bounded.reach[i] - this->rounding()) {
-        EXPECT_NEAR(bounded.distances(i, v), exact, this->rounding());
+    for (Index v = 0; v < t.exact.cols(); ++v) {
+      const float exact = t.exact(i, v);
+      EXPECT_LE(bounded.distances(i, v), exact + t.rounding());
+      if (exact < bounded.reach[i] - t.rounding()) {
+        EXPECT_NEAR(bounded.distances(i, v), exact, t.rounding());
       } else {
-        EXPECT_GE(bounded.distances(i, v), bounded.reach[i] - this->rounding());
+        EXPECT_GE(bounded.distances(i, v), bounded.reach[i] - t.rounding());
         ++beyond;
       }
     }
   }
-  EXPECT_GT(beyond, this->exact_.size() / 4);
+  EXPECT_GT(beyond, t.exact.size() / 4);
 }
 
 // Phi is relative to it.
-TYPED_TEST(BoundedDistancesTest, HaveNearlyTheLargestDistance) {
-  const auto bounded = this->bounded(this->within(0.1));
-  EXPECT_GE(bounded.distances.maxCoeff(), 0.98f * this->exact_.maxCoeff());
+TEST_IN_2D_AND_3D(BoundedDistancesTest, HaveNearlyTheLargestDistance) {
+  BoundedDistancesTest<Dim> t;
+  const auto bounded = t.bounded(t.within(0.1));
+  EXPECT_GE(bounded.distances.maxCoeff(), 0.98f * t.exact.maxCoeff());
   EXPECT_EQ((bounded.reach.array() == INFINITY).count(),
-            std::min<Index>(4, static_cast<Index>(this->exact_.rows())));
+            std::min<Index>(4, static_cast<Index>(t.exact.rows())));
 }
 
-TYPED_TEST(BoundedDistancesTest, AreAllThereIfAllAreNeeded) {
-  const auto bounded = this->bounded(this->within(1));
-  EXPECT_EQ(bounded.distances, this->exact_);
+TEST_IN_2D_AND_3D(BoundedDistancesTest, AreAllThereIfAllAreNeeded) {
+  BoundedDistancesTest<Dim> t;
+  const auto bounded = t.bounded(t.within(1));
+  EXPECT_EQ(bounded.distances, t.exact);
   EXPECT_TRUE((bounded.reach.array() == INFINITY).all());
 }
 
-TYPED_TEST(BoundedDistancesTest, AreTheSameForAnyNumberOfThreads) {
+TEST_IN_2D_AND_3D(BoundedDistancesTest, AreTheSameForAnyNumberOfThreads) {
+  BoundedDistancesTest<Dim> t;
   const auto with = [&](int threads) {
     const ThreadScope scope(threads);
-    return this->bounded(this->within(0.3)).distances;
+    return t.bounded(t.within(0.3)).distances;
   };
   EXPECT_EQ(with(1), with(5));
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -14,22 +13,17 @@
 #include "flbc/lbc_problem.h"
 #include "problem/geodesic/eikonal_mesh.h"
 #include "problem/geodesic/march.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class DistanceWeightsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(DistanceWeightsTest, Dimensions);
-
 // In a convex domain geodesics are straight, and then nothing is lost on any mesh, in any units.
-TYPED_TEST(DistanceWeightsTest, AreEuclideanInABox) {
-  constexpr int kDim = TypeParam::value;
-  for (const Index resolution : {3, kDim == 2 ? 40 : 12}) {
+TEST_IN_2D_AND_3D(DistanceWeightsTest, AreEuclideanInABox) {
+  for (const Index resolution : {3, Dim == 2 ? 40 : 12}) {
     for (const double unit : {1e-3, 1.0, 1e3}) {
-      auto sample = make_sample<kDim>(Shape::kBox, resolution, 0.2);
+      auto sample = make_sample<Dim>(Shape::kBox, resolution, 0.2);
       sample.mesh.points *= unit;
       sample.cage.points *= unit;
       const auto& mesh = sample.mesh;
@@ -82,10 +76,9 @@ double way_round_hole(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double
 
 // Round the hole of a ring the way bends; in 3D, a way is what it is in the plane, and straight in
 // the third direction. Behind the bend the error is of the order of a cell.
-TYPED_TEST(DistanceWeightsTest, GoRoundHoles) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(DistanceWeightsTest, GoRoundHoles) {
   const auto error_of = [](Index resolution) {
-    const auto sample = make_sample<kDim>(Shape::kRing, resolution);
+    const auto sample = make_sample<Dim>(Shape::kRing, resolution);
     const auto& mesh = sample.mesh;
     const auto middle =
         ((mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2).eval();
@@ -106,7 +99,7 @@ TYPED_TEST(DistanceWeightsTest, GoRoundHoles) {
         const double in_plane =
             way_round_hole(source.template head<2>(), point.template head<2>(), hole);
         if (!std::isfinite(in_plane)) continue;
-        const double rise = kDim == 3 ? point[kDim - 1] - source[kDim - 1] : 0.0;
+        const double rise = Dim == 3 ? point[Dim - 1] - source[Dim - 1] : 0.0;
         const double way = std::hypot(in_plane, rise);
         worst = std::max(worst, std::abs(distances(i, v) - way));
         num_bent += way > (point - source).norm() * 1.02 ? 1 : 0;
@@ -117,22 +110,21 @@ TYPED_TEST(DistanceWeightsTest, GoRoundHoles) {
     EXPECT_LT(worst, 2 * 2 * hole / static_cast<double>(resolution)) << resolution;
     return worst;
   };
-  const double coarse = error_of(kDim == 2 ? 4 : 3);
-  const double fine = error_of(kDim == 2 ? 32 : 9);
+  const double coarse = error_of(Dim == 2 ? 4 : 3);
+  const double fine = error_of(Dim == 2 ? 32 : 9);
   EXPECT_LT(fine, coarse);
 }
 
 // Rounding in cells that are nearly flat must not pass for improvements, which would go on and on.
-TYPED_TEST(DistanceWeightsTest, EndSoonInFlatCells) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(DistanceWeightsTest, EndSoonInFlatCells) {
   for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
     for (const double flatness : {1e-4, 1e-5, 1e-6}) {
-      auto sample = make_sample<kDim>(shape, kDim == 2 ? 30 : 8, 0.3);
-      sample.mesh.points.row(kDim - 1) *= flatness;
+      auto sample = make_sample<Dim>(shape, Dim == 2 ? 30 : 8, 0.3);
+      sample.mesh.points.row(Dim - 1) *= flatness;
       const auto& mesh = sample.mesh;
       const auto topology = build_topology(mesh);
-      const distance::EikonalMesh<kDim> eikonal(mesh, topology);
-      distance::March<kDim> march(eikonal);
+      const distance::EikonalMesh<Dim> eikonal(mesh, topology);
+      distance::March<Dim> march(eikonal);
       const Index most = 32 * mesh.num_vertices();
       for (Index source = 0; source < mesh.num_vertices(); source += 7) {
         Index passes = 0;
@@ -143,9 +135,8 @@ TYPED_TEST(DistanceWeightsTest, EndSoonInFlatCells) {
   }
 }
 
-TYPED_TEST(DistanceWeightsTest, AreTheSameForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 12 : 4, 0.2);
+TEST_IN_2D_AND_3D(DistanceWeightsTest, AreTheSameForAnyNumberOfThreads) {
+  const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 12 : 4, 0.2);
   const auto topology = build_topology(sample.mesh);
   const auto sources = boundary_values(sample.cage, sample.mesh, topology).control_vertices;
   const auto distances = [&](int threads) {
@@ -209,43 +200,41 @@ float computed_distance(const distance::EikonalMesh<Dim>& eikonal, int c,
   }
 }
 
-TYPED_TEST(DistanceWeightsTest, RaysThroughACellAreExact) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(DistanceWeightsTest, RaysThroughACellAreExact) {
   const ThreadScope scope(1);  // waking others up takes longer than a cell
   std::mt19937 random(1);
   for (int round = 0; round < 500; ++round) {
-    const auto mesh = random_cell<kDim>(random);
+    const auto mesh = random_cell<Dim>(random);
     const auto topology = build_topology(mesh);
-    const distance::EikonalMesh<kDim> eikonal(mesh, topology);
-    for (int c = 0; c <= kDim; ++c) {
-      auto of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, false, random));
+    const distance::EikonalMesh<Dim> eikonal(mesh, topology);
+    for (int c = 0; c <= Dim; ++c) {
+      auto of = distances_of_corners<Dim>(mesh, source_beyond(mesh, c, false, random));
       EXPECT_NEAR(computed_distance(eikonal, c, of, 2 * of[c]), of[c], 1e-4f * of[c]);
       EXPECT_EQ(computed_distance(eikonal, c, of, 0.99f * of[c]), distance::kNone);
-      of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, true, random));
+      of = distances_of_corners<Dim>(mesh, source_beyond(mesh, c, true, random));
       EXPECT_EQ(computed_distance(eikonal, c, of, 2 * of[c]), distance::kNone);
     }
   }
 }
 
 // A corner is not denied the ray that reaches it through a corner passed after it, but many others.
-TYPED_TEST(DistanceWeightsTest, UsefulRaysAreNotDenied) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(DistanceWeightsTest, UsefulRaysAreNotDenied) {
   const ThreadScope scope(1);
   std::mt19937 random(2);
   int num_obtuse = 0;
   int num_denied = 0;
   for (int round = 0; round < 500; ++round) {
-    const auto mesh = random_cell<kDim>(random);
+    const auto mesh = random_cell<Dim>(random);
     const auto topology = build_topology(mesh);
-    const distance::EikonalMesh<kDim> eikonal(mesh, topology);
+    const distance::EikonalMesh<Dim> eikonal(mesh, topology);
     const auto& look_back = eikonal.look_back[0];
-    for (int c = 0; c <= kDim; ++c) {
-      const auto of = distances_of_corners<kDim>(mesh, source_beyond(mesh, c, false, random));
-      for (int o = 0; o <= kDim; ++o) {
+    for (int c = 0; c <= Dim; ++c) {
+      const auto of = distances_of_corners<Dim>(mesh, source_beyond(mesh, c, false, random));
+      for (int o = 0; o <= Dim; ++o) {
         if (o == c || (look_back.obtuse_beside(o) >> c & 1u) == 0) continue;
         EXPECT_TRUE(look_back.can_help(1.001f * of[c], of[o]));
         // No edge is longer than that.
-        num_denied += look_back.can_help(of[c], of[c] + 2 * std::sqrt(float{kDim})) ? 0 : 1;
+        num_denied += look_back.can_help(of[c], of[c] + 2 * std::sqrt(float{Dim})) ? 0 : 1;
         ++num_obtuse;
       }
     }
@@ -254,9 +243,8 @@ TYPED_TEST(DistanceWeightsTest, UsefulRaysAreNotDenied) {
   EXPECT_EQ(num_denied, num_obtuse);
 }
 
-TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const auto& mesh = sample.mesh;
   const auto n = sample.cage.size();
   const DistanceMatrix given = DistanceMatrix::Random(n, mesh.num_vertices()).cwiseAbs();
@@ -274,26 +262,24 @@ TYPED_TEST(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   const Eigen::MatrixXd distances = given.cast<double>();
   const double mean = distances(0, mesh.cells(0, 0)) + distances(0, mesh.cells(1, 0)) +
                       distances(0, mesh.cells(2, 0)) +
-                      (kDim == 3 ? distances(0, mesh.cells(kDim, 0)) : 0);
-  EXPECT_NEAR(linear(0, 0), mean / (kDim + 1) / distances.maxCoeff(), 1e-14);
+                      (Dim == 3 ? distances(0, mesh.cells(Dim, 0)) : 0);
+  EXPECT_NEAR(linear(0, 0), mean / (Dim + 1) / distances.maxCoeff(), 1e-14);
 }
 
-TYPED_TEST(DistanceWeightsTest, AMeshMayHaveMoreVerticesThanCells) {
-  constexpr int kDim = TypeParam::value;
-  DomainMesh<kDim> mesh;  // one cell
-  mesh.points = PointList<kDim>::Identity(kDim, kDim + 1);
-  mesh.cells.resize(kDim + 1, 1);
-  for (int k = 0; k <= kDim; ++k) mesh.cells(k, 0) = k;
-  const DistanceMatrix distances = DistanceMatrix::Ones(2, kDim + 1);
+TEST_IN_2D_AND_3D(DistanceWeightsTest, AMeshMayHaveMoreVerticesThanCells) {
+  DomainMesh<Dim> mesh;  // one cell
+  mesh.points = PointList<Dim>::Identity(Dim, Dim + 1);
+  mesh.cells.resize(Dim + 1, 1);
+  for (int k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+  const DistanceMatrix distances = DistanceMatrix::Ones(2, Dim + 1);
   const WeightFunctions phi(DistanceScheme::kLinear, distances, mesh, 2);
   EXPECT_EQ(phi.cols(), 1);
   EXPECT_EQ(phi.size(), 2);
   EXPECT_EQ(phi.dense(), Eigen::MatrixXd::Ones(2, 1));
 }
 
-TYPED_TEST(DistanceWeightsTest, WeightFunctionsThatAreGivenAreKept) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(DistanceWeightsTest, WeightFunctionsThatAreGivenAreKept) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const Eigen::MatrixXd values =
       Eigen::MatrixXd::Random(sample.cage.size(), sample.mesh.num_cells()).cwiseAbs();
   const WeightFunctions given(values);

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/interpolated_distances.h"
 
-#include <type_traits>
-
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
 #include "mesh/cell_walk.h"
+#include "support/dimensions.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class InterpolatedDistancesTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(InterpolatedDistancesTest, Dimensions);
 
 // Distances at the vertices of a sample of 8 cells a side: from one of so many, and their own.
 template <int Dim>
@@ -35,8 +29,7 @@ struct Comparison {
     exact = distances_on(fine, build_topology(fine.mesh));
   }
 
-  static DistanceMatrix distances_on(const Sample<Dim>& sample,
-                                      const MeshTopology<Dim>& topology) {
+  static DistanceMatrix distances_on(const Sample<Dim>& sample, const MeshTopology<Dim>& topology) {
     const auto sources = boundary_values(sample.cage, sample.mesh, topology).control_vertices;
     return geodesic_distances(sample.mesh, topology, sources);
   }
@@ -44,17 +37,15 @@ struct Comparison {
   double size() const { return bounding_box_diagonal(fine.cage.points); }
 };
 
-TYPED_TEST(InterpolatedDistancesTest, LoseNothingWhereWaysAreStraight) {
-  constexpr int kDim = TypeParam::value;
-  const Comparison<kDim> box(Shape::kBox, 2);
+TEST_IN_2D_AND_3D(InterpolatedDistancesTest, LoseNothingWhereWaysAreStraight) {
+  const Comparison<Dim> box(Shape::kBox, 2);
   EXPECT_LT((box.interpolated - box.exact).cwiseAbs().maxCoeff(), 2e-5 * box.size());
 }
 
-TYPED_TEST(InterpolatedDistancesTest, ApproachExactOnesAsTheMeshIsRefined) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(InterpolatedDistancesTest, ApproachExactOnesAsTheMeshIsRefined) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
     const auto error = [&](int resolution) {
-      const Comparison<kDim> c(shape, resolution);
+      const Comparison<Dim> c(shape, resolution);
       EXPECT_GE((c.interpolated - c.exact).minCoeff(), -0.05 * c.size());
       return (c.interpolated - c.exact).norm() / c.exact.norm();
     };

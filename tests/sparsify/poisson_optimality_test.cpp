@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -11,20 +10,15 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/poses.h"
-#include "sparsify/pose_metric.h"
+#include "sparsify/poisson/poisson_energy.h"
 #include "sparsify/support_selection.h"
+#include "support/dimensions.h"
 #include "support/poisson_problem.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class PoissonOptimalityTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(PoissonOptimalityTest, Dimensions);
-
-TYPED_TEST(PoissonOptimalityTest, TheCostIsWhatTheHeaderSays) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonOptimalityTest, TheCostIsWhatTheHeaderSays) {
   Numbers numbers(23);
   const PointList<Dim> control_points = numbers.matrix(Dim, 9, -1, 1);
   auto problem = problem_on_a_curve<Dim>(control_points, 12, 0.1);
@@ -138,8 +132,7 @@ void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixX
   EXPECT_GE(best, 3 * kPoints / 4);
 }
 
-TYPED_TEST(PoissonOptimalityTest, OnePointsWeightsAreNearTheBestInAnyMetric) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonOptimalityTest, OnePointsWeightsAreNearTheBestInAnyMetric) {
   constexpr int kControls = 8;
   Numbers numbers(33);
   const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
@@ -153,8 +146,7 @@ TYPED_TEST(PoissonOptimalityTest, OnePointsWeightsAreNearTheBestInAnyMetric) {
 }
 
 // The same problem in the identity as a special case and as a matrix.
-TYPED_TEST(PoissonOptimalityTest, TheIdentityIsAMetricLikeAnyOther) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonOptimalityTest, TheIdentityIsAMetricLikeAnyOther) {
   constexpr int kControls = 20;
   Numbers numbers(36);
   const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
@@ -215,8 +207,7 @@ Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights
   return gains;
 }
 
-TYPED_TEST(PoissonOptimalityTest, HardlyARowCouldBeBetterForItsNeighbours) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonOptimalityTest, HardlyARowCouldBeBetterForItsNeighbours) {
   constexpr int kPoints = 60;
   Numbers numbers(34);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 8, -1, 1), kPoints, 0.2);

@@ -12,16 +12,12 @@
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/poses.h"
+#include "support/dimensions.h"
 #include "support/io_files.h"
 #include "support/poisson_problem.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class PoissonReductionTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(PoissonReductionTest, Dimensions);
 
 // Control points of every kind that could need special care.
 template <int Dim>
@@ -40,8 +36,7 @@ std::vector<PointList<Dim>> cages() {
           (box.array() + 1e3).matrix(),   1e20 * box};
 }
 
-TYPED_TEST(PoissonReductionTest, KeepsTheConstraintsWhateverComes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, KeepsTheConstraintsWhateverComes) {
   Numbers numbers(28);
   int number = 0;
   for (const auto& control_points : cages<Dim>()) {
@@ -66,8 +61,7 @@ TYPED_TEST(PoissonReductionTest, KeepsTheConstraintsWhateverComes) {
   }
 }
 
-TYPED_TEST(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint) {
   Numbers numbers(29);
   const PointList<Dim> control_points = numbers.matrix(Dim, 14, -1, 1);
   const auto on_a_curve = problem_on_a_curve<Dim>(control_points, 300, 0);
@@ -89,8 +83,7 @@ TYPED_TEST(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint) {
   }
 }
 
-TYPED_TEST(PoissonReductionTest, GivenPosesCount) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, GivenPosesCount) {
   Numbers numbers(27);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 14, -1, 1), 200, 0.05);
   std::vector<PointList<Dim>> poses{problem.control_points, problem.control_points};
@@ -101,8 +94,7 @@ TYPED_TEST(PoissonReductionTest, GivenPosesCount) {
   EXPECT_LT(problem.error(with, poses).rms, 0.9 * problem.error(without, poses).rms);
 }
 
-TYPED_TEST(PoissonReductionTest, WhatIsSparseStays) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, WhatIsSparseStays) {
   auto problem = problem_on_a_mesh<Dim>();
   const auto sparse = problem.reduce(at_most(Dim + 1));
   EXPECT_NE(sparse, problem.weights);
@@ -111,8 +103,7 @@ TYPED_TEST(PoissonReductionTest, WhatIsSparseStays) {
   EXPECT_EQ(problem.reduce(at_most(Dim + 5)), sparse);
 }
 
-TYPED_TEST(PoissonReductionTest, PointsOnTheCageStayWhateverTheirNeighboursDo) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, PointsOnTheCageStayWhateverTheirNeighboursDo) {
   Numbers numbers(36);
   auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 120, 0.1);
   for (int v = 0; v < 120; v += 6) {
@@ -128,8 +119,7 @@ TYPED_TEST(PoissonReductionTest, PointsOnTheCageStayWhateverTheirNeighboursDo) {
 }
 
 // It starts with one influence more than allowed, where these rows cost nothing.
-TYPED_TEST(PoissonReductionTest, OneInfluenceTooManyIsRemoved) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, OneInfluenceTooManyIsRemoved) {
   Numbers numbers(35);
   auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 40, 0.1);
   problem.weights = problem.plain(at_most(Dim + 3));
@@ -137,8 +127,7 @@ TYPED_TEST(PoissonReductionTest, OneInfluenceTooManyIsRemoved) {
   expect_sparse_coordinates<Dim>(problem.control_points, problem.points, sparse, Dim + 2);
 }
 
-TYPED_TEST(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
   Numbers numbers(30);
   auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
   const auto plain = problem.plain(at_most(Dim + 2));
@@ -153,8 +142,7 @@ TYPED_TEST(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
   EXPECT_EQ(problem.reduce(at_most(Dim + 2)), plain);
 }
 
-TYPED_TEST(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
   Numbers numbers(31);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
   // Every edge with ends of its own.
@@ -175,8 +163,7 @@ TYPED_TEST(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
   EXPECT_LT(problem.cost(welded), 0.8 * problem.cost(problem.plain(at_most(Dim + 2))));
 }
 
-TYPED_TEST(PoissonReductionTest, NewcomersObeyTheThreshold) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, NewcomersObeyTheThreshold) {
   Numbers numbers(25);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 14, -1, 1), 60, 0.05);
   constexpr double kThreshold = 0.06;
@@ -196,8 +183,7 @@ TYPED_TEST(PoissonReductionTest, NewcomersObeyTheThreshold) {
 }
 
 // Turned by a right angle, because bounding_box_diagonal() is that of a box along the axes.
-TYPED_TEST(PoissonReductionTest, SizePlaceAndAxesDoNotMatter) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, SizePlaceAndAxesDoNotMatter) {
   Numbers numbers(32);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
   auto moved = problem;
@@ -212,8 +198,7 @@ TYPED_TEST(PoissonReductionTest, SizePlaceAndAxesDoNotMatter) {
   EXPECT_LT((there - sparse).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TYPED_TEST(PoissonReductionTest, TheThreadsDoNotMatter) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, TheThreadsDoNotMatter) {
   Numbers numbers(26);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 20, -1, 1), 500, 0.1);
   const auto on_threads = [&](int threads) {
@@ -226,8 +211,7 @@ TYPED_TEST(PoissonReductionTest, TheThreadsDoNotMatter) {
   EXPECT_TRUE(bit_equal(on_threads(5), alone));
 }
 
-TYPED_TEST(PoissonReductionTest, TellsHowFarItIs) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, TellsHowFarItIs) {
   Numbers numbers(26);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 20, -1, 1), 500, 0.1);
   std::vector<double> told;
@@ -242,8 +226,7 @@ TYPED_TEST(PoissonReductionTest, TellsHowFarItIs) {
   EXPECT_LE(told.back(), 1);
 }
 
-TYPED_TEST(PoissonReductionTest, RefusesWhatCannotBe) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(PoissonReductionTest, RefusesWhatCannotBe) {
   Numbers numbers(27);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 10, -1, 1), 8, 0.1);
   EXPECT_NO_THROW(problem.reduce(at_most(Dim + 1)));

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +17,7 @@
 #include "flbc/poses.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify_error.h"
+#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 #include "support/model_cages.h"
@@ -26,11 +26,6 @@
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class SparsifyTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SparsifyTest, Dimensions);
 
 // Control points of every kind that could need special care.
 template <int Dim>
@@ -83,8 +78,7 @@ PointList<Dim> points_of(const PointList<Dim>& control_points, int count) {
   return points;
 }
 
-TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, KeepsTheConstraintsWhateverComes) {
   Numbers numbers(7);
   int number = 0;
   for (const auto& control_points : cages<Dim>()) {
@@ -99,9 +93,9 @@ TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
         const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
         expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
         EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)), sparse);
-        EXPECT_EQ(sparsify<Dim>(control_points, points, SparseWeights(weights), at_most(most))
-                      .dense(),
-                  sparse);
+        EXPECT_EQ(
+            sparsify<Dim>(control_points, points, SparseWeights(weights), at_most(most)).dense(),
+            sparse);
       }
       const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05));
       expect_sparse_coordinates<Dim>(control_points, points, dropped, 8);
@@ -109,8 +103,7 @@ TYPED_TEST(SparsifyTest, KeepsTheConstraintsWhateverComes) {
   }
 }
 
-TYPED_TEST(SparsifyTest, WithoutLimitItIsTheProjection) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, WithoutLimitItIsTheProjection) {
   Numbers numbers(8);
   const PointList<Dim> control_points = numbers.matrix(Dim, 20, -1, 1);
   const auto points = points_of<Dim>(control_points, 40);
@@ -148,8 +141,7 @@ double least_cost(const PointList<Dim>& control_points, const Vector<Dim>& point
   return least;
 }
 
-TYPED_TEST(SparsifyTest, IsNearTheBestOfAllSupports) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, IsNearTheBestOfAllSupports) {
   constexpr int kControls = 9, kPoints = 40;
   Numbers numbers(9);
   for (const Index most : {Dim + 1, Dim + 2, Dim + 3}) {
@@ -179,8 +171,7 @@ TYPED_TEST(SparsifyTest, IsNearTheBestOfAllSupports) {
   }
 }
 
-TYPED_TEST(SparsifyTest, MatchesTheOptimumOfItsOwnSupport) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, MatchesTheOptimumOfItsOwnSupport) {
   Numbers numbers(10);
   const PointList<Dim> control_points = numbers.matrix(Dim, 30, -1, 1);
   const auto points = points_of<Dim>(control_points, 40);
@@ -197,8 +188,7 @@ TYPED_TEST(SparsifyTest, MatchesTheOptimumOfItsOwnSupport) {
   }
 }
 
-TYPED_TEST(SparsifyTest, LocalBarycentricCoordinates) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, LocalBarycentricCoordinates) {
   const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 6 : 3, 0.1);
   const auto solution = solve(sample.cage, sample.mesh, {});
   const auto& points = sample.mesh.points;
@@ -215,8 +205,7 @@ TYPED_TEST(SparsifyTest, LocalBarycentricCoordinates) {
   EXPECT_LT(before, 0.01 * bounding_box_diagonal<Dim>(points));
 }
 
-TYPED_TEST(SparsifyTest, ThresholdDropsWhatIsBelow) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, ThresholdDropsWhatIsBelow) {
   Numbers numbers(11);
   const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
   // Small weights everywhere beside large ones on Dim + 4 control points.
@@ -239,21 +228,7 @@ TYPED_TEST(SparsifyTest, ThresholdDropsWhatIsBelow) {
   EXPECT_LT(count_influences(few).mean, Dim + 4);
 }
 
-TYPED_TEST(SparsifyTest, TheThreadsDoNotMatter) {
-  constexpr int Dim = TypeParam::value;
-  Numbers numbers(12);
-  const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
-  const auto points = points_of<Dim>(control_points, 400);
-  const WeightMatrix weights = numbers.matrix(25, 400, -0.1, 0.2);
-  const auto on_threads = [&](int threads) {
-    const ThreadScope scope(threads);
-    return sparsify<Dim>(control_points, points, weights, at_most(5));
-  };
-  EXPECT_EQ(on_threads(1), on_threads(2));
-}
-
-TYPED_TEST(SparsifyTest, TellsHowFarItIs) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, TellsHowFarItIs) {
   Numbers numbers(12);
   const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
   const auto points = points_of<Dim>(control_points, 400);
@@ -272,8 +247,7 @@ TYPED_TEST(SparsifyTest, TellsHowFarItIs) {
   }
 }
 
-TYPED_TEST(SparsifyTest, RefusesWhatCannotBe) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(SparsifyTest, RefusesWhatCannotBe) {
   Numbers numbers(13);
   const PointList<Dim> control_points = numbers.matrix(Dim, 10, -1, 1);
   PointList<Dim> points = points_of<Dim>(control_points, 3);

@@ -15,8 +15,26 @@
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/meshing.h"
 
 namespace flbc::testing {
+
+template <int Dim>
+MeshingOptions<Dim> vertices(Index count, const PointList<Dim>& embedded = PointList<Dim>(Dim, 0)) {
+  MeshingOptions<Dim> options;
+  options.vertices = count;
+  options.embedded_points = embedded;
+  return options;
+}
+
+//! Two runs give the same bits. \param make  gives a mesh
+template <class Make>
+void expect_reproducible(const Make& make) {
+  const auto first = make(), second = make();
+  ASSERT_EQ(first.num_vertices(), second.num_vertices());
+  EXPECT_EQ(first.points, second.points);
+  EXPECT_EQ(first.cells, second.cells);
+}
 
 //! Sum of the lengths of edges or the areas of triangles.
 template <int Dim>

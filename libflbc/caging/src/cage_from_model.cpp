@@ -5,21 +5,151 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <Eigen/Geometry>
+
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "caging/coarsening.h"
 #include "caging/enclosure.h"
-#include "caging/mean_distance.h"
-#include "caging/simple_cages.h"
+#include "caging/mirror_plane.h"
 #include "caging/surface_tools.h"
-#include "caging/symmetry.h"
 #include "caging/wrap.h"
+#include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 
 namespace flbc {
 
 namespace {
+
+// Largest distance of a mirror image from the model, relative to the model's size.
+constexpr double kSymmetryTolerance = 0.005;
+
+template <int Dim>
+MirrorPlane plane_across(const Enclosure<Dim>& model, int axis) {
+  return {axis, model.box().center()(axis)};
+}
+
+// The largest distance of mirrored vertices from the model.
+template <int Dim>
+double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
+                 const MirrorPlane& plane, double limit) {
+  constexpr Index kMostVertices = 4000;
+  const Index step = std::max<Index>(1, static_cast<Index>(points.cols()) / kMostVertices);
+  double largest = 0;
+  for (Index v = 0; v < points.cols() && largest < limit; v += step) {
+    const Vector<Dim> image = plane.mirrored(Vector<Dim>(points.col(v)));
+    largest = std::max(largest, model.distance(image, limit));
+  }
+  return largest;
+}
+
+// The plane that is asked for, through the middle of the model; for kAuto that to which the model
+// is most nearly symmetric, if it is.
+template <int Dim>
+MirrorPlane find_symmetry(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                          CageSymmetry wanted) {
+  if (wanted == CageSymmetry::kNone) return {};
+  const Enclosure<Dim> model(points, facets);
+  if (wanted == CageSymmetry::kX) return plane_across(model, 0);
+  if (wanted == CageSymmetry::kY) return plane_across(model, 1);
+  if (Dim == 3 && wanted == CageSymmetry::kZ) return plane_across(model, Dim - 1);
+  MirrorPlane best;
+  double least = kSymmetryTolerance * model.box().diagonal().norm();
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto plane = plane_across(model, axis);
+    const double own = asymmetry(model, points, plane, least);
+    if (own < least) {
+      least = own;
+      best = plane;
+    }
+  }
+  return best;
+}
+
+// Coordinates in a facet of the centres of equal pieces.
+template <int Dim>
+std::vector<Vector<Dim>> spread_coordinates() {
+  constexpr int kPieces = 8;
+  std::vector<Vector<Dim>> all;
+  for (int i = 0; i < kPieces; ++i) {
+    if constexpr (Dim == 2) {
+      const double t = (i + 0.5) / kPieces;
+      all.push_back({t, 1 - t});
+    } else {
+      for (int j = 0; i + j < kPieces; ++j) {
+        const double s = (i + 1.0 / 3) / kPieces, t = (j + 1.0 / 3) / kPieces;
+        all.push_back({s, t, 1 - s - t});
+      }
+    }
+  }
+  return all;
+}
+
+// Mean distance of the cage's surface (2D: lines) from the model, by points spread evenly over
+// every facet.
+template <int Dim>
+double mean_distance(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
+  const auto coordinates = spread_coordinates<Dim>();
+  const double farthest = 8 * model.box().diagonal().norm();
+  double sum = 0, total = 0;
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    const double part = facet_normal<Dim>(corners).norm() / static_cast<double>(coordinates.size());
+    for (const auto& weights : coordinates) {
+      sum += part * model.distance(corners * weights, farthest);
+      total += part;
+    }
+  }
+  return sum / total;
+}
+
+template <int Dim>
+Cage<Dim> box_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
+  Cage<Dim> cage;
+  if constexpr (Dim == 2) {
+    cage.points.resize(2, 4);
+    cage.points << low.x(), high.x(), high.x(), low.x(),  //
+        low.y(), low.y(), high.y(), high.y();
+    cage.facets.resize(2, 4);
+    cage.facets << 0, 1, 2, 3, 1, 2, 3, 0;
+  } else {
+    // Corner k has the upper coordinate of axis i where bit i of k is set.
+    cage.points.resize(3, 8);
+    for (int k = 0; k < 8; ++k) {
+      for (int i = 0; i < 3; ++i) cage.points(i, k) = (k >> i) % 2 == 0 ? low(i) : high(i);
+    }
+    cage.facets.resize(3, 12);
+    cage.facets << 0, 3, 4, 7, 0, 5, 2, 7, 0, 6, 1, 7,  //
+        2, 1, 5, 6, 1, 4, 6, 3, 4, 2, 3, 5,             //
+        1, 2, 6, 5, 4, 1, 3, 6, 2, 4, 5, 3;
+  }
+  return cage;
+}
+
+// A corner with edges along the axes, as long as it takes for the box to fit.
+template <int Dim>
+Cage<Dim> simplex_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
+  Cage<Dim> cage{low.replicate(1, Dim + 1), FacetList<Dim>(Dim, Dim + 1)};
+  for (int k = 0; k < Dim; ++k) cage.points(k, k + 1) += Dim * 1.01 * (high(k) - low(k));
+  if constexpr (Dim == 2) {
+    cage.facets << 0, 1, 2, 1, 2, 0;
+  } else {
+    cage.facets << 0, 0, 0, 1, 2, 1, 3, 2, 1, 3, 2, 3;
+  }
+  return cage;
+}
+
+// A box and a simplex round the given box, symmetric to its middle across every axis (the box) or
+// not at all (the simplex). \param offset  between it and them
+template <int Dim>
+std::vector<Cage<Dim>> simple_cages(const Eigen::AlignedBox<double, Dim>& around, double offset) {
+  const Vector<Dim> low = around.min().array() - offset, high = around.max().array() + offset;
+  return {box_cage<Dim>(low, high), simplex_cage<Dim>(low, high)};
+}
 
 // Sizes relative to the model's, for a wrap with several times as many control points as wanted.
 template <int Dim>
@@ -177,9 +307,6 @@ ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim
   return made;
 }
 
-template ModelCage<2> cage_from_model(const PointList<2>&, const FacetList<2>&,
-                                      const CagingOptions&);
-template ModelCage<3> cage_from_model(const PointList<3>&, const FacetList<3>&,
-                                      const CagingOptions&);
+FLBC_INSTANTIATE_FUNCTION(cage_from_model)
 
 }  // namespace flbc

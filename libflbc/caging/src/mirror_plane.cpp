@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "caging/surface_tools.h"
 
 namespace flbc {
@@ -111,12 +112,8 @@ Cage<Dim> join_halves(const Cage<Dim>& half, const MirrorPlane& plane) {
   return compact<Dim>(both.points, facets);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                 \
-  template Cage<Dim> with_mirror_image(const Cage<Dim>&, const MirrorPlane&); \
-  template Cage<Dim> cut_half(const Cage<Dim>&, const MirrorPlane&, double);  \
-  template Cage<Dim> join_halves(const Cage<Dim>&, const MirrorPlane&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(with_mirror_image)
+FLBC_INSTANTIATE_FUNCTION(cut_half)
+FLBC_INSTANTIATE_FUNCTION(join_halves)
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/union_find.h"
 #include "cage/close_points.h"
@@ -204,14 +205,10 @@ void drop_flaps(CageDraft<Dim>& draft) {
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)                            \
-  template CageDraft<Dim> draft_of(const Cage<Dim>&);    \
-  template void merge_close_points(CageDraft<Dim>&);     \
-  template void drop_degenerate_facets(CageDraft<Dim>&); \
-  template void drop_repeated_facets(CageDraft<Dim>&);   \
-  template void drop_flaps(CageDraft<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(draft_of)
+FLBC_INSTANTIATE_FUNCTION(merge_close_points)
+FLBC_INSTANTIATE_FUNCTION(drop_degenerate_facets)
+FLBC_INSTANTIATE_FUNCTION(drop_repeated_facets)
+FLBC_INSTANTIATE_FUNCTION(drop_flaps)
 
 }  // namespace flbc

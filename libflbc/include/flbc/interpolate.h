@@ -22,13 +22,9 @@ WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weight
                          const std::vector<Location<Dim>>& places);
 
 //! The same at one place, n numbers.
-template <int Dim>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
-                            const Location<Dim>& place);
-
-//! The same of weights without their zeros.
-template <int Dim>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+//! \tparam Weights  WeightMatrix or SparseWeights
+template <int Dim, class Weights>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const Weights& weights,
                             const Location<Dim>& place);
 
 }  // namespace flbc

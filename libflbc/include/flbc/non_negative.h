@@ -3,6 +3,7 @@
 //! Makes weights non-negative and keeps sum and reproduction.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "flbc/sparse_weights.h"
@@ -20,30 +21,20 @@ namespace flbc {
 //! \param control_points  Dim x n, n >= 1, finite
 //! \param points  Dim x P, finite, in the units of the control points
 //! \param weights  n x P, finite; replaced
-//! \throws InputError if sizes do not fit, if a number is not finite or if a point lies outside the
-//! convex hull, naming the first such point; the weights of other points may be projected then
+//! \param columns  the points to project, each at most once; all of them if not given. Columns of
+//! other points are neither read nor written.
+//! \throws InputError if sizes do not fit, if a number is not finite, if a column is out of range,
+//! or if a point lies outside the convex hull, naming the first such point; the weights of other
+//! points may be projected then
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                          WeightMatrix& weights);
+                          WeightMatrix& weights,
+                          const std::optional<std::vector<Index>>& columns = {});
 
-//! The same for some columns; the others are neither read nor written.
-//! \param control_points  Dim x n, n >= 1, finite
-//! \param points  Dim x P, in the units of the control points
-//! \param weights  n x P; the columns are replaced
-//! \param columns  numbers of points, each at most once
-//! \throws InputError as above, and for a column out of range
-template <int Dim>
-void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                          WeightMatrix& weights, const std::vector<Index>& columns);
-
-//! The same for weights without their zeros, all or some.
-//! \return weights of all points
-template <int Dim>
-SparseWeights project_non_negative(const PointList<Dim>& control_points,
-                                   const PointList<Dim>& points, const SparseWeights& weights);
+//! The same for weights without their zeros. \return weights of all points
 template <int Dim>
 SparseWeights project_non_negative(const PointList<Dim>& control_points,
                                    const PointList<Dim>& points, const SparseWeights& weights,
-                                   const std::vector<Index>& columns);
+                                   const std::optional<std::vector<Index>>& columns = {});
 
 }  // namespace flbc

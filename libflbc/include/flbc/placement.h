@@ -67,14 +67,10 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
 //! \param cage, mesh  as for place_points()
 //! \param weights  n x V, of the mesh's vertices
 //! \param placement  as place_points() gives it
+//! \tparam Weights  WeightMatrix or SparseWeights
 //! \return n x P
-template <int Dim>
-WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                        const WeightMatrix& weights, const Placement<Dim>& placement);
-
-//! The same of weights without their zeros.
-template <int Dim>
-SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                         const SparseWeights& weights, const Placement<Dim>& placement);
+template <int Dim, class Weights>
+Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
+                   const Placement<Dim>& placement);
 
 }  // namespace flbc

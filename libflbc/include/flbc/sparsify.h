@@ -42,17 +42,13 @@ void validate(const SparsifyOptions& options);
 //! \param points  Dim x P, inside the convex hull of the control points, in their units
 //! \param weights  n x P, finite
 //! \param options  as validate() demands
+//! \tparam Weights  WeightMatrix or SparseWeights
 //! \return n x P
 //! \throws OptionError as validate(), InputError if sizes do not fit, if a number is not finite or
 //! if a point lies outside the convex hull of the control points, naming the first such point
-template <int Dim>
-WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                      const WeightMatrix& weights, const SparsifyOptions& options);
-
-//! The same for weights without their zeros.
-template <int Dim>
-SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                       const SparseWeights& weights, const SparsifyOptions& options);
+template <int Dim, class Weights>
+Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                 const Weights& weights, const SparsifyOptions& options);
 
 //! Makes weights sparse as sparsify() does, under the same constraints and with the same exactness,
 //! but not point by point: what becomes least is the error of the differences along the edges, so

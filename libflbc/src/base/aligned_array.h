@@ -26,14 +26,6 @@ class AlignedArray {
     data_ = {static_cast<Scalar*>(aligned), Free{block}};
   }
 
-  //! Numbers that belong to someone else and stay where they are. \param data  aligned to 64 bytes
-  static AlignedArray borrow(Scalar* data, std::size_t size) {
-    AlignedArray array;
-    array.data_ = {data, Free{nullptr}};
-    array.size_ = size;
-    return array;
-  }
-
   Scalar* data() { return data_.get(); }
   const Scalar* data() const { return data_.get(); }
   std::size_t size() const { return size_; }

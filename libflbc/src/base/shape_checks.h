@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flbc/errors.h"
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -23,6 +23,10 @@ inline void check_size(Eigen::Index n, Eigen::Index P, Eigen::Index num_control_
 inline void check_size(const WeightMatrix& weights, Eigen::Index num_control_points,
                        Eigen::Index num_points) {
   check_size(weights.rows(), weights.cols(), num_control_points, num_points);
+}
+inline void check_size(const SparseWeights& weights, Eigen::Index num_control_points,
+                       Eigen::Index num_points) {
+  check_size(weights.num_control_points(), weights.num_points(), num_control_points, num_points);
 }
 
 //! \throws InputError naming the first pose that has not `n` control points or is not finite

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cage/facet_distance.h"
+#include "base/instantiate.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -73,12 +73,8 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
   return outside;
 }
 
-#define FLBC_INSTANTIATE(Dim)                             \
-  template CageFacts<Dim> measure_cage(const Cage<Dim>&); \
-  template ThinPlace thinnest_place(const Cage<Dim>&);    \
-  template std::vector<Index> points_outside(const Cage<Dim>&, const PointList<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(measure_cage)
+FLBC_INSTANTIATE_FUNCTION(thinnest_place)
+FLBC_INSTANTIATE_FUNCTION(points_outside)
 
 }  // namespace flbc

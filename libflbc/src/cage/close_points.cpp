@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/instantiate.h"
+
 namespace flbc {
 
 namespace {
@@ -48,9 +50,6 @@ std::vector<std::array<Index, 2>> find_close_pairs(const PointList<Dim>& points,
   return pairs;
 }
 
-template std::vector<std::array<Index, 2>> find_close_pairs<2>(const PointList<2>&, double,
-                                                               std::size_t);
-template std::vector<std::array<Index, 2>> find_close_pairs<3>(const PointList<3>&, double,
-                                                               std::size_t);
+FLBC_INSTANTIATE_FUNCTION(find_close_pairs)
 
 }  // namespace flbc

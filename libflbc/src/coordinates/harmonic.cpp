@@ -18,10 +18,9 @@ WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
   return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                  \
-  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&);          \
-  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&,           \
-                                             const DirichletProblem<Dim>&);
+#define FLBC_INSTANTIATE(Dim)                                         \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&); \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&, const DirichletProblem<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

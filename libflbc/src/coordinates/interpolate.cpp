@@ -1,48 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/interpolate.h"
 
+#include "base/weight_columns.h"
+
 namespace flbc {
 
 template <int Dim>
 WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
                          const std::vector<Location<Dim>>& places) {
-  const auto num_points = static_cast<Index>(places.size());
-  WeightMatrix result(weights.rows(), num_points);
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) result.col(p) = interpolate(mesh, weights, places[p]);
-  return result;
+  return weights_of_points<WeightMatrix>(
+      static_cast<Index>(weights.rows()), static_cast<Index>(places.size()),
+      [&](Index p) { return interpolate(mesh, weights, places[p]); });
 }
 
-template <int Dim>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
+template <int Dim, class Weights>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const Weights& weights,
                             const Location<Dim>& place) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.rows());
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(num_control_points(weights));
   for (int k = 0; k <= Dim; ++k) {
-    result += place.coordinates[k] * weights.col(mesh.cells(k, place.cell));
+    add_column(weights, mesh.cells(k, place.cell), place.coordinates[k], result);
   }
   return result;
 }
 
-template <int Dim>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
-                            const Location<Dim>& place) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
-  for (int k = 0; k <= Dim; ++k) {
-    weights.visit(mesh.cells(k, place.cell),
-                  [&](Index i, double weight) { result[i] += place.coordinates[k] * weight; });
-  }
-  return result;
-}
-
-template WeightMatrix interpolate(const DomainMesh<2>&, const WeightMatrix&,
-                                  const std::vector<Location<2>>&);
-template WeightMatrix interpolate(const DomainMesh<3>&, const WeightMatrix&,
-                                  const std::vector<Location<3>>&);
-template Eigen::VectorXd interpolate(const DomainMesh<2>&, const WeightMatrix&, const Location<2>&);
-template Eigen::VectorXd interpolate(const DomainMesh<3>&, const WeightMatrix&, const Location<3>&);
-template Eigen::VectorXd interpolate(const DomainMesh<2>&, const SparseWeights&,
-                                     const Location<2>&);
-template Eigen::VectorXd interpolate(const DomainMesh<3>&, const SparseWeights&,
-                                     const Location<3>&);
+#define FLBC_INSTANTIATE(Dim)                                                        \
+  template WeightMatrix interpolate(const DomainMesh<Dim>&, const WeightMatrix&,     \
+                                    const std::vector<Location<Dim>>&);              \
+  template Eigen::VectorXd interpolate(const DomainMesh<Dim>&, const WeightMatrix&,  \
+                                       const Location<Dim>&);                        \
+  template Eigen::VectorXd interpolate(const DomainMesh<Dim>&, const SparseWeights&, \
+                                       const Location<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

@@ -9,7 +9,9 @@
 
 #include <Eigen/LU>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/weight_columns.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
@@ -296,30 +298,14 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   return placement;
 }
 
-template <int Dim>
-WeightMatrix weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                        const WeightMatrix& weights, const Placement<Dim>& placement) {
-  const WeightsAt<Dim, WeightMatrix> at(cage, mesh, weights, placement);
-  const auto num_points = static_cast<Index>(placement.places.size());
-  WeightMatrix result(cage.size(), num_points);
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) result.col(p) = at(p);
-  return result;
-}
-
-template <int Dim>
-SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                         const SparseWeights& weights, const Placement<Dim>& placement) {
-  const WeightsAt<Dim, SparseWeights> at(cage, mesh, weights, placement);
-  return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
-                           [&](Index p) { return at(p); });
+template <int Dim, class Weights>
+Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
+                   const Placement<Dim>& placement) {
+  return weights_of_points<Weights>(cage.size(), static_cast<Index>(placement.places.size()),
+                                    WeightsAt<Dim, Weights>(cage, mesh, weights, placement));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                     \
-  template std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>&, const PointList<Dim>&, \
-                                                         const std::vector<Index>&);              \
-  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                  \
-                                       const PointList<Dim>&, OutsidePoints);                     \
   template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&, \
                                    const Placement<Dim>&);                                        \
   template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                     \
@@ -327,5 +313,7 @@ SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(nearest_on_cage)
+FLBC_INSTANTIATE_FUNCTION(place_points)
 
 }  // namespace flbc

@@ -7,8 +7,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
+#include "base/weight_columns.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 
@@ -30,16 +32,16 @@ double integrate_gradient_lengths(const DomainMesh<Dim>& mesh, const WeightMatri
   });
 }
 
-// \param column  gives the n weights of a point
-template <int Dim, class ColumnOf>
+template <int Dim, class Weights>
 Quality quality_of(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                   const ColumnOf& column_of) {
+                   const Weights& weights) {
+  check_size(weights, control_points.cols(), points.cols());
   const double size = bounding_box_diagonal(control_points);
   Quality quality;
   quality.min_weight = std::numeric_limits<double>::max();
   Index influences = 0;
   for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
-    const auto& column = column_of(p);
+    const auto& column = column_of(weights, p);
     const Vector<Dim> error = control_points * column - points.col(p);
     if (column.size() > 0) quality.min_weight = std::min(quality.min_weight, column.minCoeff());
     quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
@@ -82,7 +84,7 @@ class SparseGradients {
 
  private:
   using GradientRows = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
-  GradientRows gradients_;  // zero but during a visit
+  GradientRows gradients_;        // zero but during a visit
   std::vector<char> is_touched_;  // by control point
   std::vector<Index> touched_;
 };
@@ -92,16 +94,13 @@ class SparseGradients {
 template <int Dim>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const WeightMatrix& weights) {
-  check_size(weights, control_points.cols(), points.cols());
-  return quality_of(control_points, points, [&](Index p) { return weights.col(p); });
+  return quality_of(control_points, points, weights);
 }
 
 template <int Dim>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const SparseWeights& weights) {
-  check_size(weights.num_control_points(), weights.num_points(), control_points.cols(),
-             points.cols());
-  return quality_of(control_points, points, [&](Index p) { return weights.at(p); });
+  return quality_of(control_points, points, weights);
 }
 
 template <int Dim>
@@ -144,17 +143,17 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
   return sum / (static_cast<double>(interior.size()) * static_cast<double>(a.rows()));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                   \
-                                   const WeightMatrix&);                                           \
-  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                   \
-                                   const SparseWeights&);                                          \
-  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&);  \
-  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const SparseWeights&); \
-  template double total_variation(const DomainMesh<Dim>&, const WeightMatrix&);                    \
-  template double squared_error(const LbcProblem<Dim>&, const WeightMatrix&, const WeightMatrix&);
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
+                                   const WeightMatrix&);                                          \
+  template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
+                                   const SparseWeights&);                                         \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&); \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(total_variation)
+FLBC_INSTANTIATE_FUNCTION(squared_error)
 
 }  // namespace flbc

@@ -4,6 +4,7 @@
 #include <array>
 #include <random>
 
+#include "base/instantiate.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
@@ -72,11 +73,7 @@ std::vector<PointList<Dim>> smooth_poses(const PointList<Dim>& control_points, i
   return poses;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                         \
-  template std::vector<PointList<Dim>> independent_poses(const PointList<Dim>&, int); \
-  template std::vector<PointList<Dim>> smooth_poses(const PointList<Dim>&, int);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(independent_poses)
+FLBC_INSTANTIATE_FUNCTION(smooth_poses)
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/shape_checks.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -94,14 +95,7 @@ ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
   return norms;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                     \
-  template ErrorNorms deformation_error(const std::vector<PointList<Dim>>&, const SparseWeights&, \
-                                        const SparseWeights&);                                    \
-  template ErrorNorms edge_error(const PointList<Dim>&, const EdgeList&,                          \
-                                 const std::vector<PointList<Dim>>&, const SparseWeights&,        \
-                                 const SparseWeights&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(deformation_error)
+FLBC_INSTANTIATE_FUNCTION(edge_error)
 
 }  // namespace flbc

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
@@ -152,12 +153,8 @@ std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh,
   return places;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                    \
-  template class CellLocator<Dim>;                                               \
-  template std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>&,      \
-                                                    const PointList<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template class CellLocator<2>;
+template class CellLocator<3>;
+FLBC_INSTANTIATE_FUNCTION(locate_points)
 
 }  // namespace flbc

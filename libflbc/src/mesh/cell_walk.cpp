@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 
@@ -90,9 +91,6 @@ std::vector<Location<Dim>> walk_to_points(const DomainMesh<Dim>& mesh,
   return places;
 }
 
-template std::vector<Location<2>> walk_to_points(const DomainMesh<2>&, const MeshTopology<2>&,
-                                                 const PointList<2>&);
-template std::vector<Location<3>> walk_to_points(const DomainMesh<3>&, const MeshTopology<3>&,
-                                                 const PointList<3>&);
+FLBC_INSTANTIATE_FUNCTION(walk_to_points)
 
 }  // namespace flbc

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
@@ -148,11 +149,7 @@ void normalize_and_validate(DomainMesh<Dim>& mesh) {
   check_no_touching(mesh, topology);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                    \
-  template double signed_measure(const DomainMesh<Dim>&, Index); \
-  template void normalize_and_validate(DomainMesh<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(signed_measure)
+FLBC_INSTANTIATE_FUNCTION(normalize_and_validate)
 
 }  // namespace flbc

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "flbc/errors.h"
 
@@ -151,13 +152,7 @@ EdgeList edges_of_polygons(const PointList<Dim>& points,
   return collector.edges();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                 \
-  template EdgeList edges_of_cells(const DomainMesh<Dim>&);                   \
-  template EdgeList edges_of_polygons(const PointList<Dim>&,                  \
-                                      const std::vector<std::vector<Index>>&, \
-                                      const std::vector<std::vector<Index>>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(edges_of_cells)
+FLBC_INSTANTIATE_FUNCTION(edges_of_polygons)
 
 }  // namespace flbc

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
 
 namespace flbc {
@@ -106,11 +107,8 @@ void reorder_in_space(DomainMesh<Dim>& mesh, Index num_fixed) {
   for (Index i = 0; i < mesh.num_cells(); ++i) mesh.cells.col(i) = cells.col(cell_order[i]);
 }
 
-template std::uint64_t hilbert_index<2>(const std::uint32_t (&)[2], int);
-template std::uint64_t hilbert_index<3>(const std::uint32_t (&)[3], int);
-template std::vector<Index> spatial_order<2>(const PointList<2>&);
-template std::vector<Index> spatial_order<3>(const PointList<3>&);
-template void reorder_in_space<2>(DomainMesh<2>&, Index);
-template void reorder_in_space<3>(DomainMesh<3>&, Index);
+FLBC_INSTANTIATE_FUNCTION(hilbert_index)
+FLBC_INSTANTIATE_FUNCTION(spatial_order)
+FLBC_INSTANTIATE_FUNCTION(reorder_in_space)
 
 }  // namespace flbc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/domain_mesh.h"
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/union_find.h"
 #include "flbc/errors.h"
@@ -90,13 +91,9 @@ void require_connected(const DomainMesh<Dim>& mesh) {
                    format_point(mesh.points.col(other)) + "; give each a cage of its own");
 }
 
-#define FLBC_INSTANTIATE(Dim)                                             \
-  template Index count_parts(const DomainMesh<Dim>&);                     \
-  template std::vector<MeshPart<Dim>> mesh_parts(const DomainMesh<Dim>&); \
-  template DomainMesh<Dim> join_parts(const std::vector<MeshPart<Dim>>&); \
-  template void require_connected(const DomainMesh<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(count_parts)
+FLBC_INSTANTIATE_FUNCTION(mesh_parts)
+FLBC_INSTANTIATE_FUNCTION(join_parts)
+FLBC_INSTANTIATE_FUNCTION(require_connected)
 
 }  // namespace flbc

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "flbc/domain_mesh.h"
@@ -155,11 +156,7 @@ std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num
   return on_boundary;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                        \
-  template MeshTopology<Dim> build_topology(const DomainMesh<Dim>&); \
-  template std::vector<bool> boundary_vertices(const MeshTopology<Dim>&, Index);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(build_topology)
+FLBC_INSTANTIATE_FUNCTION(boundary_vertices)
 
 }  // namespace flbc

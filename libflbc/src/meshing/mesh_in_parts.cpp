@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "cage/point_in_cage.h"
 #include "flbc/cage_facts.h"
@@ -99,9 +100,6 @@ DomainMesh<Dim> mesh_in_parts(const Cage<Dim>& cage, const MeshingOptions<Dim>& 
   return join_parts(meshes);
 }
 
-template DomainMesh<2> mesh_in_parts(const Cage<2>&, const MeshingOptions<2>&,
-                                     const PartMesher<2>&);
-template DomainMesh<3> mesh_in_parts(const Cage<3>&, const MeshingOptions<3>&,
-                                     const PartMesher<3>&);
+FLBC_INSTANTIATE_FUNCTION(mesh_in_parts)
 
 }  // namespace flbc

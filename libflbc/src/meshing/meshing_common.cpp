@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "cage/close_points.h"
 #include "cage/point_in_cage.h"
@@ -46,7 +47,8 @@ void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, doubl
   const CageLocator<Dim> locator(cage, tolerance);
   for (Index i = 0; i < embedded.cols(); ++i) {
     const Containment location = locator.locate(embedded.col(i));
-    if (location == Containment::kOutside) refuse_point<Dim>(embedded, i, "it lies outside the cage");
+    if (location == Containment::kOutside)
+      refuse_point<Dim>(embedded, i, "it lies outside the cage");
     if (location == Containment::kOnCage) {
       refuse_point<Dim>(embedded, i, "it lies on the cage, where it must lie strictly inside");
     }
@@ -117,11 +119,8 @@ void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points) {
   require_connected(mesh);
 }
 
-template PointList<2> collect_input_points<2>(const Cage<2>&, const MeshingOptions<2>&);
-template PointList<3> collect_input_points<3>(const Cage<3>&, const MeshingOptions<3>&);
-template double total_measure<2>(const DomainMesh<2>&);
-template double total_measure<3>(const DomainMesh<3>&);
-template void finish_mesh<2>(DomainMesh<2>&, Index);
-template void finish_mesh<3>(DomainMesh<3>&, Index);
+FLBC_INSTANTIATE_FUNCTION(collect_input_points)
+FLBC_INSTANTIATE_FUNCTION(total_measure)
+FLBC_INSTANTIATE_FUNCTION(finish_mesh)
 
 }  // namespace flbc

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/instantiate.h"
+
 namespace flbc {
 
 namespace {
@@ -63,9 +65,6 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim>
   return best;
 }
 
-template DomainMesh<2> search_vertex_count<2>(const VertexCountGoal&, DomainMesh<2>, double, double,
-                                              const std::function<DomainMesh<2>(double)>&);
-template DomainMesh<3> search_vertex_count<3>(const VertexCountGoal&, DomainMesh<3>, double, double,
-                                              const std::function<DomainMesh<3>(double)>&);
+FLBC_INSTANTIATE_FUNCTION(search_vertex_count)
 
 }  // namespace flbc

@@ -1,14 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The equality-constrained quadratic program of one point's weights.
+//! The equality-constrained quadratic program of one point's weights, and its metric.
 #pragma once
 
 #include <vector>
 
 #include "flbc/types.h"
-#include "polytope/metric.h"
 
 namespace flbc {
+
+//! The symmetric, positive definite H of the squared distance d . H d between weights.
+class Metric {
+ public:
+  //! The identity, which saves every factorisation.
+  Metric() = default;
+
+  //! \param matrix  H, n x n, kept by reference
+  explicit Metric(const Eigen::MatrixXd& matrix) : matrix_(&matrix) {}
+
+  bool is_identity() const { return matrix_ == nullptr; }
+
+  double operator()(Index i, Index j) const {
+    if (matrix_ == nullptr) return i == j ? 1 : 0;
+    return (*matrix_)(i, j);
+  }
+
+  //! Adds H e_i times a factor.
+  //! \param sum  n
+  void add_column(Index i, double factor, Eigen::VectorXd& sum) const {
+    if (matrix_ == nullptr) {
+      sum[i] += factor;
+    } else {
+      sum += factor * matrix_->col(i);
+    }
+  }
+
+ private:
+  const Eigen::MatrixXd* matrix_ = nullptr;
+};
 
 //! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
 //! support, for one point x and target t at a time. Keeps its buffers: one per thread.

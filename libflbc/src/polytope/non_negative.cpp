@@ -88,18 +88,21 @@ void project_columns(const PointList<Dim>& control_points, const PointList<Dim>&
       ": no weights >= 0 reproduce it");
 }
 
-std::vector<Index> all_columns(Eigen::Index count) {
-  std::vector<Index> columns(static_cast<std::size_t>(count));
-  std::iota(columns.begin(), columns.end(), 0);
-  return columns;
+std::vector<Index> numbers_of(const std::optional<std::vector<Index>>& columns,
+                              Eigen::Index num_points) {
+  if (columns) return *columns;
+  std::vector<Index> all(static_cast<std::size_t>(num_points));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 }  // namespace
 
 template <int Dim>
 void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                          WeightMatrix& weights, const std::vector<Index>& columns) {
+                          WeightMatrix& weights, const std::optional<std::vector<Index>>& some) {
   check_size(weights, control_points.cols(), points.cols());
+  const auto columns = numbers_of(some, points.cols());
   project_columns(
       control_points, points, columns, [&](Index p) { return weights.col(p); },
       [&](Index k, const Eigen::VectorXd& column) { weights.col(columns[k]) = column; });
@@ -108,9 +111,9 @@ void project_non_negative(const PointList<Dim>& control_points, const PointList<
 template <int Dim>
 SparseWeights project_non_negative(const PointList<Dim>& control_points,
                                    const PointList<Dim>& points, const SparseWeights& weights,
-                                   const std::vector<Index>& columns) {
-  check_size(weights.num_control_points(), weights.num_points(), control_points.cols(),
-             points.cols());
+                                   const std::optional<std::vector<Index>>& some) {
+  check_size(weights, control_points.cols(), points.cols());
+  const auto columns = numbers_of(some, points.cols());
   std::vector<Eigen::SparseVector<double>> projected(columns.size());
   project_columns(
       control_points, points, columns, [&](Index p) { return weights.at(p); },
@@ -122,26 +125,12 @@ SparseWeights project_non_negative(const PointList<Dim>& control_points,
   });
 }
 
-template <int Dim>
-void project_non_negative(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                          WeightMatrix& weights) {
-  project_non_negative(control_points, points, weights, all_columns(points.cols()));
-}
-
-template <int Dim>
-SparseWeights project_non_negative(const PointList<Dim>& control_points,
-                                   const PointList<Dim>& points, const SparseWeights& weights) {
-  return project_non_negative(control_points, points, weights, all_columns(points.cols()));
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&); \
-  template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&,  \
-                                     const std::vector<Index>&);                                   \
-  template SparseWeights project_non_negative(const PointList<Dim>&, const PointList<Dim>&,        \
-                                              const SparseWeights&);                               \
-  template SparseWeights project_non_negative(const PointList<Dim>&, const PointList<Dim>&,        \
-                                              const SparseWeights&, const std::vector<Index>&);
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template void project_non_negative(const PointList<Dim>&, const PointList<Dim>&, WeightMatrix&, \
+                                     const std::optional<std::vector<Index>>&);                   \
+  template SparseWeights project_non_negative(const PointList<Dim>&, const PointList<Dim>&,       \
+                                              const SparseWeights&,                               \
+                                              const std::optional<std::vector<Index>>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

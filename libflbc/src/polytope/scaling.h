@@ -4,6 +4,10 @@
 //! points c. Every solver of this module works in these units.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
+#include "flbc/bounding_box.h"
 #include "flbc/types.h"
 #include "polytope/nearest_point_in_hull.h"
 
@@ -12,7 +16,9 @@ namespace flbc {
 //! The bounding box diagonal of the control points, as a divisor: never 0.
 //! \param control_points  Dim x n, n >= 1, finite
 template <int Dim>
-double scale_of(const PointList<Dim>& control_points);
+double scale_of(const PointList<Dim>& control_points) {
+  return std::max(bounding_box_diagonal<Dim>(control_points), std::numeric_limits<double>::min());
+}
 
 //! (c - x) / scale, Dim x n: the contributions of the weights to the reproduction error.
 template <int Dim>

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
@@ -90,10 +91,7 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
   return boundary;
 }
 
-template BoundaryValues<2> boundary_values(const Cage<2>&, const DomainMesh<2>&,
-                                           const MeshTopology<2>&);
-template BoundaryValues<3> boundary_values(const Cage<3>&, const DomainMesh<3>&,
-                                           const MeshTopology<3>&);
+FLBC_INSTANTIATE_FUNCTION(boundary_values)
 
 template <int Dim>
 void snap_to_cage(const Cage<Dim>& cage, const MeshTopology<Dim>& topology, double tolerance,
@@ -121,7 +119,6 @@ void snap_to_cage(const Cage<Dim>& cage, const MeshTopology<Dim>& topology, doub
   }
 }
 
-template void snap_to_cage(const Cage<2>&, const MeshTopology<2>&, double, DomainMesh<2>&);
-template void snap_to_cage(const Cage<3>&, const MeshTopology<3>&, double, DomainMesh<3>&);
+FLBC_INSTANTIATE_FUNCTION(snap_to_cage)
 
 }  // namespace flbc

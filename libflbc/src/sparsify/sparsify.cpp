@@ -9,6 +9,7 @@
 
 #include "base/messages.h"
 #include "base/stage_progress.h"
+#include "base/weight_columns.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "polytope/nearest_point_in_hull.h"
@@ -141,6 +142,19 @@ TellPart told_of(const SparsifyOptions& options) {
   return *StageScope::present();
 }
 
+template <int Dim>
+WeightMatrix nearest_feasible(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                              WeightMatrix weights) {
+  project_non_negative(control_points, points, weights);
+  return weights;
+}
+
+template <int Dim>
+SparseWeights nearest_feasible(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                               const SparseWeights& weights) {
+  return project_non_negative(control_points, points, weights);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -157,48 +171,27 @@ void validate(const SparsifyOptions& options) {
   }
 }
 
-template <int Dim>
-WeightMatrix sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                      const WeightMatrix& weights, const SparsifyOptions& options) {
+template <int Dim, class Weights>
+Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                 const Weights& weights, const SparsifyOptions& options) {
   validate<Dim>(options);
   const StageScope scope(told_of(options));
-  WeightMatrix sparse = weights;
-  {
+  const Weights projected = [&] {
     const StageScope silent({});
-    project_non_negative(control_points, points, sparse);  // checks the input, too
-  }
-  const PointSparsifier<Dim> sparsifier(control_points, options);
-  LoopProgress progress(static_cast<Index>(points.cols()));
-#pragma omp parallel if (points.cols() >= 256)
-  {
-    typename PointSparsifier<Dim>::Workspace work(control_points);
-#pragma omp for schedule(dynamic, 64)
-    for (Eigen::Index v = 0; v < points.cols(); ++v) {
-      sparse.col(v) = sparsifier.sparsify(points.col(v), weights.col(v), sparse.col(v), work);
-      progress.add(1);
-    }
-  }
-  return sparse;
-}
-
-template <int Dim>
-SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                       const SparseWeights& weights, const SparsifyOptions& options) {
-  validate<Dim>(options);
-  const StageScope scope(told_of(options));
-  const auto projected = [&] {
-    const StageScope silent({});
-    return project_non_negative(control_points, points, weights);
+    return nearest_feasible(control_points, points, weights);  // checks the input, too
   }();
   const PointSparsifier<Dim> sparsifier(control_points, options);
-  LoopProgress progress(static_cast<Index>(points.cols()));
+  const auto num_points = static_cast<Index>(points.cols());
+  LoopProgress progress(num_points);
   std::vector<std::optional<typename PointSparsifier<Dim>::Workspace>> works(omp_get_max_threads());
-  return SparseWeights::of(weights.num_control_points(), weights.num_points(), [&](Index p) {
-    auto& work = works[omp_get_thread_num()];
-    if (!work) work.emplace(control_points);
-    progress.add(1);
-    return sparsifier.sparsify(points.col(p), weights.at(p), projected.at(p), *work);
-  });
+  return weights_of_points<Weights>(
+      static_cast<Index>(control_points.cols()), num_points, [&](Index p) {
+        auto& work = works[omp_get_thread_num()];
+        if (!work) work.emplace(control_points);
+        progress.add(1);
+        return sparsifier.sparsify(points.col(p), column_of(weights, p), column_of(projected, p),
+                                   *work);
+      });
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                   \

@@ -7,6 +7,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include "base/instantiate.h"
+
 namespace flbc {
 
 namespace {
@@ -179,14 +181,10 @@ Passage passage(const Vector<Dim>& from, const Vector<Dim>& to, const Simplex<Di
   return *low == 0 || *high == 0 ? Passage::kUnclear : Passage::kThrough;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                         \
-  template Simplex<Dim> simplex_of(const Eigen::Matrix<double, Dim, Dim>&);           \
-  template bool intersect(const Simplex<Dim>&, const Simplex<Dim>&);                  \
-  template bool intersect_improperly(const PointList<Dim>&, const FacetCorners<Dim>&, \
-                                     const FacetCorners<Dim>&);                       \
-  template Passage passage(const Vector<Dim>&, const Vector<Dim>&, const Simplex<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template bool intersect(const Simplex<2>&, const Simplex<2>&);
+template bool intersect(const Simplex<3>&, const Simplex<3>&);
+FLBC_INSTANTIATE_FUNCTION(simplex_of)
+FLBC_INSTANTIATE_FUNCTION(intersect_improperly)
+FLBC_INSTANTIATE_FUNCTION(passage)
 
 }  // namespace flbc

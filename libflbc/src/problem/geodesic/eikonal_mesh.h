@@ -10,8 +10,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "mesh/vertex_cells.h"
-#include "problem/geodesic/tetrahedron_ray.h"
-#include "problem/geodesic/triangle_ray.h"
+#include "problem/geodesic/simplex_ray.h"
 
 namespace flbc::distance {
 

@@ -1,28 +1,195 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/distance_weights.h"
 
+#include <omp.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "base/instantiate.h"
+#include "base/stage_progress.h"
+#include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/march.h"
-#include "problem/geodesic/source_rows.h"
 
 namespace flbc {
+namespace {
+
+using distance::EikonalMesh;
+using distance::March;
+
+// Some rows of a DistanceMatrix. Written into it one by one, each number would fetch a cache line
+// of its own.
+class SourceRows {
+ public:
+  // \param num_rows  that are filled at a time \param num_points  V
+  SourceRows(Index num_rows, Index num_points)
+      : num_rows_(num_rows), numbers_(static_cast<std::size_t>(num_rows) * num_points) {}
+
+  // Of one source and point. \param row  in [0, num_rows)
+  float& operator()(Index row, Index point) {
+    return numbers_[static_cast<std::size_t>(point) * num_rows_ + row];
+  }
+
+  // Copies the first rows. \param first  the row of the result they begin with
+  void write(Index first, Index count, DistanceMatrix& result) const {
+    for (Eigen::Index v = 0; v < result.cols(); ++v) {
+      std::copy_n(numbers_.data() + v * num_rows_, count, result.col(v).data() + first);
+    }
+  }
+
+ private:
+  Index num_rows_;
+  std::vector<float> numbers_;  // num_rows_ of each point
+};
+
+// Measures from all sources, from some after the other by each thread.
+// \param make_measure  makes a function for a thread, which is called with a source, with rows,
+// and with the number of the row that takes its distances
+// \return num_sources x num_points
+template <class MakeMeasure>
+DistanceMatrix by_source_rows(Index num_sources, Index num_points,
+                              const MakeMeasure& make_measure) {
+  constexpr Index kMost = 16;      // a cache line
+  constexpr Index kPerThread = 4;  // for threads to end nearly together
+  const Index num_rows =
+      std::clamp<Index>(num_sources / (kPerThread * omp_get_max_threads()), 1, kMost);
+  DistanceMatrix result(num_sources, num_points);
+  LoopProgress progress(num_sources);
+#pragma omp parallel
+  {
+    SourceRows rows(num_rows, num_points);
+    auto measure = make_measure();
+#pragma omp for schedule(dynamic, 1)
+    for (Index first = 0; first < num_sources; first += num_rows) {
+      const Index count = std::min(num_rows, num_sources - first);
+      for (Index row = 0; row < count; ++row) {
+        measure(first + row, rows, row);
+        progress.add(1);
+      }
+      rows.write(first, count, result);
+    }
+  }
+  return result;
+}
+
+constexpr std::size_t kWholeSources = 4;
+constexpr float kEverywhere = std::numeric_limits<float>::infinity();
+
+// Lets a march run until all of some vertices have been passed, and a little farther, because what
+// was passed last may still be improved.
+class UntilPassed {
+ public:
+  UntilPassed(Index num_vertices, float margin) : margin_(margin), wanted_by_(num_vertices, -1) {}
+
+  void want(Index source, const VertexItems<Index>::Range& vertices) {
+    source_ = source;
+    num_left_ = static_cast<Index>(vertices.end() - vertices.begin());
+    farthest_ = 0;
+    has_stopped_ = false;
+    for (const Index v : vertices) wanted_by_[v] = source;
+  }
+
+  bool operator()(Index vertex, float distance) {
+    if (wanted_by_[vertex] == source_) {
+      wanted_by_[vertex] = -1;
+      --num_left_;
+      farthest_ = std::max(farthest_, distance);
+    }
+    has_stopped_ = num_left_ == 0 && distance > farthest_ + margin_;
+    return !has_stopped_;
+  }
+
+  // How far everything is known, after the march.
+  float reach() const { return has_stopped_ ? farthest_ : kEverywhere; }
+
+ private:
+  const float margin_;
+  std::vector<Index> wanted_by_;
+  Index source_ = -1;
+  Index num_left_ = 0;
+  float farthest_ = 0;
+  bool has_stopped_ = false;
+};
+
+// Some distances that are measured everywhere.
+struct Whole {
+  std::vector<Index> sources;  // numbers of the sources
+  DistanceMatrix distances;    // a column for each
+};
+
+// Those from one source, from the source that is the farthest from it, from the one that is the
+// farthest from both, and so on.
+template <int Dim>
+Whole measure_everywhere(const EikonalMesh<Dim>& eikonal, const std::vector<Index>& sources) {
+  const auto count = std::min<std::size_t>(kWholeSources, sources.size());
+  Whole whole;
+  whole.distances.resize(eikonal.num_vertices(), static_cast<Index>(count));
+  March<Dim> march(eikonal);
+  std::vector<float> to_nearest(sources.size(), kEverywhere);
+  Index i = 0;
+  while (whole.sources.size() < count) {
+    const auto& arrivals = march.run(sources[i]);
+    auto distances = whole.distances.col(static_cast<Index>(whole.sources.size()));
+    for (Index v = 0; v < eikonal.num_vertices(); ++v) distances[v] = arrivals[v].distance;
+    whole.sources.push_back(i);
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+      to_nearest[k] = std::min(to_nearest[k], distances[sources[k]]);
+    }
+    i = static_cast<Index>(std::max_element(to_nearest.begin(), to_nearest.end()) -
+                           to_nearest.begin());
+  }
+  return whole;
+}
+
+}  // namespace
 
 template <int Dim>
 DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
                                   const std::vector<Index>& sources) {
-  const distance::EikonalMesh<Dim> eikonal(mesh, topology);
+  const EikonalMesh<Dim> eikonal(mesh, topology);
   const auto num_sources = static_cast<Index>(sources.size());
-  return distance::by_source_rows(num_sources, mesh.num_vertices(), [&] {
-    return [&, march = distance::March<Dim>(eikonal)](Index i, distance::SourceRows& rows,
-                                                      Index row) mutable {
+  return by_source_rows(num_sources, mesh.num_vertices(), [&] {
+    return [&, march = March<Dim>(eikonal)](Index i, SourceRows& rows, Index row) mutable {
       const auto& arrivals = march.run(sources[i]);
       for (Index v = 0; v < mesh.num_vertices(); ++v) rows(row, v) = arrivals[v].distance;
     };
   });
 }
 
-template DistanceMatrix geodesic_distances(const DomainMesh<2>&, const MeshTopology<2>&,
-                                           const std::vector<Index>&);
-template DistanceMatrix geodesic_distances(const DomainMesh<3>&, const MeshTopology<3>&,
-                                           const std::vector<Index>&);
+template <int Dim>
+BoundedDistances bounded_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                                   const std::vector<Index>& sources,
+                                   const VertexItems<Index>& needed) {
+  const EikonalMesh<Dim> eikonal(mesh, topology);
+  const auto num_sources = static_cast<Index>(sources.size());
+  const Eigen::Matrix<float, Dim, Eigen::Dynamic> points = mesh.points.template cast<float>();
+  const auto whole = measure_everywhere(eikonal, sources);
+  BoundedDistances result{{}, Eigen::VectorXf::Zero(num_sources)};
+  for (const Index i : whole.sources) result.reach[i] = kEverywhere;
+  result.distances = by_source_rows(num_sources, mesh.num_vertices(), [&] {
+    return [&, march = March<Dim>(eikonal),
+            until = UntilPassed(mesh.num_vertices(), eikonal.mean_length)](
+               Index i, SourceRows& rows, Index row) mutable {
+      if (result.reach[i] == kEverywhere) return;  // its row comes below
+      until.want(i, needed.of(i));
+      const auto& arrivals = march.run(sources[i], until);
+      const float reach = result.reach[i] = until.reach();
+      for (Index v = 0; v < mesh.num_vertices(); ++v) {
+        const float arrival = arrivals[v].distance;
+        rows(row, v) = arrival <= reach
+                           ? arrival
+                           : std::max(reach, (points.col(v) - points.col(sources[i])).norm());
+      }
+    };
+  });
+  for (std::size_t k = 0; k < whole.sources.size(); ++k) {
+    result.distances.row(whole.sources[k]) = whole.distances.col(static_cast<Index>(k)).transpose();
+  }
+  return result;
+}
+
+FLBC_INSTANTIATE_FUNCTION(geodesic_distances)
+FLBC_INSTANTIATE_FUNCTION(bounded_distances)
 
 }  // namespace flbc

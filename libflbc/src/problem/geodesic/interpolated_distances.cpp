@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/interpolated_distances.h"
 
+#include "base/instantiate.h"
+
 namespace flbc {
 namespace {
 
@@ -41,11 +43,6 @@ DistanceMatrix interpolated_distances(const KnownDistances<Dim>& known,
   return distances;
 }
 
-#define FLBC_INSTANTIATE(Dim)                     \
-  template DistanceMatrix interpolated_distances( \
-      const KnownDistances<Dim>&, const PointList<Dim>&, const std::vector<Location<Dim>>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(interpolated_distances)
 
 }  // namespace flbc

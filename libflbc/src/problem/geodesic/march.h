@@ -5,16 +5,91 @@
 //! where a cell has an obtuse angle, a vertex may be improved again after it has been passed.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "problem/geodesic/bucket_queue.h"
-#include "problem/geodesic/cell_tasks.h"
+#include "flbc/types.h"
 #include "problem/geodesic/eikonal_mesh.h"
 
 namespace flbc::distance {
+
+//! By the set of the cell's corners that have been passed, as bits: looked up rather than computed,
+//! because it is asked whenever a vertex is passed in one of its cells.
+struct CellTasks {
+  static constexpr std::int8_t kAll = 4;
+  std::int8_t missing[16];        //!< the only corner that is missing, or kAll if none is
+  std::uint8_t is_something[16];  //!< 1 if either is so, otherwise 0, and nothing is to be done
+};
+
+template <int Dim>
+constexpr CellTasks cell_tasks() {
+  CellTasks tasks{};
+  constexpr unsigned kFull = (1u << (Dim + 1)) - 1;
+  tasks.missing[kFull] = CellTasks::kAll;
+  tasks.is_something[kFull] = 1;
+  for (int k = 0; k <= Dim; ++k) {
+    tasks.missing[kFull - (1u << k)] = static_cast<std::int8_t>(k);
+    tasks.is_something[kFull - (1u << k)] = 1;
+  }
+  return tasks;
+}
+
+//! A queue of vertices that is sorted by buckets of distances; the last one pushed into a bucket
+//! leaves it first.
+class BucketQueue {
+ public:
+  //! \param width  of the buckets
+  explicit BucketQueue(float width) : per_distance_(1 / width) {}
+
+  void push(Index vertex, float distance) {
+    const auto bucket = std::max(current_, static_cast<int>(distance * per_distance_));
+    if (static_cast<std::size_t>(bucket) >= top_.size()) {
+      top_.resize(static_cast<std::size_t>(bucket) * 2 + 1, kEmpty);
+    }
+    entries_.push_back({vertex, top_[bucket]});
+    top_[bucket] = static_cast<int>(entries_.size()) - 1;
+  }
+
+  //! \return -1 if it is empty
+  Index pop() {
+    for (; static_cast<std::size_t>(current_) < top_.size(); ++current_) {
+      const int top = top_[current_];
+      if (top == kEmpty) continue;
+      top_[current_] = entries_[top].below;
+      return entries_[top].vertex;
+    }
+    return -1;
+  }
+
+  //! The vertex that leaves next unless another is pushed, or -1 if that has not been looked up.
+  //! Only after a vertex has left.
+  Index next() const {
+    const int top = top_[current_];
+    return top == kEmpty ? -1 : entries_[top].vertex;
+  }
+
+  //! For another source.
+  void restart() {
+    std::fill(top_.begin(), top_.end(), kEmpty);
+    current_ = 0;
+    entries_.clear();
+  }
+
+ private:
+  static constexpr int kEmpty = -1;
+  struct Entry {
+    Index vertex;
+    int below;  // the entry below it in its bucket
+  };
+
+  float per_distance_;
+  int current_ = 0;
+  std::vector<int> top_;        // of each bucket
+  std::vector<Entry> entries_;  // all since the start
+};
 
 //! Of a vertex.
 enum class State : std::uint8_t { kFar, kWaiting, kPassed };
@@ -23,7 +98,7 @@ enum class State : std::uint8_t { kFar, kWaiting, kPassed };
 struct Arrival {
   float distance = std::numeric_limits<float>::max();
   State state = State::kFar;
-  bool along_edge = false;  // no ray has been found yet
+  bool along_edge = false;    // no ray has been found yet
   std::uint8_t improved = 0;  // how often after it had been passed
 };
 

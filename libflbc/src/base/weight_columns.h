@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Dense and sparse weights by the same code: the weights of one point, and weights made of those
+//! of single points.
+#pragma once
+
+#include <type_traits>
+
+#include "flbc/sparse_weights.h"
+
+namespace flbc {
+
+inline Eigen::Index num_control_points(const WeightMatrix& weights) {
+  return weights.rows();
+}
+inline Eigen::Index num_control_points(const SparseWeights& weights) {
+  return weights.num_control_points();
+}
+
+inline auto column_of(const WeightMatrix& weights, Index point) {
+  return weights.col(point);
+}
+inline Eigen::VectorXd column_of(const SparseWeights& weights, Index point) {
+  return weights.at(point);
+}
+
+//! Adds the weights of a point times a factor. \param sum  n
+inline void add_column(const WeightMatrix& weights, Index point, double factor,
+                       Eigen::VectorXd& sum) {
+  sum += factor * weights.col(point);
+}
+inline void add_column(const SparseWeights& weights, Index point, double factor,
+                       Eigen::VectorXd& sum) {
+  weights.visit(point, [&](Index i, double weight) { sum[i] += factor * weight; });
+}
+
+//! \param of_point  gives the n weights of a point; several threads call it
+//! \return n x num_points
+template <class Weights, class OfPoint>
+Weights weights_of_points(Index n, Index num_points, const OfPoint& of_point) {
+  if constexpr (std::is_same_v<Weights, SparseWeights>) {
+    return SparseWeights::of(n, num_points, of_point);
+  } else {
+    WeightMatrix weights(n, num_points);
+#pragma omp parallel for schedule(dynamic, 64) if (num_points >= 256)
+    for (Index p = 0; p < num_points; ++p) weights.col(p) = of_point(p);
+    return weights;
+  }
+}
+
+}  // namespace flbc
