@@ -69,8 +69,8 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
                 const SolverOptions& options, const Reporter& reporter, SolveReport report) {
   Solution solution{{}, {}, std::move(report)};
   if (options.sparse) {
-    solution.sparse_weights = weights.is_sparse() ? std::move(weights.sparse)
-                                                  : SparseWeights(std::move(weights.dense));
+    solution.sparse_weights =
+        weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(std::move(weights.dense));
     finish_as(problem, run, solution.sparse_weights, options, reporter, solution.report);
   } else {
     solution.weights = weights.is_sparse() ? weights.sparse.dense() : std::move(weights.dense);

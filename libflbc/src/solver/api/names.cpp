@@ -39,16 +39,16 @@ std::optional<Enum> value_named(const std::string& name) {
   return std::nullopt;
 }
 
-#define FLBC_NAMES(Enum, ...)                               \
-  namespace {                                               \
-  template <>                                               \
-  const Names<Enum>& names() {                              \
-    static const Names<Enum> table{__VA_ARGS__};            \
-    return table;                                           \
-  }                                                         \
-  }                                                         \
-  template const char* name_of(Enum);                       \
-  template std::vector<std::string> names_of<Enum>();       \
+#define FLBC_NAMES(Enum, ...)                         \
+  namespace {                                         \
+  template <>                                         \
+  const Names<Enum>& names() {                        \
+    static const Names<Enum> table{__VA_ARGS__};      \
+    return table;                                     \
+  }                                                   \
+  }                                                   \
+  template const char* name_of(Enum);                 \
+  template std::vector<std::string> names_of<Enum>(); \
   template std::optional<Enum> value_named(const std::string&);
 
 FLBC_NAMES(Method, {Method::kAuto, "auto"}, {Method::kValue, "value"},

@@ -9,7 +9,6 @@
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/domain_mesh.h"
 
 namespace flbc {
 namespace {
@@ -161,9 +160,8 @@ WeightMatrix join_dense(const std::vector<Part<Dim>>& parts, const std::vector<S
   return weights;
 }
 template <int Dim>
-SparseWeights join_sparse(const std::vector<Part<Dim>>& parts,
-                          const std::vector<Solution>& solved, Index num_control_points,
-                          Index num_vertices) {
+SparseWeights join_sparse(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
+                          Index num_control_points, Index num_vertices) {
   struct Place {
     std::size_t part;
     Index vertex;  // of the part

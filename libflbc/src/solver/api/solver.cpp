@@ -13,8 +13,8 @@
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
-#include "flbc/errors.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/finish.h"
@@ -78,9 +78,9 @@ Solution solve_once(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Di
 
 //! \param topology  null if not known
 template <int Dim>
-Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                    const SolverOptions& given, const CoarseMesher<Dim>& mesher,
-                    const Observer& observer, const MeshTopology<Dim>* topology) {
+Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& given,
+                    const CoarseMesher<Dim>& mesher, const Observer& observer,
+                    const MeshTopology<Dim>* topology) {
   require_valid_setup(given, bool(mesher));
   const auto options = resolve(given);
   const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
@@ -94,11 +94,11 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   };
   const Reporter reporter(observer);
   if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter, topology);
-  return solve_parts<Dim>(cage, mesh, options.sparse, reporter,
-                          [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                              const Reporter& of_part) {
-                            return solve_connected(part, domain, of_part, nullptr);
-                          });
+  return solve_parts<Dim>(
+      cage, mesh, options.sparse, reporter,
+      [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& of_part) {
+        return solve_connected(part, domain, of_part, nullptr);
+      });
 }
 
 void validate(const Budget& budget) {
@@ -123,8 +123,7 @@ class Deadline {
     const int interval = std::exchange(options.check_interval, 1);
     auto watching = observer;
     watching.progress = [this, interval, &observer](const Progress& progress) {
-      if (observer.progress && progress.iteration % interval == 0 &&
-          !observer.progress(progress)) {
+      if (observer.progress && progress.iteration % interval == 0 && !observer.progress(progress)) {
         return false;
       }
       elapsed_ += watch_.lap();
@@ -207,12 +206,11 @@ class Solver<Dim>::State {
     normalize_and_validate(mesh);
     std::optional<CoarseProblem<Dim>> coarsest;
     const Observer nobody;
-    auto ready =
-        set_up(cage, mesh, resolve(options), mesher, Reporter(nobody), &coarsest);
+    auto ready = set_up(cage, mesh, resolve(options), mesher, Reporter(nobody), &coarsest);
     if (coarsest) moving_distances_.emplace(std::move(*coarsest), ready.problem);
     coarse_ = std::move(ready.coarse);
-    *shape_ = {std::move(cage), std::move(mesh), std::move(ready.problem), ready.distances,
-               ready.seconds, {}};
+    *shape_ = {std::move(cage), std::move(mesh), std::move(ready.problem),
+               ready.distances, ready.seconds,   {}};
     restart_run();
   }
 
@@ -236,8 +234,7 @@ class Solver<Dim>::State {
     shape->setup_seconds = watch.lap();
     if (plan::inherits(options.method) && shape_->run->has_duals()) {
       const auto duals = shape_->run->duals();
-      const auto transfer =
-          Transfer<Dim>::between_shapes(shape_->problem, duals, shape->problem);
+      const auto transfer = Transfer<Dim>::between_shapes(shape_->problem, duals, shape->problem);
       solve_on(*shape, &transfer, left(budget, shape->setup_seconds), observer);
     } else {
       solve_on(*shape, nullptr, left(budget, shape->setup_seconds), observer);
@@ -306,8 +303,7 @@ class Solver<Dim>::State {
   }
 
   // The mesh where the control points take it, not solved yet.
-  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
-                               const SolverOptions& options) {
+  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points, const SolverOptions& options) {
     require_points_for(shape_->cage, control_points);
     auto shape = std::make_unique<Shape>();
     shape->cage = {control_points, shape_->cage.facets};
@@ -315,8 +311,8 @@ class Solver<Dim>::State {
     shape->mesh = {deform<Dim>(anchor_weights_, control_points), shape_->mesh.cells};
     refuse_folds(anchor_mesh_, shape->mesh);
     auto& problem = shape->problem;
-    problem = make_geometry(shape->cage, shape->mesh, shape_->problem.topology,
-                            shape_->problem.boundary);
+    problem =
+        make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
     shape->run.emplace(problem);
     if (!plan::minimizes(options.method)) return shape;
     shape->distances = shape_->distances;
@@ -345,12 +341,12 @@ class Solver<Dim>::State {
     } else {
       auto coarse = std::exchange(coarse_, {});
       if (coarse.empty()) coarse = coarse_starts(shape.problem, mesher_, options);
-      weights = solve_in_cascade(shape.problem, *shape.run, std::move(coarse), options, reporter,
-                                 report);
+      weights =
+          solve_in_cascade(shape.problem, *shape.run, std::move(coarse), options, reporter, report);
     }
     if (deadline.has_passed()) report.status = SolveStatus::kIterationLimit;
-    solution_ = finish(shape.problem, *shape.run, std::move(weights), options, reporter,
-                       std::move(report));
+    solution_ =
+        finish(shape.problem, *shape.run, std::move(weights), options, reporter, std::move(report));
     solution_.report.seconds.setup = std::exchange(shape.setup_seconds, 0);
     solution_.report.distances = shape.distances;
   }
@@ -434,14 +430,13 @@ const Solution& Solver<Dim>::solution() const {
   return state_->solution();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                  \
-  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&,                        \
-                          const MesherArgument<Dim>&, const Observer&);                        \
-  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&, \
-                               const MesherArgument<Dim>&, const Observer&);                   \
-  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&,                       \
-                               const MeshTopology<Dim>&, const SolverOptions&,                 \
-                               const MesherArgument<Dim>&, const Observer&);                   \
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&,                            \
+                          const MesherArgument<Dim>&, const Observer&);                            \
+  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&,     \
+                               const MesherArgument<Dim>&, const Observer&);                       \
+  template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const MeshTopology<Dim>&, \
+                               const SolverOptions&, const MesherArgument<Dim>&, const Observer&); \
   template class Solver<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -34,8 +34,8 @@ double published_unit(const LbcProblem<Dim>& problem, Method method) {
   return plan::penalty_unit(method, Dim, plan::published_scale(problem.mesh));
 }
 
-// r_p of kPaper are gradients, 1 / length, and r_d is mu times that. Those of kLbc2014 are gradients
-// times a measure, and rho times that.
+// r_p of kPaper are gradients, 1 / length, and r_d is mu times that. Those of kLbc2014 are
+// gradients times a measure, and rho times that.
 template <int Dim>
 typename Residuals<Dim>::Units published_units(const LbcProblem<Dim>& problem, Method method) {
   const double length = plan::published_scale(problem.mesh);
@@ -75,8 +75,8 @@ std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
   settings.half = half && plan::half_precision(problem.mesh.num_cells(), options);
   settings.balances = !options.penalty;
-  return make_in<compact::CompactSplitting>(options.precision, problem,
-                                            metric_of(problem, options), settings);
+  return make_in<compact::CompactSplitting>(options.precision, problem, metric_of(problem, options),
+                                            settings);
 }
 
 // Method::kLbc2014: the augmented Lagrangian of (2), in which a cell weighs its squared measure. A
@@ -163,17 +163,14 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
   if (!plan::active_set_pays(active_set::density(*problem_, active), options)) return false;
   const auto from = cold ? harmonic.state() : start.from->start();
   active_set::Settings settings;
-  settings.penalty = options.penalty ? *options.penalty
-                     : cold          ? plan::kFirstPenalty
-                                     : from.penalty;
+  settings.penalty = options.penalty ? *options.penalty : cold ? plan::kFirstPenalty : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
   settings.relaxation = *options.relaxation;
   settings.tolerance = *options.tolerance;
   settings.half = plan::half_precision(problem_->mesh.num_cells(), options);
   settings.balances = cold && !options.penalty;
-  iteration_ = make_in<active_set::ActiveSet>(options.precision, *problem_,
-                                              metric_of(*problem_, options), settings,
-                                              std::move(active));
+  iteration_ = make_in<active_set::ActiveSet>(
+      options.precision, *problem_, metric_of(*problem_, options), settings, std::move(active));
   iteration_->start(from);
   is_active_ = true;
   return true;
@@ -184,7 +181,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   if (begin_on_active_set(options, start)) return;
   if (options.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
-    const double penalty = options.penalty   ? *options.penalty
+    const double penalty = options.penalty  ? *options.penalty
                            : from.is_cold() ? plan::kFirstPenalty
                                             : from.penalty;
     iteration_ = make_value(*problem_, options, penalty, true);

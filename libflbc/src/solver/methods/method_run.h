@@ -20,8 +20,8 @@ struct WarmStart {
   const Transfer<Dim>* from = nullptr;  //!< duals of another mesh or shape, for methods that
                                         //!< plan::inherits() holds for
   const active_set::ColdStart<Dim>* cold = nullptr;  //!< if it was computed before
-  std::function<void()> started{};  //!< called when neither is needed any longer
-  bool for_finer_mesh = false;      //!< the result is a finer mesh's start, for which a rough one does
+  std::function<void()> started{};                   //!< called when neither is needed any longer
+  bool for_finer_mesh = false;  //!< the result is a finer mesh's start, for which a rough one does
 };
 
 //! Owns the iteration of a method, and hands over from the one on the active set to the one on all

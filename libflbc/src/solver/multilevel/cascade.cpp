@@ -41,8 +41,7 @@ class Cascade {
       duals_ = {};
       for (auto& level : levels_) level = {{}, {}, level.report};
     };
-    auto weights =
-        run.solve(options, reporter_, report, {transfer.get(), nullptr, forget_levels});
+    auto weights = run.solve(options, reporter_, report, {transfer.get(), nullptr, forget_levels});
     if (stopped_) report.status = SolveStatus::kStopped;
     report.seconds.solve += placing;
     for (std::size_t k = 0; k < levels_.size(); ++k) {
@@ -104,9 +103,9 @@ Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
   return cascade.solve_finest(run, report);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                    \
-  template Weights solve_in_cascade(const LbcProblem<Dim>&, MethodRun<Dim>&,                     \
-                                    std::vector<CoarseProblem<Dim>>, const SolverOptions&,       \
+#define FLBC_INSTANTIATE(Dim)                                                              \
+  template Weights solve_in_cascade(const LbcProblem<Dim>&, MethodRun<Dim>&,               \
+                                    std::vector<CoarseProblem<Dim>>, const SolverOptions&, \
                                     const Reporter&, SolveReport&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -23,7 +23,8 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
                                          Index wanted, Index below, Index finest) {
   try {
     auto mesh = mesher(cage, wanted);
-    if (plan::kClearlyFiner * mesh.num_vertices() > finest || mesh.num_vertices() < plan::kClearlyFiner * below)
+    if (plan::kClearlyFiner * mesh.num_vertices() > finest ||
+        mesh.num_vertices() < plan::kClearlyFiner * below)
       return {};
     normalize_and_validate(mesh);
     require_connected(mesh);

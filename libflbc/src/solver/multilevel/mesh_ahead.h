@@ -20,8 +20,7 @@ template <int Dim>
 class MeshAhead {
  public:
   //! \param mesh  the finest, unscaled like its cage \param mesher  outlives this
-  MeshAhead(const Cage<Dim>& cage, const std::vector<Index>& sizes,
-            const CoarseMesher<Dim>& mesher)
+  MeshAhead(const Cage<Dim>& cage, const std::vector<Index>& sizes, const CoarseMesher<Dim>& mesher)
       : mesher_(mesher) {
     if (sizes.empty() || omp_get_max_threads() == 1) return;
     auto scaled = cage;

@@ -35,8 +35,7 @@ CoarsePlan plan_coarse(const plan::Sizes& sizes, const SolverOptions& options, b
 template <int Dim>
 DistanceMatrix place_and_choose(SetUp<Dim>& result, const SolverOptions& options) {
   auto& coarse = result.coarse.back();
-  coarse.finest_vertices =
-      places_in(coarse.problem, result.problem.mesh.points);
+  coarse.finest_vertices = places_in(coarse.problem, result.problem.mesh.points);
   return choose_distances(coarse, result.problem, options, result.distances);
 }
 
@@ -45,8 +44,7 @@ template <int Dim>
 CoarseProblem<Dim> coarsest_of(const SetUp<Dim>& result) {
   auto coarse = result.coarse.front();
   if (coarse.finest_vertices.empty()) {
-    coarse.finest_vertices =
-        places_in(coarse.problem, result.problem.mesh.points);
+    coarse.finest_vertices = places_in(coarse.problem, result.problem.mesh.points);
   }
   return coarse;
 }
@@ -56,12 +54,10 @@ CoarseProblem<Dim> coarsest_of(const SetUp<Dim>& result) {
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
                   const CoarseMesher<Dim>& mesher, const Reporter& reporter,
-                  std::optional<CoarseProblem<Dim>>* coarsest,
-                  const MeshTopology<Dim>* topology) {
+                  std::optional<CoarseProblem<Dim>>* coarsest, const MeshTopology<Dim>* topology) {
   Stopwatch watch;
   require_connected(mesh);
-  const auto coarse =
-      plan_coarse({Dim, cage.size(), mesh.num_vertices()}, options, bool(mesher));
+  const auto coarse = plan_coarse({Dim, cage.size(), mesh.num_vertices()}, options, bool(mesher));
   const MeshAhead<Dim> ahead(cage, coarse.sizes, mesher);
   SetUp<Dim> result{topology == nullptr
                         ? make_geometry(std::move(cage), std::move(mesh))
@@ -88,9 +84,9 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                     \
-  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&,                    \
-                             const CoarseMesher<Dim>&, const Reporter&,                           \
+#define FLBC_INSTANTIATE(Dim)                                                  \
+  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&, \
+                             const CoarseMesher<Dim>&, const Reporter&,        \
                              std::optional<CoarseProblem<Dim>>*, const MeshTopology<Dim>*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

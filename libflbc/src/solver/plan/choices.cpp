@@ -147,7 +147,8 @@ SolverOptions resolve(SolverOptions options) {
   if (options.coarse_to_fine == CoarseToFine::kOn && !options.coarse_levels.coarsest) {
     options.coarse_levels.coarsest = plan::kCoarsest;
   }
-  if (!options.tolerance) options.tolerance = gradient ? plan::kGradientTolerance : plan::kTolerance;
+  if (!options.tolerance)
+    options.tolerance = gradient ? plan::kGradientTolerance : plan::kTolerance;
   options.relaxation = plan::relaxation(options);
   return options;
 }

@@ -55,8 +55,7 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options
 
 //! Whether distances are to be interpolated from a coarser mesh if they turn out to be good enough.
 //! \param has_coarse_mesh  whether there is one to start from
-bool interpolates_distances(const Sizes& sizes, const SolverOptions& options,
-                            bool has_coarse_mesh);
+bool interpolates_distances(const Sizes& sizes, const SolverOptions& options, bool has_coarse_mesh);
 
 //! Vertices of a coarse mesh for distances alone.
 Index distances_mesh_size(Index vertices, double tolerance);

@@ -10,7 +10,8 @@
 
 namespace flbc::plan {
 
-// ---- penalties, with the diagonal of the cage's bounding box as the unit of length -----------------
+// ---- penalties, with the diagonal of the cage's bounding box as the unit of length
+// -----------------
 
 //! `value`, first penalty. A fortieth suits all models roughly; balancing does the rest.
 constexpr double kFirstPenalty = 1.0 / 40;
@@ -40,7 +41,8 @@ constexpr double published_gradient_penalty(int dim) {
   return dim == 2 ? 100 : 10000;
 }
 
-// ---- metric, relaxation, starts -------------------------------------------------------------------
+// ---- metric, relaxation, starts
+// -------------------------------------------------------------------
 
 //! Weight of u = w per vertex mass and squared size, relative to the cells' metric. Iterations
 //! hardly depend on it between 10 and 300.
@@ -53,7 +55,8 @@ constexpr int kHarmonicSteps = 8;
 //! Mean squared change of a weight below which they end.
 constexpr double kHarmonicChange = 1e-9;
 
-// ---- precision -------------------------------------------------------------------------------------
+// ---- precision
+// -------------------------------------------------------------------------------------
 
 //! Largest tolerance that half precision of the cells' duals cannot serve. Radii are rounded by
 //! 1.4e-4 on average, which moves weights by a few 1e-11 squared on models.
@@ -69,14 +72,16 @@ constexpr bool trembles(int iterations, double error) {
   return iterations >= kTremblingIterations || error < kTremblingError;
 }
 
-// ---- linear systems --------------------------------------------------------------------------------
+// ---- linear systems
+// --------------------------------------------------------------------------------
 
 //! Most vertices that are factored. In 3D a factor of more takes longer than the iteration.
 constexpr Index most_factored(int dim) {
   return dim == 2 ? 2000000 : 20000;
 }
 
-// ---- when a run ends -------------------------------------------------------------------------------
+// ---- when a run ends
+// -------------------------------------------------------------------------------
 
 //! Default tolerances and certified gap. The gap is as near the optimum as tolerances bring other
 //! cages; in half precision gaps of about 4e-4 remain.
@@ -85,8 +90,8 @@ constexpr double kTolerance = 1e-7, kGradientTolerance = 1e-6, kGap = 1e-3;
 constexpr int kFewestIterations = 8;
 //! Vertices whose weights are compared: all of them up to this number, a sample of more.
 constexpr std::size_t kFewestSampled = 4096;
-//! First iteration that may be certified, and the factor to the next: a certificate takes as long as
-//! ten iterations, and most runs meet their tolerance before.
+//! First iteration that may be certified, and the factor to the next: a certificate takes as long
+//! as ten iterations, and most runs meet their tolerance before.
 constexpr int kFirstCertified = 500;
 constexpr double kCertifiedGrowth = 1.2;
 //! An error that is not known counts as so many tolerances.
@@ -127,10 +132,11 @@ constexpr Early early(int dim) {
 }
 }  // namespace error_estimate
 
-// ---- active set ------------------------------------------------------------------------------------
+// ---- active set
+// ------------------------------------------------------------------------------------
 
-//! Fewest control points and pairs. Below, lists are not much shorter than all control points; in 2D
-//! they hold too few to leave the iteration freedom.
+//! Fewest control points and pairs. Below, lists are not much shorter than all control points; in
+//! 2D they hold too few to leave the iteration freedom.
 constexpr Index kActiveControlPoints = 80;
 constexpr double kActivePairs = 4e5;
 //! Largest part of all pairs for which it is faster.
@@ -148,7 +154,8 @@ constexpr double kEndsOfError = 0.1;
 //! Iterations in which duals grow from nothing. Before, small changes do not show a small error.
 constexpr int kUntilDualsAreThere = 100;
 
-// ---- coarser meshes --------------------------------------------------------------------------------
+// ---- coarser meshes
+// --------------------------------------------------------------------------------
 
 //! A mesh is a level of its own if it has so many times the vertices of the next coarser one.
 constexpr double kClearlyFiner = 1.7;
@@ -172,7 +179,8 @@ constexpr Worthwhile worthwhile(int dim, bool on_active_set) {
                        : Worthwhile{7e5, 1000, 12};
 }
 
-// ---- distances behind phi --------------------------------------------------------------------------
+// ---- distances behind phi
+// --------------------------------------------------------------------------
 
 //! Interpolated from a coarser mesh: in 3D from so many vertices on (below, the mesh for the
 //! distances alone takes as long as they do), and not for smaller tolerances: the largest change of

@@ -21,8 +21,9 @@ void validate_gap(const SolverOptions& options, bool iterative) {
   if (gap == 0) return;
   if (!iterative) throw OptionError("gap needs a method that minimises, which this one does not");
   if (resolve(options).non_negative == NonNegative::kOff) {
-    throw OptionError("gap (--gap) proves nothing of weights that may be negative; choose "
-                      "non_negative (--non-negative) constraint or project");
+    throw OptionError(
+        "gap (--gap) proves nothing of weights that may be negative; choose "
+        "non_negative (--non-negative) constraint or project");
   }
 }
 

@@ -99,8 +99,8 @@ double ErrorEstimate::rest() const {
   if (present > 0 && present < before && before < kInfinity) {
     rate_to_come *= std::sqrt(std::max(present / before, kFall));
   }
-  const double by_rate = std::clamp(early(dim_).safety * square(spans_left(rate_to_come)),
-                                    kLeast, std::max(kMost, farthest));
+  const double by_rate = std::clamp(early(dim_).safety * square(spans_left(rate_to_come)), kLeast,
+                                    std::max(kMost, farthest));
   // Elsewhere iterations since the start do not say how far a run is.
   if (origin_ != Origin::kCold) return by_rate;
   // Differences that shrink as k^-p have the rate p / k, here in the middle of the window, and
@@ -128,7 +128,8 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
 double ErrorEstimate::least(int iteration, double change) const {
   const auto early = plan::error_estimate::early(dim_);
   const bool counts = origin_ != Origin::kNearby && iteration <= early.iterations;
-  return std::max(plan::error_estimate::kOfChange, counts ? early.part * square(iteration) : 0) * change;
+  return std::max(plan::error_estimate::kOfChange, counts ? early.part * square(iteration) : 0) *
+         change;
 }
 
 double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a run knows of an iteration: the splitting on all pairs, the splitting on an active set, the
-//! gradient ADMM.
+//! What a run knows of an iteration: the splitting on all pairs, the splitting on an active set,
+//! the gradient ADMM.
 #pragma once
 
 #include "flbc/certificate.h"

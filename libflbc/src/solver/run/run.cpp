@@ -17,9 +17,8 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
   Progress progress{report.iterations, report.primal_residual, report.dual_residual};
   progress.objective = [&] {
     const auto weights = iteration.weights();
-    const double scaled = weights.is_sparse()
-                              ? objective(problem.mesh, problem.phi, weights.sparse)
-                              : objective(problem.mesh, problem.phi, weights.dense);
+    const double scaled = weights.is_sparse() ? objective(problem.mesh, problem.phi, weights.sparse)
+                                              : objective(problem.mesh, problem.phi, weights.dense);
     return unscaled(problem, scaled);
   };
   return progress;
@@ -87,8 +86,8 @@ bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport&
   return false;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                               \
-  template double unscaled(const LbcProblem<Dim>&, double);                                 \
+#define FLBC_INSTANTIATE(Dim)                               \
+  template double unscaled(const LbcProblem<Dim>&, double); \
   template bool run(Iteration<Dim>&, const RunContext<Dim>&, SolveReport&, int);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

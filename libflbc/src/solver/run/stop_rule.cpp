@@ -86,9 +86,8 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   // first ones are small: the largest of some counts.
   if (errors_.size() > plan::kRecoveriesJudged) errors_.erase(errors_.begin());
   const double largest = *std::max_element(errors_.begin(), errors_.end()) / *options_.tolerance;
-  report.primal_residual = errors_.size() < plan::kRecoveriesJudged
-                               ? std::max(largest, plan::kUnknownError)
-                               : largest;
+  report.primal_residual =
+      errors_.size() < plan::kRecoveriesJudged ? std::max(largest, plan::kUnknownError) : largest;
   return true;
 }
 

@@ -56,8 +56,7 @@ template <int Dim>
 class EstimatedError : public StopRule<Dim> {
  public:
   //! \param origin  of the first iteration
-  EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                 Origin origin);
+  EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin);
 
   void begin(const Iteration<Dim>& iteration) override;
   int next(int) const override { return 1; }
@@ -76,8 +75,7 @@ class EstimatedError : public StopRule<Dim> {
 template <int Dim>
 class RecoveredError : public StopRule<Dim> {
  public:
-  RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                 Origin origin);
+  RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin);
 
   void begin(const Iteration<Dim>& iteration) override;
   int next(int made) const override { return this->to_next_look(options_, made); }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/lbc_problem.h"
 
 namespace flbc {
 

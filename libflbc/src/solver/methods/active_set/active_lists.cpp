@@ -138,13 +138,12 @@ ActiveLists lists_from(const Flags& is_in) {
 
 template <int Dim>
 ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
-                           double threshold) {
+                        double threshold) {
   constexpr double kNotInterpolated = 1e-12;
   const auto& mesh = coarse.coarse_mesh();
   const auto& weights = coarse.coarse_weights();
-  const Flags near = flags_of(mesh, problem.num_control_points(), [&](Index v) {
-    return (weights.at(v).array() > threshold).eval();
-  });
+  const Flags near = flags_of(mesh, problem.num_control_points(),
+                              [&](Index v) { return (weights.at(v).array() > threshold).eval(); });
   Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
@@ -160,7 +159,7 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
 
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
-                         double threshold) {
+                      double threshold) {
   const auto of_vertex = with_known_values(problem, weights);
   auto flags = flags_of(problem.mesh, problem.num_control_points(),
                         [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
@@ -184,7 +183,7 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 
 template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
-                   const WeightInList& weight) {
+                  const WeightInList& weight) {
   Flags flags = flags_of_lists(problem, supports);
   const VertexCells around(problem.mesh);
   for (const Index v : problem.boundary.interior_vertices()) {
@@ -231,15 +230,14 @@ double density(const LbcProblem<Dim>& problem, const ActiveLists& supports) {
   return interior.empty() ? 1 : pairs / all;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                \
-  template ActiveLists active_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double); \
-  template ActiveLists active_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);    \
-  template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const Start<Dim>&,   \
-                                            double);                                         \
-  template ActiveLists grown(const LbcProblem<Dim>&, const ActiveLists&, double,           \
-                              const WeightInList&);                                          \
-  template double squared_at_ends(const LbcProblem<Dim>&, const ActiveLists&,               \
-                                  const WeightInList&);                                      \
+#define FLBC_INSTANTIATE(Dim)                                                                   \
+  template ActiveLists active_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double);       \
+  template ActiveLists active_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);          \
+  template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const Start<Dim>&, double); \
+  template ActiveLists grown(const LbcProblem<Dim>&, const ActiveLists&, double,                \
+                             const WeightInList&);                                              \
+  template double squared_at_ends(const LbcProblem<Dim>&, const ActiveLists&,                   \
+                                  const WeightInList&);                                         \
   template double density(const LbcProblem<Dim>&, const ActiveLists&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -29,13 +29,13 @@ double threshold_for(double tolerance);
 //! vertices have those control points whose weights are not zero.
 template <int Dim>
 ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
-                           double threshold);
+                        double threshold);
 
 //! The same from weights on the mesh itself, at the vertex or at a neighbour.
 //! \param weights  of an interior vertex, n numbers, feasible
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
-                         double threshold);
+                      double threshold);
 
 //! The flux densities of a start where weights above the threshold are near, zero elsewhere.
 template <int Dim>
@@ -53,7 +53,7 @@ double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& suppor
 //! Supports with the control points of neighbours whose weights are above the threshold.
 template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
-                   const WeightInList& weight);
+                  const WeightInList& weight);
 
 //! Pairs of interior vertices and control points, relative to all there are.
 template <int Dim>

@@ -23,10 +23,10 @@ Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
 
 template <class Scalar, int Dim>
 ActiveMultigrid<Scalar, Dim>::ActiveMultigrid(RowMatrix matrix, const SweepOrder& order,
-                                                const PackedLists& lists,
-                                                const AlignedArray<Scalar>& basis,
-                                                const PointList<Dim>& control_points,
-                                                const Kernel<Scalar, Dim>& kernel)
+                                              const PackedLists& lists,
+                                              const AlignedArray<Scalar>& basis,
+                                              const PointList<Dim>& control_points,
+                                              const Kernel<Scalar, Dim>& kernel)
     : kernel_(kernel),
       n_(static_cast<ControlPoint>(control_points.cols())),
       work_size_(padded(static_cast<std::size_t>(n_) + 1)),
@@ -76,7 +76,7 @@ typename ActiveMultigrid<Scalar, Dim>::LevelData ActiveMultigrid<Scalar, Dim>::c
 // their number leaves no freedom.
 template <class Scalar, int Dim>
 PackedLists ActiveMultigrid<Scalar, Dim>::coarse_lists(const PackedLists& fine,
-                                                        const RowMatrix& restriction) const {
+                                                       const RowMatrix& restriction) const {
   PackedLists lists;
   std::vector<Index> found(n_);
   std::vector<ControlPoint> common;
@@ -117,7 +117,7 @@ Level<Scalar> ActiveMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* ri
 template <class Scalar, int Dim>
 template <class Body>
 void ActiveMultigrid<Scalar, Dim>::for_blocks(const LevelData& level, std::size_t colour,
-                                               const Body& body) const {
+                                              const Body& body) const {
   const auto& order = level.order;
 #pragma omp for schedule(static)
   for (Index block = order.colour_starts[colour]; block < order.colour_starts[colour + 1];

@@ -31,8 +31,8 @@ class ActiveMultigrid {
   //! \param lists  of the rows, of which there may be more than unknowns; kept by reference
   //! \param basis  of the rows (see row_bases()); kept by reference
   ActiveMultigrid(RowMatrix matrix, const SweepOrder& order, const PackedLists& lists,
-                   const AlignedArray<Scalar>& basis, const PointList<Dim>& control_points,
-                   const Kernel<Scalar, Dim>& kernel);
+                  const AlignedArray<Scalar>& basis, const PointList<Dim>& control_points,
+                  const Kernel<Scalar, Dim>& kernel);
 
   //! One cycle, in place, by all threads; the same bits for any number of them.
   void cycle(Scalar* rows);

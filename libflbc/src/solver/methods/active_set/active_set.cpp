@@ -117,8 +117,7 @@ int ActiveSet<Scalar, Dim>::next_balance() const {
 // As in CompactSplitting::adapt_penalty.
 template <class Scalar, int Dim>
 double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
-  const auto lengths2 =
-      moved_lengths2(problem_, metric_, start_weights_, splitting_->state());
+  const auto lengths2 = moved_lengths2(problem_, metric_, start_weights_, splitting_->state());
   if (made >= plan::kLastBalance) start_weights_ = nullptr;
   if (!(lengths2.dual > 0) || !(lengths2.motion > 0)) return splitting_->penalty();
   const double balanced = plan::kBalance * std::sqrt(lengths2.dual / lengths2.motion);

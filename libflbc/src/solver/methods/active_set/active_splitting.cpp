@@ -91,8 +91,7 @@ PointList<Dim> ActiveSplitting<Scalar, Dim>::points_of_rows() const {
 }
 
 template <class Scalar, int Dim>
-compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(
-    const Patch& patch) {
+compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Patch& patch) {
   State state{};
   state.stride = state.cell_stride = patch.stride;
   state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
@@ -237,8 +236,8 @@ void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) c
 
 template <class Scalar, int Dim>
 double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
-  const std::size_t numbers = a_.size() + W_.size() + S_.size() +
-                              residual_.size() + left_.size() + bases_.size();
+  const std::size_t numbers =
+      a_.size() + W_.size() + S_.size() + residual_.size() + left_.size() + bases_.size();
   const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
   return (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
 }
@@ -330,7 +329,7 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
 template <class Scalar, int Dim>
 template <class NumberAt>
 Eigen::VectorXd ActiveSplitting<Scalar, Dim>::spread(Index vertex,
-                                                              const NumberAt& number_at) const {
+                                                     const NumberAt& number_at) const {
   Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
   const Index row = data_.row_of[vertex];
   const std::size_t start = lists_.starts[row];
@@ -382,8 +381,7 @@ Start<Dim> ActiveSplitting<Scalar, Dim>::state() const {
 template <class Scalar, int Dim>
 Eigen::VectorXd ActiveSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
   return spread(vertex, [&](std::size_t place) {
-    const double difference =
-        static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
+    const double difference = static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
     return (S_[place] - 0.5 * difference) / sigma();
   });
 }

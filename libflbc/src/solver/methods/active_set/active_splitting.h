@@ -9,10 +9,10 @@
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/sparse_weights.h"
+#include "solver/methods/active_set/active_multigrid.h"
+#include "solver/methods/active_set/cell_patches.h"
 #include "solver/methods/splitting/compact_data.h"
 #include "solver/run/iteration.h"
-#include "solver/methods/active_set/cell_patches.h"
-#include "solver/methods/active_set/active_multigrid.h"
 
 namespace flbc::active_set {
 

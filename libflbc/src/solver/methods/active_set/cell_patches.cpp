@@ -51,8 +51,7 @@ void add_list(const PackedLists& lists, ControlPoint n, CellPatches<Scalar, Dim>
 
 // Where each interior row of a patch leaves its part of the divergence.
 template <class Scalar, int Dim>
-void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result,
-                const Patch& patch) {
+void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result, const Patch& patch) {
   for (Index k = 0; k < patch.num_rows; ++k) {
     const Index row = result.rows[patch.first_row + k];
     result.leaves.push_back(result.num_left);
@@ -62,8 +61,7 @@ void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result,
 
 template <class Scalar, int Dim>
 void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-                  const compact::Loops<Scalar, Dim>& loops,
-                  CellPatches<Scalar, Dim>& result) {
+                  const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& result) {
   const Patch& last = result.patches.back();
   result.radius = AlignedArray<unsigned char>(
       loops.bytes * (last.first_number + (last.end_cell - last.first_cell) * last.stride));
@@ -95,10 +93,10 @@ void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metri
 
 template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
-                                              const splitting::Metric& metric, double unit,
-                                              compact::CompactData<Scalar, Dim>& data,
-                                              const PackedLists& lists,
-                                              const compact::Loops<Scalar, Dim>& loops) {
+                                      const splitting::Metric& metric, double unit,
+                                      compact::CompactData<Scalar, Dim>& data,
+                                      const PackedLists& lists,
+                                      const compact::Loops<Scalar, Dim>& loops) {
   CellPatches<Scalar, Dim> result;
   const auto num_interior = static_cast<Index>(data.vertices.size());
   const auto n = static_cast<ControlPoint>(problem.num_control_points());
@@ -131,10 +129,10 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
   return result;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                             \
-  template CellPatches<Scalar, Dim> make_patches(                                                 \
-      const LbcProblem<Dim>&, const splitting::Metric&, double, compact::CompactData<Scalar, Dim>&, \
-      const PackedLists&, const compact::Loops<Scalar, Dim>&);
+#define FLBC_INSTANTIATE(Scalar, Dim)                           \
+  template CellPatches<Scalar, Dim> make_patches(               \
+      const LbcProblem<Dim>&, const splitting::Metric&, double, \
+      compact::CompactData<Scalar, Dim>&, const PackedLists&, const compact::Loops<Scalar, Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

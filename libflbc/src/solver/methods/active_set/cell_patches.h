@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/aligned_array.h"
-#include "solver/methods/splitting/compact_data.h"
 #include "solver/methods/active_set/packed_lists.h"
+#include "solver/methods/splitting/compact_data.h"
 
 namespace flbc::active_set {
 
@@ -32,7 +32,7 @@ struct CellPatches {
   std::vector<Index> place_of_cell;               // of a mesh's cell in `cells`, -1 for none
   std::vector<Index> rows;                        // of the splitting, interior ones first
   std::vector<ControlPoint> items;                // ascending; n in the padding
-  AlignedArray<unsigned char> radius;  // as the loops store numbers
+  AlignedArray<unsigned char> radius;             // as the loops store numbers
   std::vector<std::size_t> leaves;  // place where a row's part of the divergence is left, as rows
   std::size_t num_left = 0;         // numbers
   std::size_t largest_block = 0;    // numbers of a patch's rows
@@ -42,10 +42,10 @@ struct CellPatches {
 //! \param data  rows and cells \param lists  of all rows \param unit  u
 template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
-                                              const splitting::Metric& metric, double unit,
-                                              compact::CompactData<Scalar, Dim>& data,
-                                              const PackedLists& lists,
-                                              const compact::Loops<Scalar, Dim>& loops);
+                                      const splitting::Metric& metric, double unit,
+                                      compact::CompactData<Scalar, Dim>& data,
+                                      const PackedLists& lists,
+                                      const compact::Loops<Scalar, Dim>& loops);
 
 //! Places of control points in a patch's list; those that are not there keep what they had.
 template <class Patches>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The constraints of the gradient ADMM, constant during the iteration, laid out for the inner loops.
+//! The constraints of the gradient ADMM, constant during the iteration, laid out for the inner
+//! loops.
 #pragma once
 
 #include <cstddef>

@@ -28,8 +28,7 @@ void parallel_blocks(Index count, const Body& body) {
 
 template <class Scalar, int Dim>
 GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double penalty,
-                                        double relaxation,
-                                        const std::vector<Period<Dim>>& periods)
+                                        double relaxation, const std::vector<Period<Dim>>& periods)
     : problem_(problem),
       kernel_(select_kernel<Kernel<Scalar, Dim>>()),
       n_(problem.num_control_points()),

@@ -42,8 +42,7 @@ Step GradientIteration<Scalar, Dim>::iterate(int count, bool) {
   const Change change = admm_.iterate(count);
   const auto residuals = admm_.residuals(change);
   const double components = admm_.num_residual_components();
-  return {change.gradient, change.dual, residuals.primal / components,
-          residuals.dual / components};
+  return {change.gradient, change.dual, residuals.primal / components, residuals.dual / components};
 }
 
 template <class Scalar, int Dim>

@@ -42,7 +42,7 @@ class GradientIteration final : public Iteration<Dim> {
   const Settings settings_;
   GradientAdmm<Scalar, Dim> admm_;
   mutable std::optional<DirichletProblem<Dim>> poisson_;  // of start and recovery, once needed
-  WeightMatrix start_weights_;            // until the first iteration
+  WeightMatrix start_weights_;                            // until the first iteration
 };
 
 }  // namespace flbc::gradient

@@ -33,17 +33,17 @@ struct Arrays {
   double* cell_change;   // F
   double* facet_change;  // E
   // data
-  const Scalar* radius;               // F: phi A / mu
-  const Scalar* boundary_slope;       // #boundary facets x (Dim - 1): h, tangential derivatives
-  const Scalar* tangents;             // E x (Dim - 1) x Dim, orthonormal, no control points
-  const std::int32_t* sides;          // E x 2 cells, second -1 on the boundary
+  const Scalar* radius;                // F: phi A / mu
+  const Scalar* boundary_slope;        // #boundary facets x (Dim - 1): h, tangential derivatives
+  const Scalar* tangents;              // E x (Dim - 1) x Dim, orthonormal, no control points
+  const std::int32_t* sides;           // E x 2 cells, second -1 on the boundary
   const std::int32_t* boundary_index;  // E: place among the boundary facets
-  const std::int32_t* cell_facets;    // F x (Dim + 1)
-  const Scalar* period_fields;        // P x F x Dim, no control points
-  std::size_t num_periods;            // P: boundary components - 1
-  std::size_t num_cells;              // F
-  Scalar inverse_M;                   // 1 / M, see (11): the mean of a gradient's M copies
-  const Scalar* basis;                // (Dim + 1): orthonormal basis Q of [1; c]
+  const std::int32_t* cell_facets;     // F x (Dim + 1)
+  const Scalar* period_fields;         // P x F x Dim, no control points
+  std::size_t num_periods;             // P: boundary components - 1
+  std::size_t num_cells;               // F
+  Scalar inverse_M;                    // 1 / M, see (11): the mean of a gradient's M copies
+  const Scalar* basis;                 // (Dim + 1): orthonormal basis Q of [1; c]
   const Scalar* target;  // Dim x (Dim + 1) numbers: Q^T g for every g that satisfies (8)
   Scalar relaxation;
 };

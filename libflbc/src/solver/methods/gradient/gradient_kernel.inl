@@ -25,7 +25,7 @@ inline void xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
   const std::int32_t first = arrays.sides[2 * facet];
   const std::int32_t second = arrays.sides[2 * facet + 1];
   const double change = xy_step_at<note>(arrays, facet, extrapolated_of(arrays, first),
-                                           extrapolated_of(arrays, second < 0 ? first : second));
+                                         extrapolated_of(arrays, second < 0 ? first : second));
   if constexpr (note) arrays.facet_change[facet] = change;
 }
 
@@ -36,7 +36,7 @@ void xy_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t
 
 template <class Scalar, int Dim>
 void listed_xy_step(const Arrays<Scalar, Dim>& arrays, const std::int32_t* facets,
-                          std::size_t count, bool noted) {
+                    std::size_t count, bool noted) {
   for (std::size_t k = 0; k < count; ++k) {
     noted ? xy_step_at<true>(arrays, facets[k]) : xy_step_at<false>(arrays, facets[k]);
   }
@@ -112,7 +112,7 @@ void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slo
     g_step_at<false, true, false>(arrays, visit.cell, extrapolated(visit.place));
     for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
       xy_step_at<false>(arrays, closing->facet, extrapolated(closing->first),
-                          extrapolated(closing->second));
+                        extrapolated(closing->second));
     }
   }
 }
@@ -132,10 +132,9 @@ void sweep_and_note(const Arrays<Scalar, Dim>& arrays, const SweepPath& path) {
 }
 
 template <class Scalar, int Dim>
-constexpr Kernel<Scalar, Dim> kKernel{
-    xy_step<Scalar, Dim>,   listed_xy_step<Scalar, Dim>,
-    z_step<Scalar, Dim>, g_step<Scalar, Dim>,
-    sweep<Scalar, Dim>,           sweep_and_note<Scalar, Dim>};
+constexpr Kernel<Scalar, Dim> kKernel{xy_step<Scalar, Dim>, listed_xy_step<Scalar, Dim>,
+                                      z_step<Scalar, Dim>,  g_step<Scalar, Dim>,
+                                      sweep<Scalar, Dim>,   sweep_and_note<Scalar, Dim>};
 
 }  // namespace
 }  // namespace flbc::gradient::FLBC_ISA

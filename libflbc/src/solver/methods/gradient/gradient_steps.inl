@@ -6,8 +6,8 @@
 // (9), (10): the boundary facet's dual grows by the violation of t . g = h, the interior facet's by
 // half the jump of the tangential gradient. \return the squared change, for each side
 template <bool note, class Scalar, int Dim>
-inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet,
-                           const Scalar* first, const Scalar* second) {
+inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet, const Scalar* first,
+                         const Scalar* second) {
   constexpr int kTangents = Dim - 1;
   const std::size_t stride = arrays.stride;
   const Scalar* tangents = arrays.tangents + std::size_t(facet) * kTangents * Dim;
@@ -53,10 +53,10 @@ inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet,
 // Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` on the ball of radius
 // phi A / mu.
 template <int lanes, bool note, class Scalar, int Dim>
-[[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays,
-                                                  std::int32_t cell, std::size_t i,
-                                                  const PackN<Scalar, lanes>* extrapolated,
-                                                  SquareSum<Scalar, note>& change) {
+[[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
+                                             std::size_t i,
+                                             const PackN<Scalar, lanes>* extrapolated,
+                                             SquareSum<Scalar, note>& change) {
   using P = PackN<Scalar, lanes>;
   Scalar* place = arrays.tv_dual + std::size_t(cell) * Dim * arrays.stride + i;
   const P radius = load_pack<lanes>(arrays.radius + std::size_t(cell) * arrays.stride + i);
@@ -165,7 +165,7 @@ template <bool note, class Scalar, int Dim>
   gather_facets(arrays, cell, multipliers);
   const auto average = [&](auto lanes, std::size_t i,
                            PackN<Scalar, decltype(lanes)::kCount>* projection)
-                           __attribute__((always_inline)) {
+      __attribute__((always_inline)) {
     constexpr int kCount = decltype(lanes)::kCount;
     PackN<Scalar, kCount> r[Dim];
     average_candidates<kCount>(arrays, cell, multipliers, i, r);
@@ -213,7 +213,7 @@ template <bool note, class Scalar, int Dim>
 // lead. \return the changes, of the dual only with `then_tv`
 template <bool note_gradient, bool then_tv, bool note_tv, class Scalar, int Dim>
 inline Change g_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
-                          Scalar* extrapolated) {
+                        Scalar* extrapolated) {
   const std::size_t stride = arrays.stride;
   Scalar* gradient = arrays.gradient + std::size_t(cell) * Dim * stride;
   GradientChange<Scalar, note_gradient> change;

@@ -92,9 +92,8 @@ double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metr
 
 template <class Scalar, int Dim>
 CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
-                                                     const splitting::Metric& metric,
-                                                     const std::vector<Index>& position,
-                                                     double unit) {
+                                             const splitting::Metric& metric,
+                                             const std::vector<Index>& position, double unit) {
   CompactData<Scalar, Dim> data;
   set_up_rows(problem, metric, position, data);
   set_up_cells(problem, metric, unit, data);
@@ -138,15 +137,14 @@ void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, 
 
 template double radius_unit(const LbcProblem<2>&, const splitting::Metric&);
 template double radius_unit(const LbcProblem<3>&, const splitting::Metric&);
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                         \
-  template CompactData<Scalar, Dim> make_rows_and_cells(                                      \
-      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double);   \
-  template CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>&,                 \
-                                                      const splitting::Metric&,               \
-                                                      const std::vector<Index>&, double,      \
-                                                      std::size_t);                           \
-  template void set_radii(const LbcProblem<Dim>&, const splitting::Metric&, double,           \
-                          const splitting::ColumnSlices&, const Loops<Scalar, Dim>&,          \
+#define FLBC_INSTANTIATE(Scalar, Dim)                                                       \
+  template CompactData<Scalar, Dim> make_rows_and_cells(                                    \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double); \
+  template CompactData<Scalar, Dim> make_compact_data(                                      \
+      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double,  \
+      std::size_t);                                                                         \
+  template void set_radii(const LbcProblem<Dim>&, const splitting::Metric&, double,         \
+                          const splitting::ColumnSlices&, const Loops<Scalar, Dim>&,        \
                           CompactData<Scalar, Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)

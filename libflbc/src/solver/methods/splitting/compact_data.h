@@ -23,8 +23,8 @@ struct CompactData {
   std::vector<Cell<Scalar, Dim>> cells;
   std::vector<Index> cell_index;
   AlignedArray<unsigned char> radius;  // as the loops store numbers
-  double boundary_dual2 = 0;          // squared radii of the cells without interior corners
-  std::vector<Scalar> vertex_metric;  // empty: w may be negative
+  double boundary_dual2 = 0;           // squared radii of the cells without interior corners
+  std::vector<Scalar> vertex_metric;   // empty: w may be negative
   splitting::RowConstraints<Scalar, Dim> constraints;
 };
 
@@ -46,9 +46,8 @@ constexpr double kSmallestPhi = 1e-10;
 //! \param unit  as below
 template <class Scalar, int Dim>
 CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
-                                                     const splitting::Metric& metric,
-                                                     const std::vector<Index>& position,
-                                                     double unit);
+                                             const splitting::Metric& metric,
+                                             const std::vector<Index>& position, double unit);
 
 //! \param position  the row of every unknown in the linear solver's arrays
 //! \param unit  u: a radius is u phi A / sqrt(m)

@@ -33,8 +33,7 @@ struct Corners {
 // Calls `body(Corners, cell)` for all cells, so that loops over a cell's interior corners have an
 // end that is known.
 template <class Scalar, int Dim, class Body>
-[[gnu::always_inline]] inline void for_cells(const Arrays<Scalar, Dim>& arrays,
-                                             const Body& body) {
+[[gnu::always_inline]] inline void for_cells(const Arrays<Scalar, Dim>& arrays, const Body& body) {
   for (std::size_t s = 0; s < arrays.num_cells; ++s) {
     switch (num_interior_corners(arrays.cells[s], arrays.num_interior)) {
       case 1:
@@ -85,8 +84,8 @@ void harmonic_residual(const Arrays<Scalar, Dim>& arrays, Columns columns) {
         for_packs(
             columns.begin,
             columns.end, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-              harmonic_residual_at<Scalar, Dim, decltype(corners)::kCount,
-                                   decltype(lanes)::kCount>(arrays, s, i);
+              harmonic_residual_at<Scalar, Dim, decltype(corners)::kCount, decltype(lanes)::kCount>(
+                  arrays, s, i);
             });
       });
 }
@@ -105,9 +104,8 @@ inline RowSums over_rows(std::int32_t begin, std::int32_t end, const Step& step)
 
 template <class Scalar, int Dim, bool Measured>
 RowSums y_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
-  return over_rows(begin, end, [&](std::size_t row) {
-    return y_step_at<Scalar, Dim, Measured>(arrays, row);
-  });
+  return over_rows(begin, end,
+                   [&](std::size_t row) { return y_step_at<Scalar, Dim, Measured>(arrays, row); });
 }
 
 template <class Scalar, int Dim>
@@ -124,7 +122,7 @@ RowSums w_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32
         0, arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
           constexpr int kCount = decltype(lanes)::kCount;
           w_step_at<Scalar, Dim, false, kCount>(arrays, row, i, load_pack<kCount>(a + i),
-                                                        PackN<Scalar, kCount>{}, none);
+                                                PackN<Scalar, kCount>{}, none);
         });
     return RowSums{};
   });
@@ -132,8 +130,7 @@ RowSums w_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32
 
 // Calls `body(cell, column)` for all cells and packs of 8 columns.
 template <class Scalar, int Dim, class Body>
-inline void for_numbers(const Arrays<Scalar, Dim>& arrays, Columns columns,
-                        const Body& body) {
+inline void for_numbers(const Arrays<Scalar, Dim>& arrays, Columns columns, const Body& body) {
   for (std::size_t s = 0; s < arrays.num_cells; ++s) {
     for (std::size_t i = columns.begin; i < columns.end; i += 8) body(s, i);
   }
@@ -152,8 +149,7 @@ void start_cell_dual(const Arrays<Scalar, Dim>& arrays, Columns columns) {
 }
 
 template <class Scalar, class Stored, int Dim>
-void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scale,
-          Scalar* flux) {
+void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scale, Scalar* flux) {
   for_numbers(arrays, columns, [&](std::size_t s, std::size_t i) {
     const auto cell = std::size_t(arrays.cell_index[s]);
     PackN<Scalar, 8> p[Dim];
@@ -168,8 +164,8 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
 
 // What a penalty is judged by, see CompactSplitting::adapt_penalty.
 template <class Scalar, class Stored, int Dim>
-void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* moved,
-             double* dual, double* motion) {
+void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* moved, double* dual,
+             double* motion) {
   using Numbers = PackN<Scalar, 8>;
   for_numbers(arrays, columns, [&](std::size_t s, std::size_t i) {
     Numbers p[Dim];

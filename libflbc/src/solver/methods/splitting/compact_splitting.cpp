@@ -246,7 +246,8 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   set_boundary_rows();
 }
 
-// ---- starts ----------------------------------------------------------------------------------------
+// ---- starts
+// ----------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
@@ -317,7 +318,8 @@ void CompactSplitting<Scalar, Dim>::begin_from_weights() {
 }
 
 // Every iteration leaves w and W such that w = W + the solution, projected. Duals from elsewhere
-// would move the weights. So what they would do is taken from W instead, for the price of one solve.
+// would move the weights. So what they would do is taken from W instead, for the price of one
+// solve.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start_from_duals(const Start<Dim>& start) {
   set_weights(start.weights);
@@ -369,7 +371,8 @@ void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_d
   }
 }
 
-// ---- precision -------------------------------------------------------------------------------------
+// ---- precision
+// -------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 int CompactSplitting<Scalar, Dim>::adapt(int made, double error, bool) {
@@ -387,7 +390,8 @@ void CompactSplitting<Scalar, Dim>::store_in_single() {
   set_radii(problem_, metric_, unit_, slices_, *loops_, data_);
 }
 
-// ---- results ---------------------------------------------------------------------------------------
+// ---- results
+// ---------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
@@ -427,8 +431,7 @@ Eigen::VectorXd CompactSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) cons
   Eigen::VectorXd dual(n_);
   const auto row = static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
   for (Index i = 0; i < n_; ++i) {
-    const double difference =
-        static_cast<double>(a_[row + i]) - static_cast<double>(W_[row + i]);
+    const double difference = static_cast<double>(a_[row + i]) - static_cast<double>(W_[row + i]);
     dual[i] = (S_[row + i] - 0.5 * difference) / sigma();
   }
   return dual;
@@ -439,8 +442,8 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Dim>::flux_d
     Index cell) const {
   if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
   const auto& cells = data_.cell_index;
-  const auto k = static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), cell) -
-                                          cells.begin());
+  const auto k =
+      static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
   const double scale = 1 / dual_scale(problem_, metric_, unit_, cell);
   AlignedArray<Scalar> row(stride_);
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density(n_, Dim);
@@ -493,8 +496,8 @@ void CompactSplitting<Scalar, Dim>::describe(SolveReport& report) const {
   const auto vertex_numbers =
       static_cast<double>(a_.size() + W_.size() + S_.size() + residual_.size());
   const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
-  report.state_scalars_per_cell = (vertex_numbers + cell_numbers) /
-                                  static_cast<double>(stride_) / problem_.mesh.num_cells();
+  report.state_scalars_per_cell =
+      (vertex_numbers + cell_numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
   report.penalty = penalty_;
 }
 

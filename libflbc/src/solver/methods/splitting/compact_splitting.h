@@ -9,7 +9,6 @@
 #include "base/aligned_array.h"
 #include "base/kernel_dispatch.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/lbc_problem.h"
 #include "flbc/types.h"
 #include "linear/spd_solver.h"
 #include "solver/methods/splitting/column_slices.h"
@@ -22,13 +21,13 @@ namespace flbc::compact {
 
 //! What a splitting needs besides its problem.
 struct Settings {
-  double penalty = 1;     //!< rho > 0
-  double relaxation = 1;  //!< alpha in (0, 2)
+  double penalty = 1;                                  //!< rho > 0
+  double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
   bool half = false;           //!< stores P and the radii in half precision; for float only
   bool balances = false;       //!< adapts the penalty in the first iterations after a cold start
-  bool harmonic_cold = false;  //!< a cold start computes harmonic coordinates to the end, instead of
-                               //!< minimizing sum m |grad w|^2 roughly by the factor there is
+  bool harmonic_cold = false;  //!< a cold start computes harmonic coordinates to the end, instead
+                               //!< of minimizing sum m |grad w|^2 roughly by the factor there is
   bool paper_residuals = false;  //!< measures r_p and r_d of the 2014 solver
 };
 
@@ -135,8 +134,7 @@ class CompactSplitting final : public Iteration<Dim> {
   void start_from_duals(const Start<Dim>& start);
   void set_cell_dual(const VectorsAt<Dim>& flux_density);
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
-  void for_slices(const State& state,
-                  const std::function<void(const State&, Columns)>& body) const;
+  void for_slices(const State& state, const std::function<void(const State&, Columns)>& body) const;
   RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
   Step iterate_once(bool measure);
   void add_paper_residuals(const AlignedArray<Scalar>& before, Step& step);

@@ -30,17 +30,16 @@ template <class Scalar, int Dim, int Interior, int Lanes>
 }
 
 template <class Scalar, class Stored, int Dim, int Lanes>
-[[gnu::always_inline]] inline void load_cell_dual(const Arrays<Scalar, Dim>& arrays,
-                                                  std::size_t s, std::size_t i,
-                                                  PackN<Scalar, Lanes>* dual) {
+[[gnu::always_inline]] inline void load_cell_dual(const Arrays<Scalar, Dim>& arrays, std::size_t s,
+                                                  std::size_t i, PackN<Scalar, Lanes>* dual) {
   const Stored* rows = static_cast<const Stored*>(arrays.cell_dual) + s * Dim * arrays.cell_stride;
   for (int d = 0; d < Dim; ++d) dual[d] = load_stored<Lanes>(rows + d * arrays.cell_stride + i);
 }
 
 // field, shortened to the cell's radius.
 template <class Scalar, class Stored, int Dim, int Lanes>
-[[gnu::always_inline]] inline void clip(const Arrays<Scalar, Dim>& arrays,
-                                        std::size_t s, std::size_t i, PackN<Scalar, Lanes>* field) {
+[[gnu::always_inline]] inline void clip(const Arrays<Scalar, Dim>& arrays, std::size_t s,
+                                        std::size_t i, PackN<Scalar, Lanes>* field) {
   const PackN<Scalar, Lanes> radius =
       load_stored<Lanes>(static_cast<const Stored*>(arrays.radius) + s * arrays.cell_stride + i);
   PackN<Scalar, Lanes> length2 = field[0] * field[0];
@@ -51,15 +50,16 @@ template <class Scalar, class Stored, int Dim, int Lanes>
 
 // Z-step and dual step: P += relaxation (clip(P + G a) - P).
 template <class Scalar, class Stored, int Dim, int Interior, bool Measured, int Lanes>
-[[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays,
-                                             std::size_t s, std::size_t i) {
+[[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t s,
+                                             std::size_t i) {
   using Numbers = PackN<Scalar, Lanes>;
   const Cell<Scalar, Dim>& cell = arrays.cells[s];
   const std::size_t stride = arrays.stride;
   Stored* rows = static_cast<Stored*>(arrays.cell_dual) + s * Dim * arrays.cell_stride + i;
   Numbers dual[Dim];
   Numbers clipped[Dim];
-  for (int d = 0; d < Dim; ++d) clipped[d] = dual[d] = load_stored<Lanes>(rows + d * arrays.cell_stride);
+  for (int d = 0; d < Dim; ++d)
+    clipped[d] = dual[d] = load_stored<Lanes>(rows + d * arrays.cell_stride);
   add_gradient<Scalar, Dim, Lanes>(cell, arrays.extrapolated, stride, i, clipped);
   clip<Scalar, Stored, Dim, Lanes>(arrays, s, i, clipped);
   if constexpr (Measured) {
@@ -92,8 +92,8 @@ template <class Scalar, int Dim, int Interior, int Lanes>
 // W-step and dual step: S += relaxation (max(0, S - a) - S), and k S goes to the residual.
 // \param w  asked for if the violation of u = w is measured, where u = max(0, a - S)
 template <class Scalar, int Dim, bool Measured, int Lanes>
-[[gnu::always_inline]] inline void w_step_at(const Arrays<Scalar, Dim>& arrays,
-                                             std::size_t row, std::size_t i, PackN<Scalar, Lanes> a,
+[[gnu::always_inline]] inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row,
+                                             std::size_t i, PackN<Scalar, Lanes> a,
                                              PackN<Scalar, Lanes> w, RowSum<Scalar>& violation) {
   using Numbers = PackN<Scalar, Lanes>;
   Scalar* residual = arrays.residual + row * arrays.stride + i;
@@ -117,17 +117,16 @@ template <class Scalar, int Dim, bool Measured, int Lanes>
 
 // What a row has too much of Q^T r for { sum w = 1, sum w c = x }.
 template <class Scalar, int Dim>
-[[gnu::always_inline]] inline void excess_of(const Arrays<Scalar, Dim>& arrays,
-                                             std::size_t row, const RowSum<Scalar>* projection,
-                                             Scalar* excess) {
+[[gnu::always_inline]] inline void excess_of(const Arrays<Scalar, Dim>& arrays, std::size_t row,
+                                             const RowSum<Scalar>* projection, Scalar* excess) {
   const Scalar* target = arrays.row_target + row * (Dim + 1);
   for (int k = 0; k <= Dim; ++k) excess[k] = projection[k].total() - arrays.sigma * target[k];
 }
 
 template <class Scalar, int Dim, int Lanes>
-[[gnu::always_inline]] inline PackN<Scalar, Lanes> projected(
-    const Arrays<Scalar, Dim>& arrays, std::size_t i, const Scalar* excess,
-    PackN<Scalar, Lanes> numbers) {
+[[gnu::always_inline]] inline PackN<Scalar, Lanes> projected(const Arrays<Scalar, Dim>& arrays,
+                                                             std::size_t i, const Scalar* excess,
+                                                             PackN<Scalar, Lanes> numbers) {
   for (int k = 0; k <= Dim; ++k) {
     numbers -= excess[k] * load_pack<Lanes>(arrays.basis + k * arrays.stride + i);
   }
@@ -136,9 +135,10 @@ template <class Scalar, int Dim, int Lanes>
 
 // W += relaxation (w - W) with w = (a + W) / 2.
 template <class Scalar, int Dim, int Lanes>
-[[gnu::always_inline]] inline PackN<Scalar, Lanes> relaxed_at(
-    const Arrays<Scalar, Dim>& arrays, const Scalar* relaxed, const Scalar* extrapolated,
-    std::size_t i) {
+[[gnu::always_inline]] inline PackN<Scalar, Lanes> relaxed_at(const Arrays<Scalar, Dim>& arrays,
+                                                              const Scalar* relaxed,
+                                                              const Scalar* extrapolated,
+                                                              std::size_t i) {
   const PackN<Scalar, Lanes> W = load_pack<Lanes>(relaxed + i);
   return W + Scalar(0.5) * arrays.relaxation * (load_pack<Lanes>(extrapolated + i) - W);
 }
@@ -170,8 +170,8 @@ inline RowSums y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
       0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
         constexpr int kCount = decltype(lanes)::kCount;
         using Numbers = PackN<Scalar, kCount>;
-        const Numbers w = projected<Scalar, Dim, kCount>(arrays, i, excess,
-                                                                 load_pack<kCount>(solution + i));
+        const Numbers w =
+            projected<Scalar, Dim, kCount>(arrays, i, excess, load_pack<kCount>(solution + i));
         const Numbers before =
             Scalar(0.5) * (load_pack<kCount>(extrapolated + i) + load_pack<kCount>(relaxed + i));
         const Numbers W = relaxed_at<Scalar, Dim, kCount>(arrays, relaxed, extrapolated, i);
@@ -208,8 +208,8 @@ inline RowSums correct_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
       0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
         constexpr int kCount = decltype(lanes)::kCount;
         using Numbers = PackN<Scalar, kCount>;
-        const Numbers w = projected<Scalar, Dim, kCount>(arrays, i, excess,
-                                                                 load_pack<kCount>(solution + i));
+        const Numbers w =
+            projected<Scalar, Dim, kCount>(arrays, i, excess, load_pack<kCount>(solution + i));
         const Numbers step = w - load_pack<kCount>(weights + i);
         change.template add<kCount>(step * step);
         store_pack<kCount>(weights + i, w);

@@ -58,13 +58,13 @@ RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>& problem,
   return rows;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                   \
-  template Metric measure_metric(const LbcProblem<Dim>&, bool);                                 \
-  template Metric squared_measure_metric(const LbcProblem<Dim>&, double);                       \
-  template RowMatrix system_matrix(const LbcProblem<Dim>&, const Metric&);                      \
-  template RowConstraints<float, Dim> row_constraints(const LbcProblem<Dim>&,                   \
-                                                      const std::vector<Index>&, std::size_t);  \
-  template RowConstraints<double, Dim> row_constraints(const LbcProblem<Dim>&,                  \
+#define FLBC_INSTANTIATE(Dim)                                                                  \
+  template Metric measure_metric(const LbcProblem<Dim>&, bool);                                \
+  template Metric squared_measure_metric(const LbcProblem<Dim>&, double);                      \
+  template RowMatrix system_matrix(const LbcProblem<Dim>&, const Metric&);                     \
+  template RowConstraints<float, Dim> row_constraints(const LbcProblem<Dim>&,                  \
+                                                      const std::vector<Index>&, std::size_t); \
+  template RowConstraints<double, Dim> row_constraints(const LbcProblem<Dim>&,                 \
                                                        const std::vector<Index>&, std::size_t);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
