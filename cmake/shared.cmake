@@ -29,7 +29,7 @@ function(flbc_words_of headers result)
   endforeach()
   list(REMOVE_DUPLICATES words)
   # Namespaces would export all names in them.
-  list(REMOVE_ITEM words flbc io openmesh distance)
+  list(REMOVE_ITEM words flbc io openmesh distance gradient active_set splitting)
   set(mangled)
   foreach(word IN LISTS words)
     string(LENGTH ${word} length)
