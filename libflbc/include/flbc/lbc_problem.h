@@ -14,8 +14,8 @@
 
 namespace flbc {
 
-//! Everything the solvers read. Geometry is centered and scaled such that the diagonal of the cage's
-//! bounding box is the unit of length; weights do not depend on it.
+//! Everything the solvers read. Geometry is centered and scaled such that the diagonal of the
+//! cage's bounding box is the unit of length; weights do not depend on it.
 template <int Dim>
 struct LbcProblem {
   Cage<Dim> cage;                //!< scaled, n control points
@@ -70,17 +70,5 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceSchem
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme);
-
-//! The same with boundary values that are known already, as they are after control points and
-//! vertices have moved together.
-//! \param cage  n control points
-//! \param mesh  V vertices, those of the boundary on the cage as `boundary` says
-//! \param topology  of the mesh
-//! \param boundary  of the mesh
-//! \param scheme  growth of phi with the geodesic distance
-//! \throws InputError if the mesh has several parts, SolverError as above
-template <int Dim>
-LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
-                             BoundaryValues<Dim> boundary, DistanceScheme scheme);
 
 }  // namespace flbc

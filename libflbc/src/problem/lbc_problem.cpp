@@ -11,8 +11,7 @@ namespace {
 
 template <int Dim>
 LbcProblem<Dim> with_phi(LbcProblem<Dim> problem, DistanceScheme scheme) {
-  problem.phi = {scheme, distances_for(scheme, problem), problem.mesh,
-                 problem.num_control_points()};
+  set_phi(problem, scheme);
   return problem;
 }
 
@@ -31,21 +30,10 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
   return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology)), scheme);
 }
 
-template <int Dim>
-LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
-                             BoundaryValues<Dim> boundary, DistanceScheme scheme) {
-  require_connected(mesh);
-  return with_phi(
-      make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary)),
-      scheme);
-}
-
 #define FLBC_INSTANTIATE(Dim)                                                          \
   template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);   \
   template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
-                                        DistanceScheme);                               \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
-                                        BoundaryValues<Dim>, DistanceScheme);
+                                        DistanceScheme);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

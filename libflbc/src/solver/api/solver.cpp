@@ -297,8 +297,7 @@ class Solver<Dim>::State {
     if (problem.phi.size() > 0 || !plan::minimizes(options.method)) return;
     const ThreadScope threads(num_threads(problem, options));
     Stopwatch watch;
-    problem.phi = {options.phi, distances_for(options.phi, problem), problem.mesh,
-                   problem.num_control_points()};
+    set_phi(problem, options.phi);
     shape_->setup_seconds += watch.lap();
   }
 
@@ -318,7 +317,7 @@ class Solver<Dim>::State {
     shape->distances = shape_->distances;
     auto distances = moving_distances_ ? (*moving_distances_)(problem, options, shape->distances)
                                        : distances_for(options.phi, problem);
-    problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
+    set_phi(problem, options.phi, std::move(distances));
     return shape;
   }
 

@@ -73,8 +73,8 @@ DistanceMatrix inherit_distances(const CoarseProblem<Dim>& below, CoarseProblem<
 
 //! \param below  the next coarser problem, null for none
 template <int Dim>
-void set_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
-             CoarseProblem<Dim>& level) {
+void measure_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
+                 CoarseProblem<Dim>& level) {
   std::optional<DistanceMatrix> distances;
   if (use.distances && below != nullptr) {
     distances = inherit_distances(*below, level);
@@ -82,8 +82,7 @@ void set_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, Coar
     distances = measure_on_active_set(level, options);
   }
   if (!distances) distances = distances_for(options.phi, level.problem);
-  level.problem.phi = {options.phi, std::move(*distances), level.problem.mesh,
-                       level.problem.num_control_points()};
+  set_phi(level.problem, options.phi, std::move(*distances));
 }
 
 }  // namespace
@@ -112,7 +111,7 @@ std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& prob
     report.cells = mesh->num_cells();
     report.mesh_seconds = watch.lap();
     CoarseProblem<Dim> level{make_geometry(problem.cage, std::move(*mesh))};
-    set_phi(below, options, use, level);
+    measure_phi(below, options, use, level);
     report.setup_seconds = watch.lap();
     level.report = report;
     coarse.push_back(std::move(level));

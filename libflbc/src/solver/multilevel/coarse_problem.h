@@ -42,7 +42,7 @@ DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Di
 //! Meshes the cage and sets the problems up. Left out are meshes on which the mesher fails (the
 //! cage may be too fine for so few vertices) or that are not clearly coarser than the next. The
 //! coarsest one alone computes distances if finer meshes are to interpolate theirs; and where it is
-//! solved on supports, only as far as these need them.
+//! solved on an active set, only as far as that needs them.
 //! \param problem  the finest one, whose phi is not asked for
 //! \param mesher  not empty
 //! \param sizes  numbers of vertices, ascending

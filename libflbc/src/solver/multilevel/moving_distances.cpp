@@ -51,8 +51,7 @@ DistanceMatrix MovingDistances<Dim>::operator()(const LbcProblem<Dim>& fine,
   problem.cage = fine.cage;
   problem.scale = fine.scale;
   problem.mesh = std::move(mesh);
-  problem.phi = {options.phi, distances_for(options.phi, problem), problem.mesh,
-                 problem.num_control_points()};
+  set_phi(problem, options.phi);
   return choose_distances(coarse_, fine, options, report);
 }
 

@@ -72,7 +72,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
   auto distances = coarse.use.distances && !result.coarse.empty()
                        ? place_and_choose(result, options)
                        : distances_for(options.phi, problem);
-  problem.phi = {options.phi, std::move(distances), problem.mesh, problem.num_control_points()};
+  set_phi(problem, options.phi, std::move(distances));
   if (coarsest != nullptr && result.distances.source == Distances::kInterpolated) {
     *coarsest = coarsest_of(result);
   }
