@@ -105,6 +105,21 @@ void check_vertex_count(Index wanted, Index minimum, double tolerance) {
       std::to_string(minimum) + "; ask for more, or for 0 to get as few as possible");
 }
 
+std::string describe_failure(const ProcessOutcome& outcome, double time_limit) {
+  switch (outcome.end) {
+    case ProcessEnd::kFinished:
+      break;
+    case ProcessEnd::kThrew:
+      return "gave up";
+    case ProcessEnd::kCrashed:
+      return "crashed with " + describe_signal(outcome.signal);
+    case ProcessEnd::kTimedOut:
+      return "was stopped at the time limit of " + format_number(time_limit) +
+             " s (--mesh-timeout)";
+  }
+  return {};
+}
+
 template <int Dim>
 double total_measure(const DomainMesh<Dim>& mesh) {
   double sum = 0;

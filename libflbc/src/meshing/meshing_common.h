@@ -2,8 +2,11 @@
 // Steps of both meshers before and after the foreign library's work.
 #pragma once
 
+#include <string>
+
 #include "flbc/cage.h"
 #include "flbc/meshing.h"
+#include "meshing/isolated_process.h"
 
 namespace flbc {
 
@@ -19,6 +22,10 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
 //! \throws OptionError if `wanted` vertices (0 = any number) are fewer than `minimum`, by more than
 //! the relative `tolerance`
 void check_vertex_count(Index wanted, Index minimum, double tolerance);
+
+//! What a mesher in a process of its own did instead of a mesh: "gave up", "crashed with ...", "was
+//! stopped at the time limit of 60 s (--mesh-timeout)". \return empty if it finished
+std::string describe_failure(const ProcessOutcome& outcome, double time_limit);
 
 //! Sum of the cells' areas or volumes.
 template <int Dim>

@@ -149,19 +149,6 @@ void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send)
   throw InputError("Netgen " + what + " while filling the cage");
 }
 
-void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
-  switch (outcome.end) {
-    case ProcessEnd::kFinished:
-      return;
-    case ProcessEnd::kThrew:
-      fail("gave up");
-    case ProcessEnd::kCrashed:
-      fail("crashed with " + describe_signal(outcome.signal));
-    case ProcessEnd::kTimedOut:
-      fail("was stopped at the time limit of " + format_number(time_limit) + " s (--mesh-timeout)");
-  }
-}
-
 // Fills a surface with tetrahedra in a process of its own.
 // \param surface     outer shells with their normals outwards, cavities the other way round
 // \param longest     of edges of cells, roughly; in the units of the surface
@@ -172,7 +159,8 @@ DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
                          double time_limit) {
   const ProcessOutcome outcome =
       run_isolated([&](const ByteSink& send) { mesh_and_send(surface, longest, send); }, seconds);
-  refuse_failure(outcome, time_limit);
+  const auto failure = describe_failure(outcome, time_limit);
+  if (!failure.empty()) fail(failure);
 
   ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
   Header header{};

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <new>
 
@@ -13,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "meshing/isolated_process.h"
+#include "meshing/meshing_common.h"
 
 namespace flbc {
 
@@ -89,22 +89,13 @@ void tetrahedralize_and_send(const TetgenInput& input, std::string switches, con
 }
 
 void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
-  switch (outcome.end) {
-    case ProcessEnd::kFinished:
-      return;
-    case ProcessEnd::kThrew:
-      fail("gave up");
-    case ProcessEnd::kCrashed:
-      fail("crashed with " + describe_signal(outcome.signal));
-    case ProcessEnd::kTimedOut: {
-      char seconds[32];
-      std::snprintf(seconds, sizeof(seconds), "%g", time_limit);
-      throw InputError(
-          std::string("TetGen was stopped at the time limit of ") + seconds +
-          " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage for facets that "
-          "intersect or come extremely close");
-    }
+  const auto failure = describe_failure(outcome, time_limit);
+  if (outcome.end == ProcessEnd::kTimedOut) {
+    throw InputError("TetGen " + failure +
+                     "; raise the limit, ask for fewer vertices, or check the cage for facets that "
+                     "intersect or come extremely close");
   }
+  if (!failure.empty()) fail(failure);
 }
 
 // On sound cages with many coplanar points TetGen's point location sometimes fails an assertion,
