@@ -33,7 +33,18 @@ class PixelMap {
 //! The smallest box with all points. \throws InputError if it has no extent or is not finite
 Box bounding_box(const PointList<2>& points);
 
-//! Where room is kept for something beside the drawing.
+//! How pictures of several poses share a sheet.
+struct PoseLayout {
+  bool in_a_row;  //!< from left to right, else from top to bottom
+  double gap;     //!< between two poses
+};
+
+//! \param size  of a box that any of the poses fits in
+inline PoseLayout arrange_poses(const Vector<2>& size) {
+  return {size.x() < 1.6 * size.y(), 0.06 * size.maxCoeff()};
+}
+
+//! Where room is kept for something next to the drawing.
 enum class Strip { kNone, kBelow, kBeside };
 
 //! A picture with one drawing and, if wanted, a strip of further ones and a color bar at the

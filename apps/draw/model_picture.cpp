@@ -82,10 +82,7 @@ std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& p
                        const WeightPictureOptions& options) {
   validate(options);
   check(model, places, shown);
-  const Box content = common_box(places, view);
-  const Vector<2> size = content.size();
-  const bool beside = size.x() < 1.6 * size.y();
-  const double gap = 0.06 * size.maxCoeff();
+  const auto [in_a_row, gap] = arrange_poses(common_box(places, view).size());
   std::vector<Vector<2>> shifts;
   Box all = common_box({places.front()}, view);
   for (const auto& place : places) {
@@ -94,8 +91,8 @@ std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& p
       shifts.emplace_back(0, 0);
       continue;
     }
-    shifts.push_back(beside ? Vector<2>(all.high.x() + gap - box.low.x(), 0)
-                            : Vector<2>(0, all.low.y() - gap - box.high.y()));
+    shifts.push_back(in_a_row ? Vector<2>(all.high.x() + gap - box.low.x(), 0)
+                              : Vector<2>(0, all.low.y() - gap - box.high.y()));
     all = {all.low.cwiseMin(box.low + shifts.back()), all.high.cwiseMax(box.high + shifts.back())};
   }
 

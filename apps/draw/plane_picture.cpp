@@ -145,12 +145,11 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
 
   const Box content = common_box(before, after);
   const Vector<2> size = content.size();
-  const bool beside = size.x() < 1.6 * size.y();
-  const double gap = 0.06 * size.maxCoeff();
-  const Vector<2> step = beside ? Vector<2>(size.x() + gap, 0) : Vector<2>(0, size.y() + gap);
+  const auto [in_a_row, gap] = arrange_poses(size);
+  const Vector<2> step = in_a_row ? Vector<2>(size.x() + gap, 0) : Vector<2>(0, size.y() + gap);
   // Both in one plane: the first at the left or above.
-  const Vector<2> first = content.low + (beside ? Vector<2>(0, 0) : step);
-  const Vector<2> second = content.low + (beside ? step : Vector<2>(0, 0));
+  const Vector<2> first = content.low + (in_a_row ? Vector<2>(0, 0) : step);
+  const Vector<2> second = content.low + (in_a_row ? step : Vector<2>(0, 0));
   const Box both{content.low, content.high + step};
 
   const PictureLayout layout = plan_picture(both, options);
