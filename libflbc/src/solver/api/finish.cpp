@@ -73,7 +73,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
         weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(std::move(weights.dense));
     finish_as(problem, run, solution.sparse_weights, options, reporter, solution.report);
   } else {
-    solution.weights = weights.is_sparse() ? weights.sparse.dense() : std::move(weights.dense);
+    solution.weights = std::move(weights).to_dense();
     weights = {};
     finish_as(problem, run, solution.weights, options, reporter, solution.report);
   }

@@ -64,7 +64,7 @@ std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Di
   return std::make_unique<Method<float, Dim>>(problem, std::forward<Arguments>(arguments)...);
 }
 
-// Method::kValue on all pairs. \param start  cold or not
+// Method::kValue on all pairs.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
                                            const SolverOptions& options, double penalty,
@@ -138,7 +138,7 @@ std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOption
     case Method::kValue:
       return std::make_unique<EstimatedError<Dim>>(*problem_, options, origin);
     case Method::kGradient:
-      return std::make_unique<RecoveredError<Dim>>(*problem_, options, origin);
+      return std::make_unique<RecoveredError<Dim>>(*problem_, options);
     default:
       return std::make_unique<Residuals<Dim>>(options, published_units(*problem_, options.method));
   }

@@ -10,8 +10,7 @@
 
 namespace flbc::plan {
 
-// ---- penalties, with the diagonal of the cage's bounding box as the unit of length
-// -----------------
+// ---- penalties, with the diagonal of the cage's bounding box as the unit of length --------------
 
 //! `value`, first penalty. A fortieth suits all models roughly; balancing does the rest.
 constexpr double kFirstPenalty = 1.0 / 40;
@@ -41,8 +40,7 @@ constexpr double published_gradient_penalty(int dim) {
   return dim == 2 ? 100 : 10000;
 }
 
-// ---- metric, relaxation, starts
-// -------------------------------------------------------------------
+// ---- metric, relaxation, starts -----------------------------------------------------------------
 
 //! Weight of u = w per vertex mass and squared size, relative to the cells' metric. Iterations
 //! hardly depend on it between 10 and 300.
@@ -55,8 +53,7 @@ constexpr int kHarmonicSteps = 8;
 //! Mean squared change of a weight below which they end.
 constexpr double kHarmonicChange = 1e-9;
 
-// ---- precision
-// -------------------------------------------------------------------------------------
+// ---- precision ----------------------------------------------------------------------------------
 
 //! Largest tolerance that half precision of the cells' duals cannot serve. Radii are rounded by
 //! 1.4e-4 on average, which moves weights by a few 1e-11 squared on models.
@@ -72,16 +69,14 @@ constexpr bool trembles(int iterations, double error) {
   return iterations >= kTremblingIterations || error < kTremblingError;
 }
 
-// ---- linear systems
-// --------------------------------------------------------------------------------
+// ---- linear systems -----------------------------------------------------------------------------
 
 //! Most vertices that are factored. In 3D a factor of more takes longer than the iteration.
 constexpr Index most_factored(int dim) {
   return dim == 2 ? 2000000 : 20000;
 }
 
-// ---- when a run ends
-// -------------------------------------------------------------------------------
+// ---- when a run ends ----------------------------------------------------------------------------
 
 //! Default tolerances and certified gap. The gap is as near the optimum as tolerances bring other
 //! cages; in half precision gaps of about 4e-4 remain.
@@ -132,8 +127,7 @@ constexpr Early early(int dim) {
 }
 }  // namespace error_estimate
 
-// ---- active set
-// ------------------------------------------------------------------------------------
+// ---- active set ---------------------------------------------------------------------------------
 
 //! Fewest control points and pairs. Below, lists are not much shorter than all control points; in
 //! 2D they hold too few to leave the iteration freedom.
@@ -146,16 +140,15 @@ constexpr double kActiveDensity = 0.5;
 constexpr double kLeastHarmonic = 3e-3;
 //! Weights above errors times sqrt(tolerance), within these limits, are active.
 constexpr double kActiveErrors = 3, kActiveLeast = 1e-5, kActiveMost = 1e-3;
-//! Iterations between two looks at the ends of supports, and before a run may end after it grew:
-//! weights spread to a neighbor and settle there.
+//! Iterations between two looks at the ends of the active set, and before a run may end after it
+//! grew: weights spread to a neighbor and settle there.
 constexpr int kBetweenLooks = 30, kAfterGrowth = 20;
 //! It grows where squared weights at its ends are more than this part of the error.
 constexpr double kEndsOfError = 0.1;
 //! Iterations in which duals grow from nothing. Before, small changes do not show a small error.
 constexpr int kUntilDualsAreThere = 100;
 
-// ---- coarser meshes
-// --------------------------------------------------------------------------------
+// ---- coarser meshes -----------------------------------------------------------------------------
 
 //! A mesh is a level of its own if it has so many times the vertices of the next coarser one.
 constexpr double kClearlyFiner = 1.7;
@@ -179,8 +172,7 @@ constexpr Worthwhile worthwhile(int dim, bool on_active_set) {
                        : Worthwhile{7e5, 1000, 12};
 }
 
-// ---- distances behind phi
-// --------------------------------------------------------------------------
+// ---- distances behind phi -----------------------------------------------------------------------
 
 //! Interpolated from a coarser mesh: in 3D from so many vertices on (below, the mesh for the
 //! distances alone takes as long as they do), and not for smaller tolerances: the largest change of

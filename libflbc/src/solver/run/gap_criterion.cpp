@@ -8,9 +8,7 @@ bool GapCriterion::is_met(const Iteration<Dim>& iteration, int made, bool last) 
   if (wanted_ == 0 || made < (last ? plan::kFirstCertified : next_)) return false;
   if (!iteration.is_certifiable()) return false;
   next_ = static_cast<int>(plan::kCertifiedGrowth * made);
-  const auto weights = iteration.weights();
-  return iteration.certify(weights.is_sparse() ? weights.sparse.dense() : weights.dense)
-             .relative_gap <= wanted_;
+  return iteration.certify(iteration.weights().to_dense()).relative_gap <= wanted_;
 }
 
 template bool GapCriterion::is_met(const Iteration<2>&, int, bool);

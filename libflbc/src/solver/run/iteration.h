@@ -4,6 +4,8 @@
 //! the gradient ADMM.
 #pragma once
 
+#include <utility>
+
 #include "flbc/certificate.h"
 #include "flbc/report.h"
 #include "flbc/sparse_weights.h"
@@ -28,6 +30,9 @@ struct Weights {
   SparseWeights sparse{};  //!< of V points
 
   bool is_sparse() const { return sparse.num_points() > 0; }
+
+  //! All of them, n x V.
+  WeightMatrix to_dense() && { return is_sparse() ? sparse.dense() : std::move(dense); }
 };
 
 //! An iteration and its state. Boundary values of the weights are exact; interior columns sum to

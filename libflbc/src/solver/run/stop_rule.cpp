@@ -49,15 +49,14 @@ bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
 }
 
 template <int Dim>
-RecoveredError<Dim>::RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                                    Origin origin)
+RecoveredError<Dim>::RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options)
     : problem_(problem),
       options_(options),
       interval_((plan::kRecoveryInterval + options.check_interval - 1) / options.check_interval *
                 options.check_interval),
       residual_scale_(1 / (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
                            problem.mesh.num_cells())),
-      estimate_(origin, Dim, *options.tolerance, interval_) {
+      estimate_(Origin::kCold, Dim, *options.tolerance, interval_) {
 }
 
 template <int Dim>
@@ -82,8 +81,8 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   const double shown = estimate_(report.iterations, kNone, difference, kNone);
   const double residual = residual_scale_ * step.violation;
   errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
-  // Differences go up and down with the state that circles its limit, and after a warm start the
-  // first ones are small: the largest of some counts.
+  // Differences go up and down with the state that circles its limit, and where a solve
+  // goes on the first ones are small: the largest of some counts.
   if (errors_.size() > plan::kRecoveriesJudged) errors_.erase(errors_.begin());
   const double largest = *std::max_element(errors_.begin(), errors_.end()) / *options_.tolerance;
   report.primal_residual =

@@ -3,7 +3,7 @@
 //! When a run ends: by its estimated error, or by the paper's residuals.
 #pragma once
 
-#include <optional>
+#include <algorithm>
 #include <vector>
 
 #include "flbc/options.h"
@@ -75,7 +75,7 @@ class EstimatedError : public StopRule<Dim> {
 template <int Dim>
 class RecoveredError : public StopRule<Dim> {
  public:
-  RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin);
+  RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options);
 
   void begin(const Iteration<Dim>& iteration) override;
   int next(int made) const override { return this->to_next_look(options_, made); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The inner loops of the iteration on supports (support_splitting.h) on plain arrays. The same
-//! source is compiled for several instruction sets; there is no Eigen here, whose inline functions
-//! could clash.
+//! The inner loops of the iteration on the active set (active_splitting.h) on plain arrays. The
+//! same source is compiled for several instruction sets; there is no Eigen here, whose inline
+//! functions could clash.
 //!
 //! A row has a number for each control point of its list, in a place of its own in one array.
 #pragma once

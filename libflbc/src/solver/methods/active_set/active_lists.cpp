@@ -85,10 +85,10 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
 }
 
 template <int Dim>
-Flags flags_of_lists(const LbcProblem<Dim>& problem, const ActiveLists& supports) {
+Flags flags_of_lists(const LbcProblem<Dim>& problem, const ActiveLists& active) {
   Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    for (const ControlPoint i : supports.of(v)) flags(i, v) = true;
+    for (const ControlPoint i : active.of(v)) flags(i, v) = true;
   }
   return flags;
 }
@@ -182,14 +182,14 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 }
 
 template <int Dim>
-ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
+ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight) {
-  Flags flags = flags_of_lists(problem, supports);
+  Flags flags = flags_of_lists(problem, active);
   const VertexCells around(problem.mesh);
   for (const Index v : problem.boundary.interior_vertices()) {
-    const auto list = supports.of(v);
+    const auto list = active.of(v);
     for (const Index u : interior_neighbours(problem, around, v)) {
-      for_missing(list, supports.of(u), [&](Index place) {
+      for_missing(list, active.of(u), [&](Index place) {
         if (weight(v, place) > threshold) flags(list.first[place], u) = true;
       });
     }
@@ -198,7 +198,7 @@ ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, d
 }
 
 template <int Dim>
-double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& supports,
+double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight) {
   const VertexCells around(problem.mesh);
   const auto interior = problem.boundary.interior_vertices();
@@ -207,10 +207,10 @@ double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& suppor
     std::vector<bool> is_end;
     for (Index k = begin; k < end; ++k) {
       const Index v = interior[k];
-      const auto list = supports.of(v);
+      const auto list = active.of(v);
       is_end.assign(list.last - list.first, false);
       for (const Index u : interior_neighbours(problem, around, v)) {
-        for_missing(list, supports.of(u), [&](Index place) { is_end[place] = true; });
+        for_missing(list, active.of(u), [&](Index place) { is_end[place] = true; });
       }
       for (Index place = 0; place < static_cast<Index>(is_end.size()); ++place) {
         const double w = is_end[place] ? weight(v, place) : 0;
@@ -222,10 +222,10 @@ double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& suppor
 }
 
 template <int Dim>
-double density(const LbcProblem<Dim>& problem, const ActiveLists& supports) {
+double density(const LbcProblem<Dim>& problem, const ActiveLists& active) {
   const auto interior = problem.boundary.interior_vertices();
   double pairs = 0;
-  for (const Index v : interior) pairs += supports.start[v + 1] - supports.start[v];
+  for (const Index v : interior) pairs += active.start[v + 1] - active.start[v];
   const auto all = static_cast<double>(interior.size()) * problem.num_control_points();
   return interior.empty() ? 1 : pairs / all;
 }

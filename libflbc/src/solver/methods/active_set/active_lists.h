@@ -45,19 +45,19 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 //! w at one place of an interior vertex's list.
 using WeightInList = std::function<double(Index vertex, Index place)>;
 
-//! Sum of the squared weights at the ends of supports: where a neighbour may not have any.
+//! Sum of the squared weights at the ends of the active set: where a neighbour may not have any.
 template <int Dim>
-double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& supports,
+double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight);
 
 //! Supports with the control points of neighbours whose weights are above the threshold.
 template <int Dim>
-ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& supports, double threshold,
+ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight);
 
 //! Pairs of interior vertices and control points, relative to all there are.
 template <int Dim>
-double density(const LbcProblem<Dim>& problem, const ActiveLists& supports);
+double density(const LbcProblem<Dim>& problem, const ActiveLists& active);
 
 //! Lists from flags, n per vertex.
 ActiveLists lists_from(const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& is_in);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The linear step of the iteration on supports.
+//! The linear step of the iteration on the active set.
 #pragma once
 
 #include <vector>

@@ -124,8 +124,8 @@ double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
   return settings_.part * std::min(balanced, plan::kLargestPenalty);
 }
 
-// Where weights at the ends of supports are more than a small part of the error there is, or of the
-// one wanted, they would continue beyond.
+// Where weights at the ends of the active set are more than a small part of the error there is, or
+// of the one wanted, they would continue beyond.
 template <class Scalar, int Dim>
 bool ActiveSet<Scalar, Dim>::reaches_ends(double error) const {
   const double all =

@@ -189,17 +189,12 @@ compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
     for (std::size_t block = 0; block < parts.size(); ++block) {
       const Index begin = static_cast<Index>(block) * kRowBlock;
       for (Index row = begin; row < std::min(num_rows, begin + kRowBlock); ++row) {
-        const auto sums = loop(row_state(row), 0, 1);
-        parts[block].change += sums.change;
-        parts[block].violation += sums.violation;
+        parts[block] += loop(row_state(row), 0, 1);
       }
     }
   }
   compact::RowSums sums;
-  for (const auto& part : parts) {
-    sums.change += part.change;
-    sums.violation += part.violation;
-  }
+  for (const auto& part : parts) sums += part;
   return sums;
 }
 

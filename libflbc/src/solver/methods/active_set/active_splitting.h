@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The compact splitting where weights are zero outside of given supports.
+//! The compact splitting where weights are zero outside of an active set.
 #pragma once
 
 #include <functional>

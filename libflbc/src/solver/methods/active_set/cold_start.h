@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Where an iteration on supports starts from without a coarser mesh.
+//! Where an iteration on the active set starts from without a coarser mesh.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace flbc::active_set {
 
-//! Harmonic coordinates and their supports, without duals.
+//! Harmonic coordinates and their active set, without duals.
 template <int Dim>
 struct ColdStart {
   std::shared_ptr<const Eigen::MatrixXf> weights;  //!< n x V, more than exact enough for a start

@@ -21,18 +21,12 @@ const DirichletProblem<Dim>& GradientIteration<Scalar, Dim>::poisson() const {
 }
 
 template <class Scalar, int Dim>
-void GradientIteration<Scalar, Dim>::start(const Start<Dim>& start) {
-  if (start.is_cold() && !settings_.harmonic) {
+void GradientIteration<Scalar, Dim>::start(const Start<Dim>&) {
+  if (!settings_.harmonic) {
     admm_.start_from_least_norm();
     return;
   }
-  if (start.is_cold()) {
-    start_weights_ = harmonic_coordinates(problem_, poisson());
-  } else {
-    const auto weights = with_known_values(problem_, start.weights);
-    start_weights_.resize(problem_.num_control_points(), problem_.mesh.num_vertices());
-    for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) start_weights_.col(v) = weights(v);
-  }
+  start_weights_ = harmonic_coordinates(problem_, poisson());
   admm_.start_from_weights(start_weights_);
 }
 

@@ -26,7 +26,7 @@ class GradientIteration final : public Iteration<Dim> {
  public:
   GradientIteration(const LbcProblem<Dim>& problem, const Settings& settings);
 
-  //! Cold, as settings say; else from the gradients of the weights with duals zero.
+  //! Cold, as settings say: no other iteration hands over to this one.
   void start(const Start<Dim>& start) override;
   Step iterate(int count, bool measure) override;
   //! Recovered from the present gradients; before the first iteration those of a harmonic start.

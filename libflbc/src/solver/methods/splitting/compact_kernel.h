@@ -67,6 +67,12 @@ struct Columns {
 struct RowSums {
   double change = 0;     //!< squared change of w
   double violation = 0;  //!< squared violation of u = w in the metric, if measured
+
+  RowSums& operator+=(const RowSums& other) {
+    change += other.change;
+    violation += other.violation;
+    return *this;
+  }
 };
 
 //! The loops for one way of storing P and the radii.

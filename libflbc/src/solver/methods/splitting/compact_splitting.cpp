@@ -120,10 +120,7 @@ RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells,
     }
   }
   RowSums sums;
-  for (const RowSums& part : parts) {
-    sums.change += part.change;
-    sums.violation += part.violation;
-  }
+  for (const RowSums& part : parts) sums += part;
   return sums;
 }
 
@@ -173,13 +170,7 @@ void CompactSplitting<Scalar, Dim>::add_paper_residuals(const AlignedArray<Scala
                  static_cast<double>(delta);
     }
   }
-  AlignedArray<double> dual(stride_);
-  AlignedArray<double> motion(stride_);
-#pragma omp parallel
-  for_slices(arrays(), [&](const State& slice, Columns columns) {
-    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
-  });
-  const double of_cells = std::accumulate(motion.data(), motion.data() + n_, 0.0);
+  const double of_cells = squared_lengths(moved).motion;
   const double cells = static_cast<double>(problem_.mesh.num_cells()) * Dim;
   const double rows = S_.size() > 0 ? static_cast<double>(data_.vertices.size()) : 0;
   const double components = (cells + rows) * n_;
@@ -215,6 +206,20 @@ AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::rows_of_weights() const {
   return rows;
 }
 
+// |P + G (w - W)|^2 and |G moved|^2; needs w - W.
+template <class Scalar, int Dim>
+typename CompactSplitting<Scalar, Dim>::SquaredLengths
+CompactSplitting<Scalar, Dim>::squared_lengths(const AlignedArray<Scalar>& moved) {
+  AlignedArray<double> dual(stride_);
+  AlignedArray<double> motion(stride_);
+#pragma omp parallel
+  for_slices(arrays(), [&](const State& slice, Columns columns) {
+    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
+  });
+  return {std::accumulate(dual.data(), dual.data() + n_, 0.0),
+          std::accumulate(motion.data(), motion.data() + n_, 0.0)};
+}
+
 // In the units of the arrays the duals do not change, and w changes with sigma: w / f. The step
 // w - W belongs to the duals.
 template <class Scalar, int Dim>
@@ -224,16 +229,11 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   AlignedArray<Scalar> moved(a_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
-  AlignedArray<double> dual(stride_);
-  AlignedArray<double> motion(stride_);
-#pragma omp parallel
-  for_slices(arrays(), [&](const State& slice, Columns columns) {
-    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
-  });
-  const double dual2 = std::accumulate(dual.data(), dual.data() + n_, 0.0) + data_.boundary_dual2;
-  const double motion2 = std::accumulate(motion.data(), motion.data() + n_, 0.0);
-  if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
+  auto squared = squared_lengths(moved);
+  squared.dual += data_.boundary_dual2;
+  if (!(squared.dual > 0) || !(squared.motion > 0)) return;
+  const double factor =
+      std::max(1 / (ratio * std::sqrt(squared.dual / squared.motion)), penalty_ / largest);
   penalty_ /= factor;
   const auto shrink = static_cast<Scalar>(1 / factor);
 #pragma omp parallel for schedule(static)
@@ -246,8 +246,7 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   set_boundary_rows();
 }
 
-// ---- starts
-// ----------------------------------------------------------------------------------------
+// ---- starts -------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
@@ -371,8 +370,7 @@ void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_d
   }
 }
 
-// ---- precision
-// -------------------------------------------------------------------------------------
+// ---- precision ----------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 int CompactSplitting<Scalar, Dim>::adapt(int made, double error, bool) {
@@ -390,8 +388,7 @@ void CompactSplitting<Scalar, Dim>::store_in_single() {
   set_radii(problem_, metric_, unit_, slices_, *loops_, data_);
 }
 
-// ---- results
-// ---------------------------------------------------------------------------------------
+// ---- results ------------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {

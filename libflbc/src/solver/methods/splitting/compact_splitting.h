@@ -24,10 +24,10 @@ struct Settings {
   double penalty = 1;                                  //!< rho > 0
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
-  bool half = false;           //!< stores P and the radii in half precision; for float only
-  bool balances = false;       //!< adapts the penalty in the first iterations after a cold start
-  bool harmonic_cold = false;  //!< a cold start computes harmonic coordinates to the end, instead
-                               //!< of minimizing sum m |grad w|^2 roughly by the factor there is
+  bool half = false;             //!< stores P and the radii in half precision; for float only
+  bool balances = false;         //!< adapts the penalty in the first iterations after a cold start
+  bool harmonic_cold = false;    //!< a cold start computes harmonic coordinates to the end, instead
+                                 //!< of minimizing sum m |grad w|^2 roughly by the factor there is
   bool paper_residuals = false;  //!< measures r_p and r_d of the 2014 solver
 };
 
@@ -125,7 +125,12 @@ class CompactSplitting final : public Iteration<Dim> {
   using SliceLoop = void (*)(const State&, Columns);
   using RowLoop = RowSums (*)(const State&, std::int32_t, std::int32_t);
 
+  struct SquaredLengths {
+    double dual, motion;
+  };
+
   double sigma() const { return penalty_ * unit_; }
+  SquaredLengths squared_lengths(const AlignedArray<Scalar>& moved);
   State arrays();
   State in_slice(State state, Slice slice) const;
   void set_weights(const VectorsAt<1>& weights);
