@@ -57,7 +57,7 @@ template <int Dim>
 CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file);
 
 //! Adds what is to be said about the weights of a mesh's vertices.
-//! \throws InputError if the sizes do not belong together, or the mesh is none of the cage
+//! \throws InputError if the sizes do not belong together, or the mesh does not belong to the cage
 template <int Dim>
 void check_weights_of(CheckReport<Dim>& report, const DomainMesh<Dim>& domain,
                       const WeightMatrix& weights);

@@ -38,7 +38,7 @@ constexpr const char* kReport = "report.json";
 //! Arguments of flbc run.
 struct RunArguments {
   SolveSettings settings;             //!< cage and model among them, but no domain
-  bool makes_cage = false;            //!< a cage is made round the model
+  bool makes_cage = false;            //!< whether to make a cage around the model
   std::string picture;                //!< or round this picture's silhouette; empty for none
   Index cage_control_points = 0;      //!< at most so many; 0 = by the model's shape
   std::vector<std::string> deformed;  //!< cage files or a pattern of them

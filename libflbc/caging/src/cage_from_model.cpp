@@ -130,7 +130,7 @@ Cage<Dim> box_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
   return cage;
 }
 
-// A corner with edges along the axes, as long as it takes for the box to fit.
+// A corner with edges along the axes, long enough for the box to fit.
 template <int Dim>
 Cage<Dim> simplex_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
   Cage<Dim> cage{low.replicate(1, Dim + 1), FacetList<Dim>(Dim, Dim + 1)};
