@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Checks that pages are short and their sentences plain, by the rules of docs/contributing/style.md.
+
+check_prose.py [PAGE...]   default: every page of the repository
+
+A page has at most 12 kB. Its sentences have at most 20 words on average and none more than 35. Tables,
+code, formulas on lines of their own, and titles are not sentences.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+MEAN, LONGEST, SIZE = 20, 35, 12_000
+# Records that grow: their sentences are checked, their size is not.
+LONG = {"CHANGELOG.md"}
+# What readers stumble over, and what to write instead.
+HABITS = {
+    r"beside": "next to, outside, in addition to",
+    r"by a hair": "the distance",
+    r"whoever|whatever|whichever": "a subject",
+    r"by itself|by themselves": "on its own",
+    r"what becomes of|what comes out": "a noun",
+    r"to the (same )?bits?\b|same bits": "bit-identical",
+    r"mend(s|ed|ing)?": "fix, repair",
+    r"(goes|go|going|gone|went) on (from|with)": "resume",
+    r"stands? (in|for itself|beside|there)": "is",
+    r"tells? (what|how|which|whether|that)": "reports, shows",
+    r"rooms?|floors?|judges?": "module, layer, reference test",
+    r"as it takes|it takes to": "is needed",
+    r"is none\b": "is not an error, is not one of",
+    r"round (a|an|the|its)": "around",
+    r"\d %": "percent without a space",
+}
+ABBREVIATIONS = r"(?:e\.g|i\.e|cf|et al|vs|Fig|Figs|Eq|Eqs|Sec|No|approx|resp|[A-Z])\."
+
+
+def blocks(text):
+    """Paragraphs and list items, without code, tables, formulas, titles, and comments."""
+    text = re.sub(r"\A---\n.*?\n---\n", "", text, flags=re.S)
+    text = re.sub(r"^( *)(```|~~~).*?^\1?\s*\2[^\n]*$", "\n", text, flags=re.S | re.M)
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"\$\$.*?\$\$", " formula ", text, flags=re.S)
+    kept = []
+    for line in text.split("\n"):
+        if re.match(r"\s*(#|\||<|!\[|\[!\[|!!!|\?\?\?|---+$|===+$|\[[^]]*\]:)", line) or not line.strip():
+            kept.append("")
+        elif re.match(r"\s*([-*+]|\d+\.) ", line):
+            kept += ["", re.sub(r"^\s*([-*+]|\d+\.) ", "", line)]
+        else:
+            kept.append(line)
+    return [" ".join(block.split()) for block in re.split(r"\n\s*\n", "\n".join(kept)) if block.strip()]
+
+
+def sentences(text):
+    for block in blocks(text):
+        block = re.sub(r"!?\[([^]]*)\](\([^)]*\)|\[[^]]*\])?", r"\1", block)
+        block = re.sub(r"`[^`]*`|\$[^$]*\$", "code", block)
+        block = re.sub(r"[*_]{1,2}(\S[^*_]*?)[*_]{1,2}", r"\1", block)
+        block = re.sub(ABBREVIATIONS, lambda found: found[0][:-1], block)
+        for sentence in re.split(r"(?<=[.!?])\s+", block):
+            if sentence.strip(" .:|"):
+                yield sentence.strip()
+
+
+def words(sentence):
+    return len([word for word in sentence.split() if re.search(r"\w", word)])
+
+
+def check(path, text):
+    """What is wrong with a page, a line each."""
+    found = list(sentences(text))
+    counts = [words(sentence) for sentence in found]
+    if len(text.encode()) > SIZE and path.name not in LONG:
+        yield f"{len(text.encode())} bytes; at most {SIZE}"
+    if counts and sum(counts) / len(counts) > MEAN:
+        yield f"{sum(counts) / len(counts):.1f} words in a sentence on average; at most {MEAN}"
+    for sentence, count in zip(found, counts):
+        if count > LONGEST:
+            yield f"{count} words; at most {LONGEST}: {sentence}"
+        for habit, instead in HABITS.items():
+            match = re.search(rf"\b(?:{habit})(?!\w)", sentence)
+            if match:
+                yield f"'{match[0]}' (better: {instead}): {sentence}"
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    pages = [pathlib.Path(page) for page in sys.argv[1:]]
+    if not pages:
+        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=root, capture_output=True, text=True)
+        pages = [root / line for line in listed.stdout.split("\n") if line]
+    wrong = 0
+    for page in pages:
+        for line in check(page, page.read_text()):
+            print(f"{page}: {line}")
+            wrong += 1
+    print(f"{len(pages)} pages, {wrong} findings")
+    return 1 if wrong or not pages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
