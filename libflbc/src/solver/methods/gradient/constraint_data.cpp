@@ -4,12 +4,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/gradient/gradient_kernel.h"
 
 namespace flbc::gradient {
+namespace {
 
+// Orthonormal basis of the facet's tangent space, a column per direction.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet) {
   const auto point = [&](int k) {
@@ -23,8 +26,6 @@ Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem
   }
   return tangents;
 }
-
-namespace {
 
 template <class Scalar, int Dim>
 void set_up_facets(const LbcProblem<Dim>& problem, std::size_t stride,
@@ -119,14 +120,6 @@ ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem,
   return data;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                               \
-  template ConstraintData<float, Dim> make_constraint_data(const LbcProblem<Dim>&, double,  \
-                                                           std::size_t);                    \
-  template ConstraintData<double, Dim> make_constraint_data(const LbcProblem<Dim>&, double, \
-                                                            std::size_t);                   \
-  template Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>&, Index);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_SCALAR_FUNCTION(make_constraint_data)
 
 }  // namespace flbc::gradient
