@@ -10,12 +10,8 @@
 #include "base/aligned_array.h"
 #include "base/kernel_dispatch.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/types.h"
 #include "linear/spd_solver.h"
-#include "solver/methods/splitting/column_slices.h"
 #include "solver/methods/splitting/compact_data.h"
-#include "solver/methods/splitting/compact_kernel.h"
-#include "solver/methods/splitting/metric.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::compact {
