@@ -80,3 +80,15 @@ const Kernel& select_kernel() {
   kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::FLBC_ISA>() { \
     return space::FLBC_ISA::kKernel<__VA_ARGS__>;                      \
   }
+
+//! The same for Scalar = float, double and Dim = 2, 3.
+#define FLBC_DECLARE_KERNELS(space)     \
+  FLBC_DECLARE_KERNEL(space, float, 2)  \
+  FLBC_DECLARE_KERNEL(space, float, 3)  \
+  FLBC_DECLARE_KERNEL(space, double, 2) \
+  FLBC_DECLARE_KERNEL(space, double, 3)
+#define FLBC_DEFINE_KERNELS(space)     \
+  FLBC_DEFINE_KERNEL(space, float, 2)  \
+  FLBC_DEFINE_KERNEL(space, float, 3)  \
+  FLBC_DEFINE_KERNEL(space, double, 2) \
+  FLBC_DEFINE_KERNEL(space, double, 3)

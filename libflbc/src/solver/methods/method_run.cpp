@@ -16,7 +16,6 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
-#include "solver/plan/published_scale.h"
 #include "solver/run/run.h"
 
 namespace flbc {
