@@ -153,8 +153,7 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
       flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
     }
   }
-  return completed(
-      problem, [&](Index v) { return coarse.weights_at(v); }, std::move(flags));
+  return completed(problem, coarse.start().weights, std::move(flags));
 }
 
 template <int Dim>

@@ -8,7 +8,7 @@
 #include "base/flush_denormals.h"
 #include "base/padded_rows.h"
 #include "problem/boundary_flux.h"
-#include "solver/start/flux_length.h"
+#include "solver/start/start.h"
 
 namespace flbc::active_set {
 namespace {
