@@ -20,7 +20,7 @@
 #include "solver/api/finish.h"
 #include "solver/api/solve_parts.h"
 #include "solver/multilevel/cascade.h"
-#include "solver/multilevel/moving_distances.h"
+#include "solver/multilevel/coarse_distances.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/plan/choices.h"
 
