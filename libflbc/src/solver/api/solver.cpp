@@ -23,7 +23,7 @@
 #include "problem/problem_geometry.h"
 #include "solver/api/solve_parts.h"
 #include "solver/multilevel/cascade.h"
-#include "solver/multilevel/moving_distances.h"
+#include "solver/multilevel/coarse_distances.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/plan/choices.h"
 #include "solver/run/run.h"

@@ -17,7 +17,7 @@
 #include "mesh/cell_geometry.h"
 #include "problem/boundary_flux.h"
 #include "solver/plan/constants.h"
-#include "solver/start/flux_length.h"
+#include "solver/start/start.h"
 
 namespace flbc::compact {
 
