@@ -139,8 +139,5 @@ constexpr Kernel<Scalar, Dim> kKernel{descend<Scalar, Dim>, ascend<Scalar, Dim>,
 }  // namespace flbc::active_set::FLBC_ISA
 
 namespace flbc {
-FLBC_DEFINE_KERNEL(active_set, float, 2)
-FLBC_DEFINE_KERNEL(active_set, float, 3)
-FLBC_DEFINE_KERNEL(active_set, double, 2)
-FLBC_DEFINE_KERNEL(active_set, double, 3)
+FLBC_DEFINE_KERNELS(active_set)
 }  // namespace flbc
