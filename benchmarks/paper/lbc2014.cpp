@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The influence of the 2014 solver's open details: `lbc2014` with its published penalty, and with
-// one detail at a time otherwise. The iterations are those that compact_splitting_test compares with a
-// literal implementation of problem (2).
+// one detail at a time otherwise. The iterations are those that compact_splitting_test compares
+// with a literal implementation of problem (2).
 #include <vector>
 
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/solver.h"
-#include "paper/experiments.h"
 #include "mesh/cell_geometry.h"
+#include "paper/experiments.h"
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/splitting/compact_splitting.h"
-#include "solver/plan/published_scale.h"
+#include "solver/plan/choices.h"
 
 namespace flbc::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include "paper/open_details.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/gradient/gradient_admm.h"
-#include "solver/plan/published_scale.h"
+#include "solver/plan/choices.h"
 
 namespace flbc::bench {
 namespace {

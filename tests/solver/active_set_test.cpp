@@ -108,8 +108,7 @@ struct LinearStep {
       vertices[order.position[unknown++]] = v;
     }
     for (const Index v : vertices) {
-      lists.append(active.of(v).first, active.of(v).last,
-                   static_cast<ControlPoint>(problem.num_control_points()));
+      lists.append(active.of(v), static_cast<ControlPoint>(problem.num_control_points()));
     }
     bases = active_set::row_bases<double, Dim>(lists, problem.cage.points, {}, nullptr);
   }

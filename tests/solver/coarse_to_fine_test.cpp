@@ -23,9 +23,6 @@ class CoarseToFineTest : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CoarseToFineTest, Dimensions);
 
-template <int Dim>
-using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Dim>;
-
 // A linear function per control point.
 template <int Dim>
 WeightMatrix linear_field(Index n, const PointList<Dim>& points) {

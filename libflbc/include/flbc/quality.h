@@ -24,15 +24,11 @@ struct Quality {
 //! \param control_points  Dim x n
 //! \param points  Dim x P, in the units of the control points
 //! \param weights  n x P
+//! \tparam Weights  WeightMatrix or SparseWeights
 //! \throws InputError if the sizes do not belong together
-template <int Dim>
+template <int Dim, class Weights>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const WeightMatrix& weights);
-
-//! The same for weights without their zeros.
-template <int Dim>
-Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const SparseWeights& weights);
+                        const Weights& weights);
 
 //! The paper's objective (7), sum_s sum_i phi_s^i A_s |grad w_i|_s.
 //! \param mesh  valid, F cells, V vertices

@@ -61,22 +61,30 @@ const Kernel& select_kernel() {
 
 }  // namespace flbc
 
+#define FLBC_KERNEL_FOR(set, space, ...) \
+  template <>                            \
+  const space::Kernel<__VA_ARGS__>& kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::set>()
+
 //! Within namespace flbc: the kernel space::Kernel<arguments> exists for every instruction set.
-#define FLBC_DECLARE_KERNEL(space, ...)                               \
-  template <>                                                         \
-  const space::Kernel<__VA_ARGS__>&                                   \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::baseline>(); \
-  template <>                                                         \
-  const space::Kernel<__VA_ARGS__>&                                   \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx2>();     \
-  template <>                                                         \
-  const space::Kernel<__VA_ARGS__>&                                   \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::avx512>();
+#define FLBC_DECLARE_KERNEL(space, ...)          \
+  FLBC_KERNEL_FOR(baseline, space, __VA_ARGS__); \
+  FLBC_KERNEL_FOR(avx2, space, __VA_ARGS__);     \
+  FLBC_KERNEL_FOR(avx512, space, __VA_ARGS__);
 
 //! Within namespace flbc: the copy for the instruction set this file is compiled for.
-#define FLBC_DEFINE_KERNEL(space, ...)                                 \
-  template <>                                                          \
-  const space::Kernel<__VA_ARGS__>&                                    \
-  kernel_for<space::Kernel<__VA_ARGS__>, InstructionSet::FLBC_ISA>() { \
-    return space::FLBC_ISA::kKernel<__VA_ARGS__>;                      \
+#define FLBC_DEFINE_KERNEL(space, ...)            \
+  FLBC_KERNEL_FOR(FLBC_ISA, space, __VA_ARGS__) { \
+    return space::FLBC_ISA::kKernel<__VA_ARGS__>; \
   }
+
+//! The same for Scalar = float, double and Dim = 2, 3.
+#define FLBC_DECLARE_KERNELS(space)     \
+  FLBC_DECLARE_KERNEL(space, float, 2)  \
+  FLBC_DECLARE_KERNEL(space, float, 3)  \
+  FLBC_DECLARE_KERNEL(space, double, 2) \
+  FLBC_DECLARE_KERNEL(space, double, 3)
+#define FLBC_DEFINE_KERNELS(space)     \
+  FLBC_DEFINE_KERNEL(space, float, 2)  \
+  FLBC_DEFINE_KERNEL(space, float, 3)  \
+  FLBC_DEFINE_KERNEL(space, double, 2) \
+  FLBC_DEFINE_KERNEL(space, double, 3)

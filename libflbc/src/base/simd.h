@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -34,6 +35,31 @@ inline PackN<Scalar, Lanes> load_pack(const Scalar* from) {
 template <int Lanes, class Scalar>
 inline void store_pack(Scalar* to, PackN<Scalar, Lanes> value) {
   *reinterpret_cast<PackN<Scalar, Lanes>*>(to) = value;
+}
+
+//! As many numbers as fill the widest registers, if that is more than rows are padded to.
+#ifdef __AVX512F__
+constexpr int kWideLanes = 16;
+#else
+constexpr int kWideLanes = 8;
+#endif
+
+//! The sum of both halves.
+template <class Scalar>
+inline PackN<Scalar, 8> fold(PackN<Scalar, 16> pack) {
+  return __builtin_shufflevector(pack, pack, 0, 1, 2, 3, 4, 5, 6, 7) +
+         __builtin_shufflevector(pack, pack, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+//! Calls `body(lanes, first)` for packs that cover the columns begin .. end - 1, multiples of 8;
+//! the number of lanes, `Wide` or 8, is the constant lanes().
+template <int Wide, class Body>
+[[gnu::always_inline]] inline void for_packs(std::size_t begin, std::size_t end, const Body& body) {
+  std::size_t i = begin;
+  for (; i + Wide <= end; i += Wide) body(std::integral_constant<int, Wide>{}, i);
+  if constexpr (Wide > 8) {
+    if (i < end) body(std::integral_constant<int, 8>{}, i);
+  }
 }
 
 template <class Scalar, int Lanes>

@@ -2,7 +2,6 @@
 #include "flbc/cage.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/union_find.h"
 #include "cage/close_points.h"
@@ -180,14 +180,13 @@ void check_measures(const Cage<Dim>& cage, DefectList& found) {
 
 template <int Dim>
 void check_repetition(const Cage<Dim>& cage, DefectList& found) {
-  std::map<std::array<Index, Dim>, Index> first_with;
+  std::map<std::vector<Index>, Index> first_with;
   for (Index facet = 0; facet < cage.facets.cols() && !found.is_full(); ++facet) {
-    std::array<Index, Dim> corners;
-    for (int k = 0; k < Dim; ++k) corners[k] = cage.facets(k, facet);
-    std::sort(corners.begin(), corners.end());
-    const auto [entry, is_new] = first_with.emplace(corners, facet);
+    const auto corners = cage.facets.col(facet);
+    std::vector<Index> vertices(corners.begin(), corners.end());
+    std::sort(vertices.begin(), vertices.end());
+    const auto [entry, is_new] = first_with.emplace(vertices, facet);
     if (is_new) continue;
-    const std::vector<Index> vertices(corners.begin(), corners.end());
     found.add({facet_name<Dim>() + "s " + std::to_string(entry->second) + " and " +
                    std::to_string(facet) + " are the same: both join control points " +
                    describe_list(vertices) + ", the first of them at " +
@@ -195,30 +194,6 @@ void check_repetition(const Cage<Dim>& cage, DefectList& found) {
                vertices,
                {entry->second, facet}});
   }
-}
-
-// Counts, finiteness, extent and indices. The other checks need a cage that passes this one.
-template <int Dim>
-void check_numbers(const Cage<Dim>& cage, DefectList& found) {
-  check_counts(cage, found);
-  check_finiteness(cage, found);
-  check_extent(cage, found);
-  check_indices(cage, found);
-}
-
-// Coinciding and unreferenced control points, and cages that are flat as a whole.
-template <int Dim>
-void check_points(const Cage<Dim>& cage, DefectList& found) {
-  check_coincidence(cage, found);
-  check_references(cage, found);
-  check_flatness(cage, found);
-}
-
-// Facets without measure and facets that occur twice.
-template <int Dim>
-void check_facets(const Cage<Dim>& cage, DefectList& found) {
-  check_measures(cage, found);
-  check_repetition(cage, found);
 }
 
 // A triangle that has an edge, and whether it runs along it from the smaller to the larger index.
@@ -241,36 +216,28 @@ EdgeMap collect_edges(const Cage<3>& cage) {
   return edges;
 }
 
-std::string describe_edge(const Cage<3>& cage, Index from, Index to) {
-  return describe_control_point<3>(cage.points, from) + " and " +
-         describe_control_point<3>(cage.points, to);
-}
-
 void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
                 const std::vector<Incidence>& incidences, DefectList& found) {
+  if (incidences.size() == 2 && incidences[0].is_forward != incidences[1].is_forward) return;
   const auto [a, b] = ends;
   std::vector<Index> triangles;
   triangles.reserve(incidences.size());
   for (const Incidence& incidence : incidences) triangles.push_back(incidence.triangle);
-
+  const std::string place = describe_control_point<3>(cage.points, a) + " and " +
+                            describe_control_point<3>(cage.points, b);
+  std::string text;
   if (incidences.size() == 1) {
-    found.add({"the cage is open at the edge between " + describe_edge(cage, a, b) + ": triangle " +
-                   std::to_string(triangles[0]) + " has no neighbour there",
-               {a, b},
-               triangles});
+    text = "the cage is open at the edge between " + place + ": triangle " +
+           std::to_string(triangles[0]) + " has no neighbour there";
   } else if (incidences.size() > 2) {
-    found.add({"the edge between " + describe_edge(cage, a, b) + " is non-manifold: triangles " +
-                   describe_list(triangles) + " share it, where two must",
-               {a, b},
-               triangles});
-  } else if (incidences[0].is_forward == incidences[1].is_forward) {
-    found.add({"triangles " + describe_list(triangles) +
-                   " are oriented inconsistently: both run in the same direction along the edge "
-                   "between " +
-                   describe_edge(cage, a, b) + "; reverse one of them",
-               {a, b},
-               triangles});
+    text = "the edge between " + place + " is non-manifold: triangles " + describe_list(triangles) +
+           " share it, where two must";
+  } else {
+    text = "triangles " + describe_list(triangles) +
+           " are oriented inconsistently: both run in the same direction along the edge between " +
+           place + "; reverse one of them";
   }
+  found.add({text, {a, b}, triangles});
 }
 
 // Triangles that share an edge at a vertex are of one fan; two cones that touch in their tips are
@@ -352,10 +319,16 @@ void check_connections(const Cage<3>& cage, DefectList& found) {
 template <int Dim>
 std::vector<Defect> find_defects(const Cage<Dim>& cage, std::size_t limit) {
   DefectList found(limit);
-  check_numbers(cage, found);
+  check_counts(cage, found);
+  check_finiteness(cage, found);
+  check_extent(cage, found);
+  check_indices(cage, found);
   if (!found.empty()) return found.take();  // the checks below rely on sound numbers
-  check_points(cage, found);
-  check_facets(cage, found);
+  check_coincidence(cage, found);
+  check_references(cage, found);
+  check_flatness(cage, found);
+  check_measures(cage, found);
+  check_repetition(cage, found);
   check_connections(cage, found);
   return found.take();
 }
@@ -368,9 +341,7 @@ void validate(const Cage<Dim>& cage) {
 
 template struct Cage<2>;
 template struct Cage<3>;
-template std::vector<Defect> find_defects<2>(const Cage<2>&, std::size_t);
-template std::vector<Defect> find_defects<3>(const Cage<3>&, std::size_t);
-template void validate<2>(const Cage<2>&);
-template void validate<3>(const Cage<3>&);
+FLBC_INSTANTIATE_FUNCTION(find_defects)
+FLBC_INSTANTIATE_FUNCTION(validate)
 
 }  // namespace flbc

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/instantiate.h"
 #include "base/union_find.h"
 
 namespace flbc {
@@ -94,8 +95,8 @@ Containment CageLocator<Dim>::locate(const Vector<Dim>& point) const {
 template <int Dim>
 bool CageLocator<Dim>::is_on_cage(const Vector<Dim>& point) const {
   for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
-    Eigen::Matrix<double, Dim, Dim> corners;
-    for (int k = 0; k < Dim; ++k) corners.col(k) = cage_.points.col(cage_.facets(k, facet));
+    const Eigen::Matrix<double, Dim, Dim> corners =
+        cage_.points(Eigen::all, cage_.facets.col(facet));
     if (distance_to_facet<Dim>(point, corners) <= tolerance_) return true;
   }
   return false;
@@ -126,8 +127,7 @@ bool CageLocator<Dim>::is_enclosed(const Vector<Dim>& point) const {
   }
 }
 
-template std::vector<Index> facet_shells<2>(const Cage<2>&);
-template std::vector<Index> facet_shells<3>(const Cage<3>&);
+FLBC_INSTANTIATE_FUNCTION(facet_shells)
 template class CageLocator<2>;
 template class CageLocator<3>;
 

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "cage/facet_locator.h"
 #include "cage/oriented_cage.h"
@@ -150,9 +151,7 @@ std::vector<Facet<Dim>> prepare_facets(const Cage<Dim>& cage, double size) {
   std::vector<Facet<Dim>> facets;
   facets.reserve(cage.facets.cols());
   for (Index f = 0; f < cage.facets.cols(); ++f) {
-    Eigen::Matrix<double, Dim, Dim> corners;
-    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-    facets.emplace_back(corners, size);
+    facets.emplace_back(cage.points(Eigen::all, cage.facets.col(f)), size);
   }
   return facets;
 }
@@ -195,7 +194,6 @@ WeightMatrix mean_value_coordinates(const Cage<Dim>& cage, const PointList<Dim>&
   return weights;
 }
 
-template WeightMatrix mean_value_coordinates(const Cage<2>&, const PointList<2>&);
-template WeightMatrix mean_value_coordinates(const Cage<3>&, const PointList<3>&);
+FLBC_INSTANTIATE_FUNCTION(mean_value_coordinates)
 
 }  // namespace flbc

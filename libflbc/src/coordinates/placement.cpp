@@ -12,13 +12,13 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/weight_columns.h"
+#include "coordinates/nearest_simplex.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "linear/dense.h"
 #include "mesh/cell_geometry.h"
-#include "polytope/nearest_point_in_hull.h"
 
 namespace flbc {
 namespace {
@@ -30,21 +30,6 @@ template <int Dim>
 struct AffineFit {
   std::vector<Index> control_points;
   Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients;  //!< G, a row per control point
-};
-
-// Fits with a control point and its neighbours on the cage, and theirs, and so on, until they
-// surround it well enough: where facets lie in one plane neighbours alone do not.
-template <int Dim>
-class AffineFitter {
- public:
-  // \param cage  has passed validate(), outlives the fitter
-  explicit AffineFitter(const Cage<Dim>& cage);
-
-  AffineFit<Dim> operator()(Index control_point) const;
-
- private:
-  const Cage<Dim>& cage_;
-  std::vector<std::vector<Index>> neighbors_;
 };
 
 // Least extent of the control points, relative to their largest, squared: flatter ones would turn
@@ -60,84 +45,56 @@ PointList<Dim> centered(const PointList<Dim>& points, const std::vector<Index>& 
 
 template <int Dim>
 bool surrounds(const PointList<Dim>& offsets) {
-  const Eigen::Matrix<double, Dim, Dim> moments = offsets * offsets.transpose();
+  const Eigen::Matrix<double, Dim, Dim> moments = dense::moments<Dim>(offsets);
   const Eigen::Matrix<double, Dim, Dim> axes = dense::principal_axes<Dim>(moments);
   const Vector<Dim> extents = (axes.transpose() * moments * axes).diagonal();
   return extents.minCoeff() > kLeastExtent * extents.maxCoeff();
 }
 
+// Fits with a control point and its neighbours on the cage, and theirs, and so on, until they
+// surround it well enough: where facets lie in one plane neighbours alone do not.
 template <int Dim>
-AffineFitter<Dim>::AffineFitter(const Cage<Dim>& cage) : cage_(cage), neighbors_(cage.size()) {
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    for (int j = 0; j < Dim; ++j) {
-      for (int k = 0; k < Dim; ++k) {
-        if (j != k) neighbors_[cage.facets(j, f)].push_back(cage.facets(k, f));
-      }
-    }
-  }
-}
-
-template <int Dim>
-AffineFit<Dim> AffineFitter<Dim>::operator()(Index control_point) const {
-  std::vector<Index> chosen{control_point};
-  std::vector<bool> is_chosen(cage_.size(), false);
-  is_chosen[control_point] = true;
-  PointList<Dim> offsets;
-  std::size_t before = 0;
-  do {
-    const std::size_t end = chosen.size();
-    for (std::size_t k = before; k < end; ++k) {
-      for (const Index neighbor : neighbors_[chosen[k]]) {
-        if (is_chosen[neighbor]) continue;
-        is_chosen[neighbor] = true;
-        chosen.push_back(neighbor);
-      }
-    }
-    before = end;
-    offsets = centered<Dim>(cage_.points, chosen);
-  } while (!surrounds<Dim>(offsets) && chosen.size() > before);
-  const Eigen::Matrix<double, Dim, Dim> moments = offsets * offsets.transpose();
-  return {std::move(chosen), offsets.transpose() * moments.inverse()};
-}
-
-constexpr double kRounding = 1e-12;  // of the cage's size: a point that near a cell is in it
-
-// The place on a cage nearest to a point.
-template <int Dim>
-class NearestOnCage {
+class AffineFitter {
  public:
-  explicit NearestOnCage(const Cage<Dim>& cage) {
+  // \param cage  has passed validate(), outlives the fitter
+  explicit AffineFitter(const Cage<Dim>& cage) : cage_(cage), neighbors_(cage.size()) {
     for (Index f = 0; f < cage.facets.cols(); ++f) {
-      PointList<Dim> corners(Dim, Dim);
-      for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-      facets_.push_back({corners, corners.rowwise().minCoeff(), corners.rowwise().maxCoeff()});
+      for (int j = 0; j < Dim; ++j) {
+        for (int k = 0; k < Dim; ++k) {
+          if (j != k) neighbors_[cage.facets(j, f)].push_back(cage.facets(k, f));
+        }
+      }
     }
   }
 
-  PointBeside<Dim> operator()(Index number, const Vector<Dim>& point) const {
-    PointBeside<Dim> nearest;
-    nearest.point = number;
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      const auto& [corners, low, high] = facets_[f];
-      const Vector<Dim> in_box = point.cwiseMax(low).cwiseMin(high);
-      if (nearest.facet >= 0 && (in_box - point).norm() >= nearest.distance) continue;
-      const auto place = nearest_point_in_hull<Dim>(corners, point);
-      if (nearest.facet >= 0 && place.distance >= nearest.distance) continue;
-      nearest.facet = static_cast<Index>(f);
-      nearest.distance = place.distance;
-      nearest.coordinates.setZero();
-      for (int k = 0; k < place.size; ++k) nearest.coordinates[place.support[k]] = place.weights[k];
-    }
-    return nearest;
+  AffineFit<Dim> operator()(Index control_point) const {
+    std::vector<Index> chosen{control_point};
+    std::vector<bool> is_chosen(cage_.size(), false);
+    is_chosen[control_point] = true;
+    PointList<Dim> offsets;
+    std::size_t before = 0;
+    do {
+      const std::size_t end = chosen.size();
+      for (std::size_t k = before; k < end; ++k) {
+        for (const Index neighbor : neighbors_[chosen[k]]) {
+          if (is_chosen[neighbor]) continue;
+          is_chosen[neighbor] = true;
+          chosen.push_back(neighbor);
+        }
+      }
+      before = end;
+      offsets = centered<Dim>(cage_.points, chosen);
+    } while (!surrounds<Dim>(offsets) && chosen.size() > before);
+    const Eigen::Matrix<double, Dim, Dim> moments = dense::moments<Dim>(offsets);
+    return {std::move(chosen), offsets.transpose() * moments.inverse()};
   }
 
  private:
-  struct Facet {
-    PointList<Dim> corners;
-    Vector<Dim> low, high;
-  };
-  std::vector<Facet> facets_;
+  const Cage<Dim>& cage_;
+  std::vector<std::vector<Index>> neighbors_;
 };
+
+constexpr double kRounding = 1e-12;  // of the cage's size: a point that near a cell is in it
 
 template <int Dim>
 Vector<Dim> place_on_cage(const Cage<Dim>& cage, const PointBeside<Dim>& beside) {
@@ -148,30 +105,18 @@ Vector<Dim> place_on_cage(const Cage<Dim>& cage, const PointBeside<Dim>& beside)
   return place;
 }
 
-// How far a point is beyond the facets of its cell.
-template <int Dim>
-double distance_beyond(const DomainMesh<Dim>& mesh, const Location<Dim>& location) {
-  if (location.coordinates.minCoeff() >= 0) return 0;
-  const auto geometry = cell_geometry(mesh, location.cell);
-  double distance = 0;
-  for (int k = 0; k <= Dim; ++k) {
-    // A coordinate below zero, times the height over its facet.
-    distance = std::max(distance, -location.coordinates[k] / geometry.hat_gradients.col(k).norm());
-  }
-  return distance;
-}
-
 // Leaves cell -1 for points that are not inside.
 template <int Dim>
 Location<Dim> locate(const CellLocator<Dim>& locator, const DomainMesh<Dim>& mesh,
                      const Vector<Dim>& point, double size) {
   auto location = locator.locate(point, kBoundaryTolerance * size);
-  if (location.cell < 0) return location;
-  if (distance_beyond(mesh, location) > kRounding * size) return {};
-  if (location.coordinates.minCoeff() < 0) {
-    location.coordinates = location.coordinates.cwiseMax(0);
-    location.coordinates /= location.coordinates.sum();
+  if (location.cell < 0 || location.coordinates.minCoeff() >= 0) return location;
+  const auto geometry = cell_geometry(mesh, location.cell);
+  if (distance_beyond<Dim>(location.coordinates, geometry.hat_gradients) > kRounding * size) {
+    return {};
   }
+  location.coordinates = location.coordinates.cwiseMax(0);
+  location.coordinates /= location.coordinates.sum();
   return location;
 }
 
@@ -260,10 +205,15 @@ template <int Dim>
 std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                               const std::vector<Index>& which) {
   std::vector<PointBeside<Dim>> result(which.size());
-  const NearestOnCage<Dim> nearest(cage);
+  const NearestSimplex<Dim, Dim> nearest(cage.points, cage.facets);
   const auto count = static_cast<Index>(which.size());
 #pragma omp parallel for schedule(static)
-  for (Index k = 0; k < count; ++k) result[k] = nearest(which[k], points.col(which[k]));
+  for (Index k = 0; k < count; ++k) {
+    HullPoint<Dim> place;
+    const Index facet = nearest(points.col(which[k]), place);
+    result[k] = {which[k], facet, Vector<Dim>::Zero(), place.distance};
+    for (int c = 0; c < place.size; ++c) result[k].coordinates[place.support[c]] = place.weights[c];
+  }
   return result;
 }
 

@@ -32,28 +32,6 @@ double integrate_gradient_lengths(const DomainMesh<Dim>& mesh, const WeightMatri
   });
 }
 
-template <int Dim, class Weights>
-Quality quality_of(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                   const Weights& weights) {
-  check_size(weights, control_points.cols(), points.cols());
-  const double size = bounding_box_diagonal(control_points);
-  Quality quality;
-  quality.min_weight = std::numeric_limits<double>::max();
-  Index influences = 0;
-  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
-    const auto& column = column_of(weights, p);
-    const Vector<Dim> error = control_points * column - points.col(p);
-    if (column.size() > 0) quality.min_weight = std::min(quality.min_weight, column.minCoeff());
-    quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
-    quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
-    influences += static_cast<Index>((column.array().abs() > kInfluenceThreshold).count());
-  }
-  if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
-  quality.mean_influences = static_cast<double>(influences) /
-                            static_cast<double>(std::max<Eigen::Index>(1, points.cols()));
-  return quality;
-}
-
 // Gradients of the weights of a cell that are not zero there.
 template <int Dim>
 class SparseGradients {
@@ -91,16 +69,26 @@ class SparseGradients {
 
 }  // namespace
 
-template <int Dim>
+template <int Dim, class Weights>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const WeightMatrix& weights) {
-  return quality_of(control_points, points, weights);
-}
-
-template <int Dim>
-Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const SparseWeights& weights) {
-  return quality_of(control_points, points, weights);
+                        const Weights& weights) {
+  check_size(weights, control_points.cols(), points.cols());
+  const double size = bounding_box_diagonal(control_points);
+  Quality quality;
+  quality.min_weight = std::numeric_limits<double>::max();
+  Index influences = 0;
+  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
+    const auto& column = column_of(weights, p);
+    const Vector<Dim> error = control_points * column - points.col(p);
+    if (column.size() > 0) quality.min_weight = std::min(quality.min_weight, column.minCoeff());
+    quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
+    quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
+    influences += static_cast<Index>((column.array().abs() > kInfluenceThreshold).count());
+  }
+  if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
+  quality.mean_influences = static_cast<double>(influences) /
+                            static_cast<double>(std::max<Eigen::Index>(1, points.cols()));
+  return quality;
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "coordinates/poisson_weights.h"
+#include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
 
@@ -99,18 +100,37 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                  DirichletProblem<Dim>(problem.mesh, problem.boundary));
 }
 
+template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem,
+                                  const DirichletProblem<Dim>& poisson) {
+  auto weights = poisson.solve(boundary_matrix(problem.boundary, problem.num_control_points()));
+  project_interior(problem, weights);
+  return weights;
+}
+
+template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
+  return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
+}
+
 #define FLBC_INSTANTIATE(Scalar, Dim)                                               \
   template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&); \
   template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&); \
-  template WeightMatrix integrate_least_squares(const LbcProblem<Dim>&,             \
-                                                const CellFieldView<Scalar, Dim>&,  \
-                                                const DirichletProblem<Dim>&);
+  template WeightMatrix integrate_least_squares(                                    \
+      const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&, const DirichletProblem<Dim>&);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)
 FLBC_INSTANTIATE(double, 3)
+#undef FLBC_INSTANTIATE
+
+#define FLBC_INSTANTIATE(Dim)                                         \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&); \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&, const DirichletProblem<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
 
 }  // namespace flbc

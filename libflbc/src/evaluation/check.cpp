@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
@@ -133,52 +134,51 @@ constexpr double kRounding = 1e-12;     // a weight not more than this below 0 i
 // Counts and extremes of weights; those of parts are added up in the order of points.
 template <int Dim>
 struct WeightExtremes {
-  std::int64_t non_finite = 0, negative = 0, influences = 0, finite_points = 0;
-  Extreme<Dim> first_non_finite, min_weight, max_weight, partition, reproduction, most_influences;
+  WeightCheck<Dim> check;  // of which these are a part
+  std::int64_t influences = 0, finite_points = 0;
 
-  WeightExtremes& operator+=(const WeightExtremes& next) {
-    non_finite += next.non_finite;
-    negative += next.negative;
-    influences += next.influences;
-    finite_points += next.finite_points;
-    if (first_non_finite.point < 0) first_non_finite = next.first_non_finite;
-    keep_smaller(min_weight, next.min_weight);
-    keep_larger(max_weight, next.max_weight);
-    keep_larger(partition, next.partition);
-    keep_larger(reproduction, next.reproduction);
-    keep_larger(most_influences, next.most_influences);
+  WeightExtremes& operator+=(const WeightExtremes& other) {
+    influences += other.influences;
+    finite_points += other.finite_points;
+    const WeightCheck<Dim>& next = other.check;
+    check.non_finite += next.non_finite;
+    check.negative += next.negative;
+    if (check.first_non_finite.point < 0) check.first_non_finite = next.first_non_finite;
+    keep_smaller(check.min_weight, next.min_weight);
+    keep_larger(check.max_weight, next.max_weight);
+    keep_larger(check.partition, next.partition);
+    keep_larger(check.reproduction, next.reproduction);
+    keep_larger(check.influences, next.influences);
     return *this;
   }
 };
 
-template <int Dim, class Column>
-void add_non_finite(WeightExtremes<Dim>& extremes, const Column& column, Index p,
-                    const Vector<Dim>& place) {
-  for (Index i = 0; i < column.size(); ++i) {
-    if (std::isfinite(column[i])) continue;
-    ++extremes.non_finite;
-    if (extremes.first_non_finite.point < 0) extremes.first_non_finite = {column[i], p, i, place};
-  }
-}
-
 template <int Dim>
 void add_point(WeightExtremes<Dim>& extremes, const Cage<Dim>& cage, double size, Index p,
                const Vector<Dim>& place, const WeightMatrix& weights) {
+  WeightCheck<Dim>& check = extremes.check;
   const auto column = weights.col(p);
-  if (!column.allFinite()) return add_non_finite(extremes, column, p, place);
+  if (!column.allFinite()) {
+    for (Index i = 0; i < column.size(); ++i) {
+      if (std::isfinite(column[i])) continue;
+      ++check.non_finite;
+      if (check.first_non_finite.point < 0) check.first_non_finite = {column[i], p, i, place};
+    }
+    return;
+  }
   ++extremes.finite_points;
   Index lowest = 0, highest = 0;
   const double least = column.minCoeff(&lowest);
   const double most = column.maxCoeff(&highest);
   const auto influences = (column.array().abs() > kInfluenceThreshold).count();
   const Vector<Dim> error = cage.points * column - place;
-  extremes.negative += (column.array() < -kRounding).count();
+  check.negative += (column.array() < -kRounding).count();
   extremes.influences += influences;
-  keep_smaller(extremes.min_weight, {least, p, lowest, place});
-  keep_larger(extremes.max_weight, {most, p, highest, place});
-  keep_larger(extremes.partition, {std::abs(column.sum() - 1), p, -1, place});
-  keep_larger(extremes.reproduction, {error.norm() / size, p, -1, place});
-  keep_larger(extremes.most_influences, {static_cast<double>(influences), p, -1, place});
+  keep_smaller(check.min_weight, {least, p, lowest, place});
+  keep_larger(check.max_weight, {most, p, highest, place});
+  keep_larger(check.partition, {std::abs(column.sum() - 1), p, -1, place});
+  keep_larger(check.reproduction, {error.norm() / size, p, -1, place});
+  keep_larger(check.influences, {static_cast<double>(influences), p, -1, place});
 }
 
 // A point on the cage and the weights that it must have.
@@ -267,20 +267,12 @@ WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& po
         return part;
       });
 
-  WeightCheck<Dim> check;
+  WeightCheck<Dim> check = extremes.check;
   check.points = num_points;
   check.control_points = cage.size();
-  check.non_finite = extremes.non_finite;
-  check.first_non_finite = extremes.first_non_finite;
-  check.negative = extremes.negative;
-  check.min_weight = extremes.min_weight;
-  check.max_weight = extremes.max_weight;
-  check.partition = extremes.partition;
-  check.reproduction = extremes.reproduction;
-  check.influences = extremes.most_influences;
-  check.quality.min_weight = extremes.min_weight.value;
-  check.quality.max_partition_error = extremes.partition.value;
-  check.quality.max_reproduction_error = extremes.reproduction.value;
+  check.quality.min_weight = check.min_weight.value;
+  check.quality.max_partition_error = check.partition.value;
+  check.quality.max_reproduction_error = check.reproduction.value;
   check.quality.mean_influences =
       static_cast<double>(extremes.influences) /
       static_cast<double>(std::max<std::int64_t>(1, extremes.finite_points));
@@ -295,12 +287,6 @@ std::string point_of(const Extreme<Dim>& extreme) {
 
 std::string weight_for(Index control_point) {
   return "the weight for control point " + std::to_string(control_point);
-}
-
-// Written so that an error that is no number is a violation, too.
-template <int Dim>
-bool is_violated(const Extreme<Dim>& error) {
-  return error.point >= 0 && !(error.value <= kCheckTolerance);
 }
 
 }  // namespace
@@ -340,32 +326,29 @@ std::vector<std::string> find_violations(const WeightCheck<Dim>& check) {
                          " weights are not finite, the first is " +
                          weight_for(first.control_point) + " at " + point_of(first));
   }
-  if (is_violated(check.partition)) {
-    violations.push_back("the weights of " + point_of(check.partition) +
-                         " do not sum to 1, but differ from it by " +
-                         format_number(check.partition.value));
-  }
-  if (is_violated(check.reproduction)) {
-    violations.push_back("the weights of " + point_of(check.reproduction) +
-                         " do not reproduce it: sum w c is off by " +
-                         format_number(check.reproduction.value) + " of the cage's size");
-  }
-  if (is_violated(check.lagrange)) {
-    violations.push_back("at " + point_of(check.lagrange) + ", where a control point is, " +
-                         weight_for(check.lagrange.control_point) + " is off by " +
-                         format_number(check.lagrange.value) +
-                         " from the 1 or 0 that it must be there");
-  }
-  if (is_violated(check.linearity)) {
-    violations.push_back("at " + point_of(check.linearity) + ", which is on the cage, " +
-                         weight_for(check.linearity.control_point) + " is off by " +
-                         format_number(check.linearity.value) +
-                         " from linear interpolation in the facet");
-  }
+  const auto add = [&](const Extreme<Dim>& error, const std::string& before,
+                       const std::string& after) {
+    // An error that is no number is a violation, too.
+    if (error.point < 0 || error.value <= kCheckTolerance) return;
+    violations.push_back(before + format_number(error.value) + after);
+  };
+  add(check.partition,
+      "the weights of " + point_of(check.partition) + " do not sum to 1, but differ from it by ",
+      "");
+  add(check.reproduction,
+      "the weights of " + point_of(check.reproduction) + " do not reproduce it: sum w c is off by ",
+      " of the cage's size");
+  add(check.lagrange,
+      "at " + point_of(check.lagrange) + ", where a control point is, " +
+          weight_for(check.lagrange.control_point) + " is off by ",
+      " from the 1 or 0 that it must be there");
+  add(check.linearity,
+      "at " + point_of(check.linearity) + ", which is on the cage, " +
+          weight_for(check.linearity.control_point) + " is off by ",
+      " from linear interpolation in the facet");
   return violations;
 }
 
-template std::vector<std::string> find_violations(const WeightCheck<2>&);
-template std::vector<std::string> find_violations(const WeightCheck<3>&);
+FLBC_INSTANTIATE_FUNCTION(find_violations)
 
 }  // namespace flbc

@@ -3,27 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "base/instantiate.h"
 #include "base/shape_checks.h"
 #include "flbc/deform.h"
-#include "flbc/errors.h"
 
 namespace flbc {
 namespace {
 
 // \return after - before, of P points
 SparseWeights difference_of(const SparseWeights& before, const SparseWeights& after) {
-  const Index num_points = after.num_points();
-  const Index n = after.num_control_points();
-  if (before.num_points() != num_points || before.num_control_points() != n) {
-    throw InputError("weights of " + std::to_string(before.num_points()) + " points and " +
-                     std::to_string(before.num_control_points()) +
-                     " control points cannot be compared with " + std::to_string(num_points) +
-                     " points and " + std::to_string(n) + " control points");
-  }
-  return SparseWeights::of(n, num_points, [&](Index p) {
+  check_size(before, after.num_control_points(), after.num_points());
+  return SparseWeights::of(after.num_control_points(), after.num_points(), [&](Index p) {
     Eigen::VectorXd difference = after.at(p);
     before.visit(p, [&](Index i, double weight) { difference[i] -= weight; });
     return difference;
@@ -73,8 +64,7 @@ ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
                       const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                       const SparseWeights& after) {
   check_poses<Dim>(poses, before.num_control_points());
-  check_size(before.num_control_points(), before.num_points(), before.num_control_points(),
-             points.cols());
+  check_size(before, before.num_control_points(), points.cols());
   validate(edges, points.cols());
   const auto difference = difference_of(before, after);
   double sum = 0, rest = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace flbc {
 namespace {
@@ -72,19 +73,13 @@ void group_the_rest(const StrongCouplings& couplings, std::vector<Index>& group,
 
 }  // namespace
 
-std::vector<Index> aggregate(const RowMatrix& matrix, Index& num_groups) {
+RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
   const StrongCouplings couplings(matrix);
-  std::vector<Index> group(matrix.rows(), kNone);
-  num_groups = 0;
+  std::vector<Index> group(matrix.rows(), kNone);  // of each unknown
+  Index num_groups = 0;
   found_groups(couplings, group, num_groups);
   join_groups(couplings, group);
   group_the_rest(couplings, group, num_groups);
-  return group;
-}
-
-RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
-  Index num_groups = 0;
-  const auto group = aggregate(matrix, num_groups);
   const Eigen::VectorXd diagonal = matrix.diagonal();
   // Gershgorin's bound of the largest eigenvalue of D^-1 A.
   double largest = 0;

@@ -10,6 +10,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "base/instantiate.h"
+
 namespace flbc::dense {
 
 using PivotedQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
@@ -30,6 +32,21 @@ template Eigen::Vector3d solve_symmetric(const Eigen::Matrix3d&, const Eigen::Ve
 template Eigen::Vector4d solve_symmetric(const Eigen::Matrix4d&, const Eigen::Vector4d&);
 
 template <int N>
+Eigen::Matrix<double, N, N> gram(const Eigen::Matrix<double, Eigen::Dynamic, N>& a,
+                                 const Eigen::Matrix<double, Eigen::Dynamic, N>& b) {
+  return a.transpose() * b;
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns) {
+  return columns * columns.transpose();
+}
+
+template decltype(gram<3>) gram<3>;
+template decltype(gram<4>) gram<4>;
+FLBC_INSTANTIATE_FUNCTION(moments)
+
+template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric) {
   if constexpr (N == 2) {
     Eigen::JacobiRotation<double> turn;
@@ -42,8 +59,7 @@ Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& sy
   }
 }
 
-template Eigen::Matrix2d principal_axes(const Eigen::Matrix2d&);
-template Eigen::Matrix3d principal_axes(const Eigen::Matrix3d&);
+FLBC_INSTANTIATE_FUNCTION(principal_axes)
 
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                               double threshold) {

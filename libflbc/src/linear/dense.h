@@ -13,6 +13,15 @@ template <int N>
 Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
                                             const Eigen::Matrix<double, N, 1>& right_side);
 
+//! a^T b of matrices of few columns. N = 3, 4.
+template <int N>
+Eigen::Matrix<double, N, N> gram(const Eigen::Matrix<double, Eigen::Dynamic, N>& a,
+                                 const Eigen::Matrix<double, Eigen::Dynamic, N>& b);
+
+//! The sum of x x^T over the columns x. N = 2, 3.
+template <int N>
+Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns);
+
 //! Orthonormal eigenvectors of a symmetric matrix, a column each. N = 2, 3.
 template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric);

@@ -21,10 +21,11 @@ struct PanelSource {
 };
 
 // Splits the supernodes into panels of about equal width.
-std::vector<PanelSource> split(const SparseFactor& factor, std::vector<panel::Panel>& panels) {
+// \param rows  of all supernodes, which the panels refer to
+std::vector<PanelSource> split(const SparseFactor& factor, std::vector<panel::Panel>& panels,
+                               std::vector<Index>& rows) {
   std::vector<PanelSource> sources;
   std::size_t entries = 0;
-  std::size_t rows = 0;
   for (const Supernode& supernode : factor.supernodes) {
     const Index count = (supernode.width + panel::kMaxWidth - 1) / panel::kMaxWidth;
     for (Index k = 0; k < count; ++k) {
@@ -32,22 +33,14 @@ std::vector<PanelSource> split(const SparseFactor& factor, std::vector<panel::Pa
       const Index end = (k + 1) * supernode.width / count;
       const Index width = end - begin;
       const Index num_below = supernode.num_rows - end;
-      panels.push_back({entries, rows + end, num_below, supernode.first + begin, width});
+      panels.push_back({entries, rows.size() + end, num_below, supernode.first + begin, width});
       sources.push_back({&supernode, begin});
       entries += std::size_t(width) * (width + 1) / 2 + std::size_t(width) * num_below;
     }
-    rows += supernode.num_rows;
-  }
-  return sources;
-}
-
-std::vector<Index> list_rows(const SparseFactor& factor) {
-  std::vector<Index> rows;
-  for (const Supernode& supernode : factor.supernodes) {
     rows.insert(rows.end(), supernode.rows, supernode.rows + supernode.num_rows);
   }
   rows.shrink_to_fit();
-  return rows;
+  return sources;
 }
 
 // D^-1 and -B D^-1 in place of D and B, in the order in which the kernel reads them.
@@ -84,8 +77,7 @@ PanelCholesky<Scalar>::PanelCholesky(const Eigen::SparseMatrix<double>& matrix,
                                      const panel::Kernel<Scalar>& kernel)
     : kernel_(&kernel) {
   SparseFactor factor = factor_sparse(matrix);
-  const auto sources = split(factor, panels_);
-  below_ = list_rows(factor);
+  const auto sources = split(factor, panels_, below_);
   if (!panels_.empty()) {
     const panel::Panel& last = panels_.back();
     entries_ = AlignedArray<Scalar>(last.entries + std::size_t(last.width) * (last.width + 1) / 2 +

@@ -173,71 +173,48 @@ struct Slice {
   std::size_t stride, begin, end;
 };
 
-template <class Scalar>
-using PanelStep = void (*)(const Panels<Scalar>&, const Panel&, const Slice<Scalar>&);
-
-template <int Width, class Scalar>
-void forward_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
+template <bool Forward, int Width, class Scalar>
+void solve_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
+  const Scalar* entries = panels.entries + panel.entries;
+  const std::int32_t* below = panels.below + panel.below;
   for_pieces<Scalar>(slice.begin, slice.end, [&](auto piece, std::size_t i) {
-    forward_piece<decltype(piece), Width>(
-        panels.entries + panel.entries, panels.below + panel.below, panel.num_below,
-        slice.rows + static_cast<std::size_t>(panel.first) * slice.stride + i, slice.rows + i,
-        slice.stride);
-  });
-}
-
-template <int Width, class Scalar>
-void backward_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
-  for_pieces<Scalar>(slice.begin, slice.end, [&](auto piece, std::size_t i) {
-    backward_piece<decltype(piece), Width>(
-        panels.entries + panel.entries, panels.below + panel.below, panel.num_below,
-        slice.rows + static_cast<std::size_t>(panel.first) * slice.stride + i, slice.rows + i,
-        slice.stride);
+    Scalar* column = slice.rows + i;
+    Scalar* own = column + static_cast<std::size_t>(panel.first) * slice.stride;
+    if constexpr (Forward) {
+      forward_piece<decltype(piece), Width>(entries, below, panel.num_below, own, column,
+                                            slice.stride);
+    } else {
+      backward_piece<decltype(piece), Width>(entries, below, panel.num_below, own, column,
+                                             slice.stride);
+    }
   });
 }
 
 // The steps for every width, so that a panel's numbers stay in registers.
 template <class Scalar>
 struct Steps {
-  PanelStep<Scalar> of_width[kMaxWidth];
+  void (*of_width[kMaxWidth])(const Panels<Scalar>&, const Panel&, const Slice<Scalar>&);
 };
 
-template <class Scalar, int... Widths>
-constexpr Steps<Scalar> forward_steps(std::integer_sequence<int, Widths...>) {
-  return {{forward_panel<Widths + 1, Scalar>...}};
+template <bool Forward, class Scalar, int... Widths>
+constexpr Steps<Scalar> steps(std::integer_sequence<int, Widths...>) {
+  return {{solve_panel<Forward, Widths + 1, Scalar>...}};
 }
 
-template <class Scalar, int... Widths>
-constexpr Steps<Scalar> backward_steps(std::integer_sequence<int, Widths...>) {
-  return {{backward_panel<Widths + 1, Scalar>...}};
-}
-
-template <class Scalar>
-void forward(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::size_t begin,
-             std::size_t end) {
+template <bool Forward, class Scalar>
+void solve(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::size_t begin,
+           std::size_t end) {
   static constexpr auto kSteps =
-      forward_steps<Scalar>(std::make_integer_sequence<int, kMaxWidth>());
+      steps<Forward, Scalar>(std::make_integer_sequence<int, kMaxWidth>());
   const Slice<Scalar> slice{rows, stride, begin, end};
   for (std::size_t p = 0; p < panels.num_panels; ++p) {
-    const Panel& panel = panels.panels[p];
+    const Panel& panel = panels.panels[Forward ? p : panels.num_panels - 1 - p];
     kSteps.of_width[panel.width - 1](panels, panel, slice);
   }
 }
 
 template <class Scalar>
-void backward(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::size_t begin,
-              std::size_t end) {
-  static constexpr auto kSteps =
-      backward_steps<Scalar>(std::make_integer_sequence<int, kMaxWidth>());
-  const Slice<Scalar> slice{rows, stride, begin, end};
-  for (std::size_t p = panels.num_panels; p-- > 0;) {
-    const Panel& panel = panels.panels[p];
-    kSteps.of_width[panel.width - 1](panels, panel, slice);
-  }
-}
-
-template <class Scalar>
-constexpr Kernel<Scalar> kKernel{forward<Scalar>, backward<Scalar>};
+constexpr Kernel<Scalar> kKernel{solve<true, Scalar>, solve<false, Scalar>};
 
 }  // namespace
 }  // namespace flbc::panel::FLBC_ISA

@@ -3,6 +3,7 @@
 //! Geometry of one cell: everything the finite-element parts of the library need.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -18,17 +19,38 @@ struct CellGeometry {
   Eigen::Matrix<double, Dim, Dim + 1> hat_gradients;
 };
 
+//! The edges of a cell from its first corner to the others.
 template <int Dim>
-CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
+Eigen::Matrix<double, Dim, Dim> cell_edges(const DomainMesh<Dim>& mesh, Index cell) {
   Eigen::Matrix<double, Dim, Dim> edges;
   for (int k = 0; k < Dim; ++k) {
     edges.col(k) = mesh.points.col(mesh.cells(k + 1, cell)) - mesh.points.col(mesh.cells(0, cell));
   }
+  return edges;
+}
+
+template <int Dim>
+CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
+  const Eigen::Matrix<double, Dim, Dim> edges = cell_edges(mesh, cell);
   CellGeometry<Dim> geometry;
   geometry.measure = std::abs(edges.determinant()) / (Dim == 2 ? 2 : 6);
   geometry.hat_gradients.template rightCols<Dim>() = edges.inverse().transpose();
   geometry.hat_gradients.col(0) = -geometry.hat_gradients.template rightCols<Dim>().rowwise().sum();
   return geometry;
+}
+
+//! How far a point is beyond the facets of a cell.
+//! \param coordinates  barycentric, of the point \param hat_gradients  of the cell
+template <int Dim>
+double distance_beyond(const Vector<Dim + 1>& coordinates,
+                       const Eigen::Matrix<double, Dim, Dim + 1>& hat_gradients) {
+  double distance = 0;
+  for (int k = 0; k <= Dim; ++k) {
+    if (coordinates[k] >= 0) continue;
+    // Times the height over the facet, which is 1 / |gradient|.
+    distance = std::max(distance, -coordinates[k] / hat_gradients.col(k).norm());
+  }
+  return distance;
 }
 
 //! Measures of all cells.

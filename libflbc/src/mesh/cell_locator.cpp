@@ -10,6 +10,7 @@
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
+#include "mesh/vertex_cells.h"
 
 namespace flbc {
 
@@ -22,8 +23,7 @@ struct CellLocator<Dim>::Grid {
   Vector<Dim> low;
   double width;
   Box count;
-  std::vector<std::size_t> start;
-  std::vector<Index> cells;
+  VertexItems<Index, std::size_t> cells;                           // of every box
   std::vector<Eigen::Matrix<double, Dim, Dim + 1>> hat_gradients;  // of every cell
 
   explicit Grid(const DomainMesh<Dim>& mesh) {
@@ -34,20 +34,15 @@ struct CellLocator<Dim>::Grid {
     const auto num_boxes = [&] { return ((extent / width).array() + 1).prod(); };
     while (num_boxes() > 8.0 * mesh.num_cells() + 64) width *= 2;
     count = (extent / width).template cast<Index>().array() + 1;
-
-    start.assign(static_cast<std::size_t>(count.template cast<double>().prod()) + 1, 0);
+    cells = items_by_vertex<Index, std::size_t>(
+        static_cast<std::size_t>(count.template cast<double>().prod()), [&](const auto& visit) {
+          for (Index s = 0; s < mesh.num_cells(); ++s) {
+            for_boxes_of(mesh, s, [&](std::size_t box) { visit(box, s); });
+          }
+        });
+    hat_gradients.reserve(mesh.num_cells());
     for (Index s = 0; s < mesh.num_cells(); ++s) {
-      for_boxes_of(mesh, s, [&](std::size_t box) { ++start[box + 1]; });
-    }
-    for (std::size_t box = 1; box < start.size(); ++box) start[box] += start[box - 1];
-    hat_gradients.resize(mesh.num_cells());
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      hat_gradients[s] = cell_geometry(mesh, s).hat_gradients;
-    }
-    cells.resize(start.back());
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      for_boxes_of(mesh, s, [&](std::size_t box) { cells[next[box]++] = s; });
+      hat_gradients.push_back(cell_geometry(mesh, s).hat_gradients);
     }
   }
 
@@ -66,13 +61,10 @@ struct CellLocator<Dim>::Grid {
 
   template <class Visit>
   void for_boxes_of(const DomainMesh<Dim>& mesh, Index cell, const Visit& visit) const {
-    Vector<Dim> from = mesh.points.col(mesh.cells(0, cell));
-    Vector<Dim> to = from;
-    for (int k = 1; k <= Dim; ++k) {
-      from = from.cwiseMin(mesh.points.col(mesh.cells(k, cell)));
-      to = to.cwiseMax(mesh.points.col(mesh.cells(k, cell)));
-    }
-    for_boxes_between(box_of(from), box_of(to), visit);
+    const Eigen::Matrix<double, Dim, Dim + 1> corners =
+        mesh.points(Eigen::all, mesh.cells.col(cell));
+    for_boxes_between(box_of(corners.rowwise().minCoeff()), box_of(corners.rowwise().maxCoeff()),
+                      visit);
   }
 
   template <class Visit>
@@ -111,12 +103,7 @@ Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double toleranc
     location.coordinates =
         hat_gradients.transpose() * (point - mesh_.points.col(mesh_.cells(0, cell)));
     location.coordinates[0] += 1;
-    // A coordinate below zero, times the height over its facet, is the distance from that facet.
-    double outside = 0;
-    for (int k = 0; k <= Dim; ++k) {
-      if (location.coordinates[k] >= 0) continue;
-      outside = std::max(outside, -location.coordinates[k] / hat_gradients.col(k).norm());
-    }
+    const double outside = distance_beyond<Dim>(location.coordinates, hat_gradients);
     if (outside < least_outside || (best.cell < 0 && outside <= tolerance)) {
       least_outside = outside;
       best = location;
@@ -124,9 +111,7 @@ Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double toleranc
   };
   grid_->for_boxes_between(grid_->box_of(point - margin), grid_->box_of(point + margin),
                            [&](std::size_t box) {
-                             for (auto k = grid_->start[box]; k < grid_->start[box + 1]; ++k) {
-                               consider(grid_->cells[k]);
-                             }
+                             for (const Index cell : grid_->cells.of(box)) consider(cell);
                            });
   return best;
 }

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/union_find.h"
 #include "flbc/errors.h"
+#include "mesh/cell_geometry.h"
 
 namespace flbc {
 namespace {
@@ -41,12 +42,7 @@ void check_numbers(const DomainMesh<Dim>& mesh) {
 // Whether gradients on the cell are rounding errors.
 template <int Dim>
 bool is_degenerate(const DomainMesh<Dim>& mesh, Index cell, double measure) {
-  double longest2 = 0;
-  for (int k = 1; k <= Dim; ++k) {
-    const Vector<Dim> edge =
-        mesh.points.col(mesh.cells(k, cell)) - mesh.points.col(mesh.cells(0, cell));
-    longest2 = std::max(longest2, edge.squaredNorm());
-  }
+  const double longest2 = cell_edges(mesh, cell).colwise().squaredNorm().maxCoeff();
   return !(std::abs(measure) > 1e-14 * std::pow(std::sqrt(longest2), Dim));
 }
 
@@ -132,11 +128,7 @@ void check_no_touching(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& top
 
 template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell) {
-  Eigen::Matrix<double, Dim, Dim> edges;
-  for (int k = 0; k < Dim; ++k) {
-    edges.col(k) = mesh.points.col(mesh.cells(k + 1, cell)) - mesh.points.col(mesh.cells(0, cell));
-  }
-  return edges.determinant() / (Dim == 2 ? 2 : 6);
+  return cell_edges(mesh, cell).determinant() / (Dim == 2 ? 2 : 6);
 }
 
 template <int Dim>

@@ -26,11 +26,7 @@ struct Bits {
     for (int shift = 1; shift < Dim; shift *= 2) rank ^= rank >> shift;
     return rank;
   }
-  static int trailing_ones(unsigned x) {
-    int count = 0;
-    for (; x & 1u; x >>= 1) ++count;
-    return count;
-  }
+  static int trailing_ones(unsigned x) { return __builtin_ctz(~x); }
 };
 
 template <int Dim>

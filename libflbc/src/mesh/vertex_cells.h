@@ -3,6 +3,7 @@
 //! Items by vertex, and the cells around each vertex.
 #pragma once
 
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -10,10 +11,10 @@
 
 namespace flbc {
 
-//! Items that belong to vertices, in one array.
-template <class Item>
+//! Items that belong to vertices, in one array. \tparam Offset  counts all items
+template <class Item, class Offset = Index>
 struct VertexItems {
-  std::vector<Index> start;  //!< V + 1
+  std::vector<Offset> start;  //!< V + 1
   std::vector<Item> items;
 
   struct Range {
@@ -22,22 +23,22 @@ struct VertexItems {
     const Item* begin() const { return first; }
     const Item* end() const { return last; }
   };
-  Range of(Index vertex) const {
+  Range of(std::size_t vertex) const {
     return {items.data() + start[vertex], items.data() + start[vertex + 1]};
   }
 };
 
 //! Sorts items by vertex, otherwise in their order. \param for_each  calls what it is given with
 //! every vertex and item; is called twice, to count and to store
-template <class Item, class ForEach>
-VertexItems<Item> items_by_vertex(Index num_vertices, const ForEach& for_each) {
-  VertexItems<Item> sorted{std::vector<Index>(num_vertices + 1, 0), {}};
+template <class Item, class Offset = Index, class ForEach>
+VertexItems<Item, Offset> items_by_vertex(std::size_t num_vertices, const ForEach& for_each) {
+  VertexItems<Item, Offset> sorted{std::vector<Offset>(num_vertices + 1, 0), {}};
   auto& start = sorted.start;
-  for_each([&](Index vertex, const Item&) { ++start[vertex + 1]; });
+  for_each([&](std::size_t vertex, const Item&) { ++start[vertex + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
   sorted.items.resize(start.back());
-  std::vector<Index> next(start.begin(), start.end() - 1);
-  for_each([&](Index vertex, const Item& item) { sorted.items[next[vertex]++] = item; });
+  std::vector<Offset> next(start.begin(), start.end() - 1);
+  for_each([&](std::size_t vertex, const Item& item) { sorted.items[next[vertex]++] = item; });
   return sorted;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 
+#include "base/instantiate.h"
 #include "cage/close_points.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -18,7 +19,8 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   for (Index p = 0; p < num_points; ++p) {
     is_inside[p] = locator.locate(points.col(p)) == Containment::kInside;
   }
-  // Of a heap of points each is paired with one before it, so that the first of them stands for all.
+  // Of a heap of points each is paired with one before it, so that the first of them stands for
+  // all.
   std::vector<Index> same(std::size_t(num_points), -1);
   for (const auto& [first, second] :
        find_close_pairs<Dim>(points, tolerance, std::size_t(num_points))) {
@@ -31,9 +33,10 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   Index count = 0;
   for (Index p = 0; p < num_points; ++p) {
     if (!is_inside[p]) continue;
-    if (same[p] >= 0) result.number[p] = result.number[same[p]];
-    if (result.number[p] >= 0) continue;
-    if (same[p] >= 0) continue;  // of one that is on the cage
+    if (same[p] >= 0) {
+      result.number[p] = result.number[same[p]];  // none if that one is on the cage
+      continue;
+    }
     result.points.col(count) = points.col(p);
     result.number[p] = count++;
   }
@@ -41,7 +44,6 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   return result;
 }
 
-template EmbeddablePoints<2> embeddable_points(const Cage<2>&, const PointList<2>&);
-template EmbeddablePoints<3> embeddable_points(const Cage<3>&, const PointList<3>&);
+FLBC_INSTANTIATE_FUNCTION(embeddable_points)
 
 }  // namespace flbc

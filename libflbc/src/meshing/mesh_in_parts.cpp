@@ -55,17 +55,6 @@ std::vector<Index> share_vertices(Index vertices, const std::vector<CagePart<Dim
   return shares;
 }
 
-// The numbers in the whole of a part's vertices: control points, embedded points, then others, of
-// which `next` is the first number that is free.
-template <int Dim>
-std::vector<Index> number_vertices(const CagePart<Dim>& part, const std::vector<Index>& embedded,
-                                   Index num_vertices, Index num_control_points, Index& next) {
-  std::vector<Index> numbers = part.control_points;
-  for (const Index i : embedded) numbers.push_back(num_control_points + i);
-  while (static_cast<Index>(numbers.size()) < num_vertices) numbers.push_back(next++);
-  return numbers;
-}
-
 template <int Dim>
 DomainMesh<Dim> mesh_part(std::size_t number, std::size_t count, const CagePart<Dim>& part,
                           const MeshingOptions<Dim>& options, const PartMesher<Dim>& mesher) {
@@ -87,14 +76,17 @@ DomainMesh<Dim> mesh_in_parts(const Cage<Dim>& cage, const MeshingOptions<Dim>& 
   if (parts.size() == 1) return mesher(cage, options);
   const auto embedded = points_in(parts, options.embedded_points);
   const auto vertices = share_vertices(options.vertices, parts);
-  Index next = cage.size() + static_cast<Index>(options.embedded_points.cols());
+  Index next = cage.size() + static_cast<Index>(options.embedded_points.cols());  // free number
   std::vector<MeshPart<Dim>> meshes;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     auto of_part = options;
     of_part.vertices = vertices[p];
     of_part.embedded_points = options.embedded_points(Eigen::all, embedded[p]);
     auto mesh = mesh_part(p, parts.size(), parts[p], of_part, mesher);
-    auto numbers = number_vertices(parts[p], embedded[p], mesh.num_vertices(), cage.size(), next);
+    // In the whole: of control points, embedded points, then others.
+    auto numbers = parts[p].control_points;
+    for (const Index i : embedded[p]) numbers.push_back(cage.size() + i);
+    while (static_cast<Index>(numbers.size()) < mesh.num_vertices()) numbers.push_back(next++);
     meshes.push_back({std::move(mesh), std::move(numbers)});
   }
   return join_parts(meshes);

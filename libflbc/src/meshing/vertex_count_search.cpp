@@ -20,10 +20,6 @@ struct Sample {
   double log_count;
 };
 
-double relative_error(Index count, Index wanted) {
-  return std::abs(double(count) / double(wanted) - 1);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -41,10 +37,7 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim>
     if (goal.is_met(best.num_vertices(), goal.good_enough)) break;
     DomainMesh<Dim> mesh = make_mesh(std::exp(log_bound));
     const Sample sample{log_bound, std::log(double(mesh.num_vertices()))};
-    if (relative_error(mesh.num_vertices(), goal.vertices) <
-        relative_error(best.num_vertices(), goal.vertices)) {
-      best = std::move(mesh);
-    }
+    if (goal.error(mesh.num_vertices()) < goal.error(best.num_vertices())) best = std::move(mesh);
 
     (sample.log_count > wanted ? too_fine : too_coarse) = log_bound;
     if (run > 0 && sample.log_bound != last.log_bound) {

@@ -14,9 +14,8 @@ struct VertexCountGoal {
   double good_enough = 0.02;  //!< relative error with which the search ends
   int max_runs = 12;          //!< of the mesher
 
-  bool is_met(Index count, double tolerance) const {
-    return std::abs(double(count) / double(vertices) - 1) <= tolerance;
-  }
+  double error(Index count) const { return std::abs(double(count) / double(vertices) - 1); }
+  bool is_met(Index count, double tolerance) const { return error(count) <= tolerance; }
 };
 
 //! Secant search in the logarithms of count and bound, kept within the bracket found so far.

@@ -65,8 +65,7 @@ typename DualNewton<Dim>::Sums DualNewton<Dim>::newton_direction(double delta) c
     return -dense::solve_symmetric<Dim + 1>(hessian_ + delta * Square::Identity(), gradient_);
   }
   Basis factors(active_.size() + Dim + 1, Dim + 1);
-  for (std::size_t k = 0; k < active_.size(); ++k) factors.row(k) = basis_.row(active_[k]);
-  factors.template bottomRows<Dim + 1>() = std::sqrt(delta) * Square::Identity();
+  factors << basis_(active_, Eigen::all), std::sqrt(delta) * Square::Identity();
   return -dense::solve_normal_equations(factors, gradient_);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "flbc/bounding_box.h"
 #include "flbc/types.h"
@@ -33,6 +34,16 @@ Eigen::VectorXd vertex_of(const HullPoint<Dim>& hull_point, Eigen::Index n) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
   for (int k = 0; k < hull_point.size; ++k) weights[hull_point.support[k]] = hull_point.weights[k];
   return weights;
+}
+
+//! The numbers of the weights above 0, ascending.
+template <class Column>
+std::vector<Index> positive_entries(const Column& weights) {
+  std::vector<Index> entries;
+  for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
+    if (weights[i] > 0) entries.push_back(i);
+  }
+  return entries;
 }
 
 }  // namespace flbc

@@ -139,7 +139,8 @@ Eigen::Index VertexLinearProgram<Dim>::choose_entering(bool first, double tolera
     least = 0;
     while (!(reduced_costs_[least] < -tolerance)) ++least;
   }
-  return is_basic(static_cast<Index>(least)) ? -1 : least;  // rounding, if it is basic
+  const bool is_basic = std::find(basis_.begin(), basis_.end(), least) != basis_.end();
+  return is_basic ? -1 : least;  // rounding, if it is basic
 }
 
 // The basic variable that reaches zero first. Among several the one with the safest pivot, or the
@@ -160,26 +161,11 @@ int VertexLinearProgram<Dim>::choose_leaving(const Sums& column, bool first) con
   return leaving;
 }
 
-template <int Dim>
-bool VertexLinearProgram<Dim>::is_basic(Index i) const {
-  return std::find(basis_.begin(), basis_.end(), i) != basis_.end();
-}
-
 // Factors the basis and finds its values.
 template <int Dim>
 void VertexLinearProgram<Dim>::factor() {
-  Square matrix;
-  for (int k = 0; k < kRows; ++k) matrix.col(k) = columns_.row(basis_[k]).transpose();
-  lu_.compute(matrix);
+  lu_.compute(columns_(basis_, Eigen::all).transpose());
   values_ = lu_.solve(Sums(Sums::Unit(0)));
-}
-
-template <int Dim>
-typename VertexLinearProgram<Dim>::Sums VertexLinearProgram<Dim>::basic_costs(
-    const Eigen::VectorXd& costs) const {
-  Sums basic;
-  for (int k = 0; k < kRows; ++k) basic[k] = costs[basis_[k]];
-  return basic;
 }
 
 // Every operation errs by half an epsilon of its result at most; there are 3 Dim + 1 of them.

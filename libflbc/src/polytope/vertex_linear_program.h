@@ -38,9 +38,8 @@ class VertexLinearProgram {
   void iterate(const Eigen::VectorXd& costs);
   Eigen::Index choose_entering(bool first, double tolerance) const;
   int choose_leaving(const Sums& column, bool first) const;
-  bool is_basic(Index i) const;
   void factor();
-  Sums basic_costs(const Eigen::VectorXd& costs) const;
+  Sums basic_costs(const Eigen::VectorXd& costs) const { return costs(basis_); }
   double rigorous_bound(const Eigen::VectorXd& costs) const;
 
   const PointList<Dim>& points_;

@@ -27,7 +27,7 @@ WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
       scale_(scale_of<Dim>(control_points)),
       center_(control_points.rowwise().mean()) {
   const PointList<Dim> offsets = scaled_offsets<Dim>(points_, center_, scale_);
-  axes_ = dense::principal_axes<Dim>(offsets * offsets.transpose());
+  axes_ = dense::principal_axes<Dim>(dense::moments<Dim>(offsets));
   const PointList<Dim> turned = axes_.transpose() * offsets;
   lengths_ = turned.rowwise().norm();
   // Along an axis without extent the coordinates are rounding errors: they must not be blown up.
@@ -146,18 +146,14 @@ bool WeightProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) c
 template <int Dim>
 void WeightProjection<Dim>::correct(const Sums& residual, bool careful,
                                     Eigen::VectorXd& weights) const {
-  std::vector<Index> support;
-  for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
-    if (weights[i] > 0) support.push_back(i);
-  }
-  typename DualNewton<Dim>::Basis rows(support.size(), Dim + 1);
-  for (std::size_t k = 0; k < support.size(); ++k) rows.row(k) = basis_.row(support[k]);
+  const auto support = positive_entries(weights);
+  const typename DualNewton<Dim>::Basis rows = basis_(support, Eigen::all);
   Eigen::VectorXd change;
   if (careful) {
     change = dense::least_squares(rows.transpose(), residual, 1e-13);
   } else {
     // A support in a facet of the hull leaves one direction open: nothing is to be moved there.
-    Eigen::Matrix<double, Dim + 1, Dim + 1> gram = rows.transpose() * rows;
+    Eigen::Matrix<double, Dim + 1, Dim + 1> gram = dense::gram<Dim + 1>(rows, rows);
     gram.diagonal().array() += 1e-15 * gram.trace();
     change = rows * dense::solve_symmetric<Dim + 1>(gram, residual);
   }

@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 
+#include "linear/dense.h"
+
 namespace flbc {
 
 template <int Dim>
@@ -18,7 +20,7 @@ BarycentricConstraints<Dim>::BarycentricConstraints(const PointList<Dim>& contro
     }
     basis_.col(k).normalize();
   }
-  inverse_r_transposed_ = (basis_.transpose() * matrix).inverse().transpose();
+  inverse_r_transposed_ = dense::gram<Dim + 1>(basis_, matrix).inverse().transpose();
 }
 
 template <int Dim>

@@ -5,34 +5,62 @@
 
 #include "flbc/domain_mesh.h"
 #include "problem/problem_geometry.h"
+#include "problem/unit_scale.h"
 
 namespace flbc {
-namespace {
 
 template <int Dim>
-LbcProblem<Dim> with_phi(LbcProblem<Dim> problem, DistanceScheme scheme) {
-  set_phi(problem, scheme);
-  return problem;
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
+                              BoundaryValues<Dim> boundary) {
+  const UnitScale<Dim> scale(cage);
+  mesh.points = scale(mesh.points);
+  cage.points = scale(cage.points);
+  return {std::move(cage), std::move(mesh), std::move(topology), std::move(boundary), {},
+          scale.factor};
 }
 
-}  // namespace
+template <int Dim>
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology) {
+  // Before scaling, so that messages give the user's coordinates.
+  auto boundary = boundary_values(cage, mesh, topology);
+  return make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary));
+}
+
+template <int Dim>
+LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh) {
+  auto topology = build_topology(mesh);
+  return make_geometry(std::move(cage), std::move(mesh), std::move(topology));
+}
+
+template <int Dim>
+DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem) {
+  if (scheme == DistanceScheme::kConstant) return {};
+  return geodesic_distances(problem.mesh, problem.topology, problem.boundary.control_vertices);
+}
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
-  require_connected(mesh);
-  return with_phi(make_geometry(std::move(cage), std::move(mesh)), scheme);
+  auto topology = build_topology(mesh);
+  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme) {
   require_connected(mesh);
-  return with_phi(make_geometry(std::move(cage), std::move(mesh), std::move(topology)), scheme);
+  auto problem = make_geometry(std::move(cage), std::move(mesh), std::move(topology));
+  set_phi(problem, scheme);
+  return problem;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                          \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);   \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>, \
+#define FLBC_INSTANTIATE(Dim)                                                            \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,  \
+                                         BoundaryValues<Dim>);                           \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>); \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                    \
+  template DistanceMatrix distances_for(DistanceScheme, const LbcProblem<Dim>&);         \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);     \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,   \
                                         DistanceScheme);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -13,6 +13,7 @@
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "polytope/nearest_point_in_hull.h"
+#include "polytope/scaling.h"
 #include "polytope/weight_projection.h"
 #include "sparsify/support_selection.h"
 
@@ -61,10 +62,7 @@ class PointSparsifier {
 
   // The influences, the largest first.
   static std::vector<Index> by_size(const Eigen::VectorXd& weights) {
-    std::vector<Index> support;
-    for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
-      if (weights[i] > 0) support.push_back(i);
-    }
+    auto support = positive_entries(weights);
     std::stable_sort(support.begin(), support.end(),
                      [&](Index a, Index b) { return weights[a] > weights[b]; });
     return support;
@@ -142,19 +140,6 @@ TellPart told_of(const SparsifyOptions& options) {
   return *StageScope::present();
 }
 
-template <int Dim>
-WeightMatrix nearest_feasible(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                              WeightMatrix weights) {
-  project_non_negative(control_points, points, weights);
-  return weights;
-}
-
-template <int Dim>
-SparseWeights nearest_feasible(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                               const SparseWeights& weights) {
-  return project_non_negative(control_points, points, weights);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -176,10 +161,16 @@ Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& poi
                  const Weights& weights, const SparsifyOptions& options) {
   validate<Dim>(options);
   const StageScope scope(told_of(options));
-  const Weights projected = [&] {
+  auto projected = weights;
+  {
     const StageScope silent({});
-    return nearest_feasible(control_points, points, weights);  // checks the input, too
-  }();
+    // Checks the input, too.
+    if constexpr (std::is_same_v<Weights, SparseWeights>) {
+      projected = project_non_negative(control_points, points, weights);
+    } else {
+      project_non_negative(control_points, points, projected);
+    }
+  }
   const PointSparsifier<Dim> sparsifier(control_points, options);
   const auto num_points = static_cast<Index>(points.cols());
   LoopProgress progress(num_points);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -27,13 +26,12 @@ using FacetPair = std::pair<Index, Index>;
 
 // ---------------------------------------------------------------------------------------------- 2D
 
-Kernel::Segment_2 segment(const Cage<2>& cage, Index edge) {
-  const auto a = cage.points.col(cage.facets(0, edge)), b = cage.points.col(cage.facets(1, edge));
-  return {Kernel::Point_2(a.x(), a.y()), Kernel::Point_2(b.x(), b.y())};
-}
-
 Kernel::Point_2 point(const Cage<2>& cage, Index vertex) {
   return {cage.points(0, vertex), cage.points(1, vertex)};
+}
+
+Kernel::Segment_2 segment(const Cage<2>& cage, Index edge) {
+  return {point(cage, cage.facets(0, edge)), point(cage, cage.facets(1, edge))};
 }
 
 // The control point of one edge, not of both, that lies on the other edge; -1 if none does.
@@ -48,18 +46,12 @@ Index vertex_on_other_edge(const Cage<2>& cage, Index e, Index f) {
   return -1;
 }
 
-bool share_a_vertex(const Cage<2>& cage, Index e, Index f) {
-  for (int k = 0; k < 2; ++k) {
-    for (int l = 0; l < 2; ++l) {
-      if (cage.facets(k, e) == cage.facets(l, f)) return true;
-    }
-  }
-  return false;
-}
-
 // Edges with a common vertex meet elsewhere only if one runs back along the other.
 bool intersect(const Cage<2>& cage, Index e, Index f) {
-  if (share_a_vertex(cage, e, f)) return vertex_on_other_edge(cage, e, f) >= 0;
+  const auto a = cage.facets.col(e), b = cage.facets.col(f);
+  const bool share_a_vertex =
+      (a.array() == b.array()).any() || (a.array() == b.reverse().array()).any();
+  if (share_a_vertex) return vertex_on_other_edge(cage, e, f) >= 0;
   return CGAL::do_intersect(segment(cage, e), segment(cage, f));
 }
 
@@ -141,12 +133,11 @@ std::vector<FacetPair> find_pairs(const Cage<3>& cage) {
 }
 
 ExactKernel::Triangle_3 exact_triangle(const Cage<3>& cage, Index triangle) {
-  std::array<ExactKernel::Point_3, 3> corners;
-  for (int k = 0; k < 3; ++k) {
+  const auto corner = [&](int k) {
     const auto p = cage.points.col(cage.facets(k, triangle));
-    corners[k] = ExactKernel::Point_3(p.x(), p.y(), p.z());
-  }
-  return {corners[0], corners[1], corners[2]};
+    return ExactKernel::Point_3(p.x(), p.y(), p.z());
+  };
+  return {corner(0), corner(1), corner(2)};
 }
 
 // The middle of what the two triangles have in common, which may be a point, segment or polygon.

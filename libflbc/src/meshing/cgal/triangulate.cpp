@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <string>
@@ -17,6 +16,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "base/messages.h"
+#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 #include "meshing/meshing_common.h"
@@ -118,23 +118,11 @@ DomainMesh<2> extract_mesh(Triangulation& triangulation, const PointList<2>& inp
   return mesh;
 }
 
-[[noreturn]] void refuse_size(std::size_t limit) {
-  throw InputError("triangles of good shape that fill this cage take more than " +
-                   std::to_string(limit) +
-                   " vertices: somewhere it is extremely thin, or points come extremely close");
-}
-
-[[noreturn]] void refuse_time(double limit) {
-  throw InputError(
-      "CGAL was stopped at the time limit of " + format_number(limit) +
-      " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage "
-      "for places that are extremely thin");
-}
-
 // \param longest_edge  bound of the edges' lengths; 0 = none
 DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, double longest_edge,
                             const MeshingOptions<2>& options) {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
+  double seconds = 0;
   Triangulation triangulation = triangulate_input(cage, input);
   mark_domain(triangulation);
   Mesher mesher(triangulation, Criteria(kShapeBound, longest_edge));
@@ -142,23 +130,28 @@ DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, doub
   // In steps, because the mesher knows no limit of its own.
   const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(options.vertices));
   while (mesher.try_one_step_refine_mesh()) {
-    if (triangulation.number_of_vertices() > limit) refuse_size(limit);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    if (seconds.count() > options.time_limit) refuse_time(options.time_limit);
+    if (triangulation.number_of_vertices() > limit) {
+      throw InputError("triangles of good shape that fill this cage take more than " +
+                       std::to_string(limit) +
+                       " vertices: somewhere it is extremely thin, or points come extremely close");
+    }
+    seconds += watch.lap();
+    if (seconds > options.time_limit) {
+      throw InputError(
+          "CGAL was stopped at the time limit of " + format_number(options.time_limit) +
+          " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage "
+          "for places that are extremely thin");
+    }
   }
   return extract_mesh(triangulation, input);
-}
-
-void refuse_self_intersections(const Cage<2>& cage) {
-  const std::vector<Defect> defects = find_self_intersections(cage, 1);
-  if (!defects.empty()) throw InputError(defects.front().message);
 }
 
 }  // namespace
 
 DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options) {
   validate(cage);
-  refuse_self_intersections(cage);
+  const auto defects = find_self_intersections(cage, 1);
+  if (!defects.empty()) throw InputError(defects.front().message);
   const PointList<2> input = collect_input_points(cage, options);
 
   DomainMesh<2> mesh = mesh_interior(cage, input, 0, options);

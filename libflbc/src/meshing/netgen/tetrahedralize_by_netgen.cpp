@@ -92,12 +92,6 @@ class Netgen {
   std::string complaint_;
 };
 
-void send_complaint(const std::string& complaint, const ByteSink& send) {
-  const Header header{NetgenEnd::kNoLibrary, static_cast<std::int64_t>(complaint.size()), 0};
-  send(&header, sizeof header);
-  send(complaint.data(), complaint.size());
-}
-
 void send_mesh(const Netgen& netgen, nglib::Ng_Mesh* mesh, const ByteSink& send) {
   const Header header{NetgenEnd::kDone, netgen.num_points(mesh), netgen.num_elements(mesh)};
   send(&header, sizeof header);
@@ -118,7 +112,12 @@ void send_mesh(const Netgen& netgen, nglib::Ng_Mesh* mesh, const ByteSink& send)
 // Runs in the child: Netgen ends the process on some surfaces.
 void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send) {
   const Netgen netgen;
-  if (!netgen.complaint().empty()) return send_complaint(netgen.complaint(), send);
+  const std::string& complaint = netgen.complaint();
+  if (!complaint.empty()) {
+    const Header header{NetgenEnd::kNoLibrary, static_cast<std::int64_t>(complaint.size()), 0};
+    send(&header, sizeof header);
+    return send(complaint.data(), complaint.size());
+  }
   netgen.init();
   nglib::Ng_Mesh* mesh = netgen.new_mesh();
   for (Index i = 0; i < surface.size(); ++i) {
@@ -201,10 +200,8 @@ struct Task {
 double surface_area(const Cage<3>& cage) {
   double area = 0;
   for (Index t = 0; t < cage.facets.cols(); ++t) {
-    const Vector<3> a = cage.points.col(cage.facets(0, t));
-    const Vector<3> b = cage.points.col(cage.facets(1, t));
-    const Vector<3> c = cage.points.col(cage.facets(2, t));
-    area += (b - a).cross(c - a).norm() / 2;
+    const Eigen::Matrix3d corners = cage.points(Eigen::all, cage.facets.col(t));
+    area += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
   }
   return area;
 }
@@ -235,12 +232,6 @@ void check_surface_is_kept(const Task& task, const Cage<3>& surface, const Domai
                    format_number(volume));
 }
 
-DomainMesh<3> fill_once(const Task& task, const Cage<3>& surface, double longest, double seconds) {
-  DomainMesh<3> mesh = run_netgen(surface, longest, seconds, task.time_limit);
-  check_surface_is_kept(task, surface, mesh);
-  return mesh;
-}
-
 // Netgen fails on some surfaces and not on others of the same shape: coarse triangles on thin walls
 // are the worst. \param longest  edges to try in turn, all within one limit of time
 DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest) {
@@ -250,7 +241,9 @@ DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest
     // Where this has too many points, shorter edges would have still more.
     const auto surface = subdivide_surface(task.oriented.cage, longest[k], kMaxSurfacePoints);
     try {
-      return fill_once(task, surface, longest[k], left);
+      auto mesh = run_netgen(surface, longest[k], left, task.time_limit);
+      check_surface_is_kept(task, surface, mesh);
+      return mesh;
     } catch (const InputError&) {
       left -= watch.lap();
       if (k + 1 == longest.size() || left <= 0) throw;

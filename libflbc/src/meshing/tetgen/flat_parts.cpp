@@ -29,115 +29,96 @@ class CellComplex {
   using Corners = std::array<Index, 4>;
   using Simplex = std::vector<Index>;  //!< an edge or triangle of the mesh
 
-  explicit CellComplex(const DomainMesh<3>& mesh);
+  explicit CellComplex(const DomainMesh<3>& mesh)
+      : cells_at_(static_cast<std::size_t>(mesh.num_vertices())) {
+    for (Index v = 0; v < mesh.num_vertices(); ++v) points_.push_back(mesh.points.col(v));
+    for (Index c = 0; c < mesh.num_cells(); ++c) {
+      add_cell({mesh.cells(0, c), mesh.cells(1, c), mesh.cells(2, c), mesh.cells(3, c)});
+    }
+  }
 
   const Vector<3>& point(Index vertex) const { return points_[vertex]; }
   Index num_vertices() const { return static_cast<Index>(points_.size()); }
   Index num_cells() const { return static_cast<Index>(cells_.size()); }
   bool is_alive(Index cell) const { return is_alive_[cell]; }
-  bool is_used(Index vertex) const;
 
-  const Corners& corners(Index cell) const { return cells_[cell]; }
+  bool is_used(Index vertex) const {
+    const std::vector<Index>& cells = cells_at_[vertex];
+    return std::any_of(cells.begin(), cells.end(), [&](Index cell) { return is_alive(cell); });
+  }
 
-  Index add_vertex(const Vector<3>& point);
-  void remove_cell(Index cell) { is_alive_[cell] = false; }
+  Index add_vertex(const Vector<3>& point) {
+    points_.push_back(point);
+    cells_at_.emplace_back();
+    return num_vertices() - 1;
+  }
 
   // Divides every cell that has the simplex at a vertex lying on it.
-  void split(const Simplex& simplex, Index vertex);
+  void split(const Simplex& simplex, Index vertex) {
+    const std::vector<Index> candidates = cells_at_[simplex.front()];  // a copy: it grows below
+    for (Index cell : candidates) {
+      const Corners whole = cells_[cell];
+      const bool has_simplex = std::all_of(simplex.begin(), simplex.end(), [&](Index corner) {
+        return std::find(whole.begin(), whole.end(), corner) != whole.end();
+      });
+      if (!is_alive(cell) || !has_simplex) continue;
+      is_alive_[cell] = false;
+      for (Index replaced : simplex) {
+        Corners part = whole;
+        std::replace(part.begin(), part.end(), replaced, vertex);
+        add_cell(part);
+      }
+    }
+  }
 
   // The triangles at a vertex that belong to one cell only, in no particular but a fixed order.
-  std::vector<Simplex> boundary_faces_at(Index vertex) const;
+  std::vector<Simplex> boundary_faces_at(Index vertex) const {
+    std::map<Simplex, int> num_cells_of;
+    for (Index cell : cells_at_[vertex]) {
+      if (!is_alive(cell)) continue;
+      for (Index opposite : cells_[cell]) {
+        if (opposite == vertex) continue;
+        Simplex face;
+        std::copy_if(cells_[cell].begin(), cells_[cell].end(), std::back_inserter(face),
+                     [&](Index corner) { return corner != opposite; });
+        std::sort(face.begin(), face.end());
+        ++num_cells_of[face];
+      }
+    }
+    std::vector<Simplex> boundary;
+    for (const auto& [face, count] : num_cells_of) {
+      if (count == 1) boundary.push_back(face);
+    }
+    return boundary;
+  }
 
   // Vertices of no cell are kept.
-  DomainMesh<3> to_mesh() const;
+  DomainMesh<3> to_mesh() const {
+    DomainMesh<3> mesh;
+    mesh.points.resize(3, num_vertices());
+    for (Index v = 0; v < num_vertices(); ++v) mesh.points.col(v) = points_[v];
+    mesh.cells.resize(4, std::count(is_alive_.begin(), is_alive_.end(), true));
+    Index count = 0;
+    for (Index cell = 0; cell < num_cells(); ++cell) {
+      if (!is_alive(cell)) continue;
+      for (int k = 0; k < 4; ++k) mesh.cells(k, count) = cells_[cell][k];
+      ++count;
+    }
+    return mesh;
+  }
 
  private:
-  void add_cell(const Corners& corners);
+  void add_cell(const Corners& corners) {
+    for (Index vertex : corners) cells_at_[vertex].push_back(num_cells());
+    cells_.push_back(corners);
+    is_alive_.push_back(true);
+  }
 
   std::vector<Vector<3>> points_;
   std::vector<Corners> cells_;
   std::vector<bool> is_alive_;
   std::vector<std::vector<Index>> cells_at_;  // per vertex, removed ones included
 };
-
-bool contains(const CellComplex::Corners& corners, Index vertex) {
-  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-}
-
-CellComplex::CellComplex(const DomainMesh<3>& mesh)
-    : cells_at_(static_cast<std::size_t>(mesh.num_vertices())) {
-  for (Index v = 0; v < mesh.num_vertices(); ++v) points_.push_back(mesh.points.col(v));
-  for (Index c = 0; c < mesh.num_cells(); ++c) {
-    add_cell({mesh.cells(0, c), mesh.cells(1, c), mesh.cells(2, c), mesh.cells(3, c)});
-  }
-}
-
-bool CellComplex::is_used(Index vertex) const {
-  const std::vector<Index>& cells = cells_at_[vertex];
-  return std::any_of(cells.begin(), cells.end(), [&](Index cell) { return is_alive(cell); });
-}
-
-Index CellComplex::add_vertex(const Vector<3>& point) {
-  points_.push_back(point);
-  cells_at_.emplace_back();
-  return num_vertices() - 1;
-}
-
-void CellComplex::split(const Simplex& simplex, Index vertex) {
-  const std::vector<Index> candidates = cells_at_[simplex.front()];  // a copy: it grows below
-  for (Index cell : candidates) {
-    const Corners whole = cells_[cell];
-    const bool has_simplex = std::all_of(simplex.begin(), simplex.end(),
-                                         [&](Index corner) { return contains(whole, corner); });
-    if (!is_alive(cell) || !has_simplex) continue;
-    remove_cell(cell);
-    for (Index replaced : simplex) {
-      Corners part = whole;
-      std::replace(part.begin(), part.end(), replaced, vertex);
-      add_cell(part);
-    }
-  }
-}
-
-std::vector<CellComplex::Simplex> CellComplex::boundary_faces_at(Index vertex) const {
-  std::map<Simplex, int> num_cells_of;
-  for (Index cell : cells_at_[vertex]) {
-    if (!is_alive(cell)) continue;
-    for (Index opposite : cells_[cell]) {
-      if (opposite == vertex) continue;
-      Simplex face;
-      std::copy_if(cells_[cell].begin(), cells_[cell].end(), std::back_inserter(face),
-                   [&](Index corner) { return corner != opposite; });
-      std::sort(face.begin(), face.end());
-      ++num_cells_of[face];
-    }
-  }
-  std::vector<Simplex> boundary;
-  for (const auto& [face, count] : num_cells_of) {
-    if (count == 1) boundary.push_back(face);
-  }
-  return boundary;
-}
-
-DomainMesh<3> CellComplex::to_mesh() const {
-  DomainMesh<3> mesh;
-  mesh.points.resize(3, num_vertices());
-  for (Index v = 0; v < num_vertices(); ++v) mesh.points.col(v) = points_[v];
-  mesh.cells.resize(4, std::count(is_alive_.begin(), is_alive_.end(), true));
-  Index count = 0;
-  for (Index cell = 0; cell < num_cells(); ++cell) {
-    if (!is_alive(cell)) continue;
-    for (int k = 0; k < 4; ++k) mesh.cells(k, count) = cells_[cell][k];
-    ++count;
-  }
-  return mesh;
-}
-
-void CellComplex::add_cell(const Corners& corners) {
-  for (Index vertex : corners) cells_at_[vertex].push_back(num_cells());
-  cells_.push_back(corners);
-  is_alive_.push_back(true);
-}
 
 // Cells are flat below this part of the cube of their longest edge: TetGen's worst other cells are
 // above 1e-6, and rounding makes those of four coplanar points below 1e-14. Also the relative
@@ -246,10 +227,8 @@ void put_back(Index vertex, CellComplex& complex, std::vector<Simplex>& faces) {
 }
 
 Vector<3> unit_normal(const Cage<3>& cage, Index facet) {
-  const Vector<3> a = cage.points.col(cage.facets(0, facet));
-  const Vector<3> b = cage.points.col(cage.facets(1, facet));
-  const Vector<3> c = cage.points.col(cage.facets(2, facet));
-  return (b - a).cross(c - a).normalized();
+  const Eigen::Matrix3d corners = cage.points(Eigen::all, cage.facets.col(facet));
+  return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
 }
 
 // The edges of the cage between coplanar facets, with a margin.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/tetgen/tetgen_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <new>
 
 #define TETLIBRARY
@@ -25,11 +25,10 @@ struct Header {
 };
 
 // TetGen's input object deletes its arrays itself.
-void fill_points(const PointList<3>& points, tetgenio& io) {
-  io.firstnumber = 0;
-  io.numberofpoints = static_cast<int>(points.cols());
-  io.pointlist = new REAL[points.size()];
-  std::memcpy(io.pointlist, points.data(), sizeof(double) * std::size_t(points.size()));
+REAL* copy_of(const PointList<3>& points) {
+  REAL* const copy = new REAL[points.size()];
+  std::copy_n(points.data(), points.size(), copy);
+  return copy;
 }
 
 void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
@@ -47,19 +46,15 @@ void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
   }
 }
 
-void fill_holes(const PointList<3>& holes, tetgenio& io) {
-  if (holes.cols() == 0) return;
-  io.numberofholes = static_cast<int>(holes.cols());
-  io.holelist = new REAL[holes.size()];
-  std::memcpy(io.holelist, holes.data(), sizeof(double) * std::size_t(holes.size()));
-}
-
 // Runs in the child: a failing TetGen frees its memory twice and takes the process with it.
 void tetrahedralize_and_send(const TetgenInput& input, std::string switches, const ByteSink& send) {
   tetgenio in, out;
-  fill_points(input.points, in);
+  in.firstnumber = 0;
+  in.numberofpoints = static_cast<int>(input.points.cols());
+  in.pointlist = copy_of(input.points);
   fill_facets(input.triangles, in);
-  fill_holes(input.holes, in);
+  in.numberofholes = static_cast<int>(input.holes.cols());
+  in.holelist = copy_of(input.holes);
   try {
     ::tetrahedralize(switches.data(), &in, &out);
   } catch (int reason) {

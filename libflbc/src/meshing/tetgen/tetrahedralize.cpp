@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -11,10 +10,12 @@
 #include <vector>
 
 #include "base/messages.h"
+#include "base/stopwatch.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "mesh/cell_geometry.h"
 #include "meshing/meshing_common.h"
 #include "meshing/tetgen/flat_parts.h"
 #include "meshing/tetgen/tetgen_run.h"
@@ -69,11 +70,10 @@ std::string quality_switches(CoplanarFacets coplanar, double ratio, double large
 std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
   std::map<Index, std::pair<double, Vector<3>>> largest;
   for (Index cell = 0; cell < filled.mesh.num_cells(); ++cell) {
-    Vector<3> centroid = Vector<3>::Zero();
-    for (int k = 0; k < 4; ++k) centroid += filled.mesh.points.col(filled.mesh.cells(k, cell)) / 4;
+    const Vector<3> center = centroid(filled.mesh.points, filled.mesh.cells, cell);
     const double volume = std::abs(signed_measure(filled.mesh, cell));
-    auto& entry = largest.try_emplace(filled.regions[cell], 0.0, centroid).first->second;
-    if (volume > entry.first) entry = {volume, centroid};
+    auto& entry = largest.try_emplace(filled.regions[cell], 0.0, center).first->second;
+    if (volume > entry.first) entry = {volume, center};
   }
   std::map<Index, Vector<3>> points;
   for (const auto& [region, entry] : largest) points.emplace(region, entry.second);
@@ -84,14 +84,10 @@ std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
 // regions are cavities, so that later runs do not waste cells on them.
 PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
   const std::vector<Index> shells = facet_shells(cage);
-  const bool has_one_shell =
-      std::all_of(shells.begin(), shells.end(), [](Index s) { return s == 0; });
-  if (has_one_shell) return PointList<3>(3, 0);
-
-  const TetgenOutput filled =
-      run_tetgen({cage.points, cage.facets, PointList<3>(3, 0)}, "pAQJ", time_limit);
-  const CageLocator<3> locator(cage, 0);
   PointList<3> cavities(3, 0);
+  if (*std::max_element(shells.begin(), shells.end()) == 0) return cavities;
+  const TetgenOutput filled = run_tetgen({cage.points, cage.facets, cavities}, "pAQJ", time_limit);
+  const CageLocator<3> locator(cage, 0);
   for (const auto& [region, point] : points_in_regions(filled)) {
     if (locator.locate(point) != Containment::kOutside) continue;
     cavities.conservativeResize(3, cavities.cols() + 1);
@@ -146,11 +142,6 @@ DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMa
 // Without a limit, cells of good shape in a thin wall fill the memory.
 constexpr Index kMostPoints = 1000000;
 
-[[noreturn]] void refuse_count(Index most_points) {
-  throw InputError("cells of good shape would take more than " + std::to_string(most_points) +
-                   " vertices in this cage");
-}
-
 // Where to look for the cause; empty if the cage is not thin anywhere.
 std::string describe_thinnest(const Cage<3>& cage) {
   const auto place = thinnest_place(cage);
@@ -177,7 +168,10 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
   const auto make_mesh = [&](double ratio, double largest_volume) {
     const std::string switches = quality_switches(coplanar, ratio, largest_volume, most_points);
     DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
-    if (mesh.num_vertices() - task.input.points.cols() >= most_points) refuse_count(most_points);
+    if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
+      throw InputError("cells of good shape would take more than " + std::to_string(most_points) +
+                       " vertices in this cage");
+    }
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
   };
@@ -218,7 +212,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
                   options.roughly};
 
   const bool may_keep_edges = !options.roughly && has_coplanar_facets(cage);
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   DomainMesh<3> mesh;
   std::optional<TooFewVertices> too_few;
   try {
@@ -230,8 +224,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
   }
   if (may_keep_edges) {
     // Far more than it takes unless it runs for ever.
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * seconds.count()), mesh);
+    keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * watch.lap()), mesh);
   }
   if (too_few && mesh.num_vertices() == 0) throw TooFewVertices(*too_few);
   finish_mesh(mesh, static_cast<Index>(points.cols()));

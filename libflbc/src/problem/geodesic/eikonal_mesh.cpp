@@ -78,8 +78,7 @@ struct CellLengths {
   double squared[Dim + 1][Dim + 1];
 
   CellLengths(const DomainMesh<Dim>& mesh, Index s) {
-    Eigen::Matrix<double, Dim, Dim + 1> corners;
-    for (int k = 0; k <= Dim; ++k) corners.col(k) = mesh.points.col(mesh.cells(k, s));
+    const Eigen::Matrix<double, Dim, Dim + 1> corners = mesh.points(Eigen::all, mesh.cells.col(s));
     for (int k = 0; k <= Dim; ++k) {
       squared[k][k] = 0;
       for (int l = 0; l < k; ++l) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
@@ -216,9 +217,6 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sp
   return whole;
 }
 
-template Solution solve_parts(const Cage<2>&, const DomainMesh<2>&, bool, const Reporter&,
-                              const SolvePart<2>&);
-template Solution solve_parts(const Cage<3>&, const DomainMesh<3>&, bool, const Reporter&,
-                              const SolvePart<3>&);
+FLBC_INSTANTIATE_FUNCTION(solve_parts)
 
 }  // namespace flbc

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,19 +11,22 @@
 
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
+#include "flbc/non_negative.h"
+#include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "problem/problem_geometry.h"
-#include "solver/api/finish.h"
 #include "solver/api/solve_parts.h"
 #include "solver/multilevel/cascade.h"
-#include "solver/multilevel/moving_distances.h"
+#include "solver/multilevel/coarse_distances.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/plan/choices.h"
+#include "solver/run/run.h"
 
 namespace flbc {
 namespace {
@@ -66,6 +70,69 @@ std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
   return make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
 }
 
+template <int Dim>
+void make_non_negative(const LbcProblem<Dim>& problem, Weights& weights) {
+  const auto interior = problem.boundary.interior_vertices();
+  if (weights.is_sparse()) {
+    weights.sparse =
+        project_non_negative(problem.cage.points, problem.mesh.points, weights.sparse, interior);
+  } else {
+    project_non_negative(problem.cage.points, problem.mesh.points, weights.dense, interior);
+  }
+}
+
+template <int Dim>
+Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
+                    const WeightMatrix& weights) {
+  auto certificate = run.certify(weights);
+  certificate.objective = unscaled(problem, certificate.objective);
+  // Dividing by the power of the scale takes a few roundings, which must not make the bound larger.
+  constexpr double kRoundings = 4 * std::numeric_limits<double>::epsilon();
+  certificate.lower_bound = unscaled(problem, certificate.lower_bound) * (1 - kRoundings);
+  return certificate;
+}
+
+template <int Dim, class AnyWeights>
+void measure(const LbcProblem<Dim>& problem, const AnyWeights& weights, SolveReport& report) {
+  report.objective = problem.phi.size() > 0
+                         ? unscaled(problem, objective(problem.mesh, problem.phi, weights))
+                         : std::numeric_limits<double>::quiet_NaN();
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
+}
+
+//! Makes a solution of the weights that a run has left: non-negative rows, certificate, measures.
+//! They become sparse last, because projecting sparse weights takes more memory than the iteration.
+//! \param options  resolved
+template <int Dim>
+Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
+                const SolverOptions& options, const Reporter& reporter, SolveReport report) {
+  Stopwatch watch;
+  if (!options.sparse) weights = {std::move(weights).to_dense(), {}};
+  if (options.non_negative != NonNegative::kOff) {
+    const StageScope scope(reporter.stage(Stage::kNonNegative));
+    make_non_negative(problem, weights);
+  }
+  report.seconds.recover += watch.lap();
+  if (options.certify || report.criterion == Criterion::kGap) {
+    const StageScope scope(reporter.stage(Stage::kCertificate));
+    report.certificate = weights.is_sparse() ? certify(problem, run, weights.sparse.dense())
+                                             : certify(problem, run, weights.dense);
+  }
+  report.seconds.certify = watch.lap();
+  Solution solution;
+  if (options.sparse) {
+    solution.sparse_weights =
+        weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(weights.dense);
+    weights = {};
+    measure(problem, solution.sparse_weights, report);
+  } else {
+    solution.weights = std::move(weights.dense);
+    measure(problem, solution.weights, report);
+  }
+  solution.report = std::move(report);
+  return solution;
+}
+
 //! \param options  resolved
 template <int Dim>
 Solution solve_once(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
@@ -84,7 +151,8 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
   require_valid_setup(given, bool(mesher));
   const auto options = resolve(given);
   const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                                   const Reporter& reporter, const MeshTopology<Dim>* facets) {
+                                   const Reporter& reporter) {
+    const auto* facets = &domain == &mesh ? topology : nullptr;
     const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
     auto ready = set_up<Dim>(part, domain, options, mesher, reporter, nullptr, facets);
     auto solution = solve_once(ready.problem, std::move(ready.coarse), options, reporter);
@@ -93,12 +161,8 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
     return solution;
   };
   const Reporter reporter(observer);
-  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter, topology);
-  return solve_parts<Dim>(
-      cage, mesh, options.sparse, reporter,
-      [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& of_part) {
-        return solve_connected(part, domain, of_part, nullptr);
-      });
+  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter);
+  return solve_parts<Dim>(cage, mesh, options.sparse, reporter, solve_connected);
 }
 
 void validate(const Budget& budget) {

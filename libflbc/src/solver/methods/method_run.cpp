@@ -16,7 +16,6 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
-#include "solver/plan/published_scale.h"
 #include "solver/run/run.h"
 
 namespace flbc {
@@ -161,7 +160,7 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
                      : active_set::active_from(*problem_, *start.from,
                                                active_set::threshold_for(*options.tolerance));
   if (!plan::active_set_pays(active_set::density(*problem_, active), options)) return false;
-  const auto from = cold ? harmonic.state() : start.from->start();
+  const auto from = cold ? harmonic.start : start.from->start();
   active_set::Settings settings;
   settings.penalty = options.penalty ? *options.penalty : cold ? plan::kFirstPenalty : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;

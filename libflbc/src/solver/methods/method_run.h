@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "solver/methods/active_set/cold_start.h"
+#include "solver/methods/active_set/active_lists.h"
 #include "solver/run/iteration.h"
 #include "solver/run/reporter.h"
 #include "solver/run/stop_rule.h"

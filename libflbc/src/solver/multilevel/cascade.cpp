@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/multilevel/cascade.h"
 
-#include <memory>
+#include <optional>
 #include <utility>
 
+#include "base/instantiate.h"
 #include "base/stopwatch.h"
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/plan/choices.h"
@@ -12,103 +13,71 @@
 namespace flbc {
 namespace {
 
-// The levels, and the duals of the finest one solved so far.
+// \param below  the next coarser level, null for none \param finer_levels  yet to be solved
+// \param duals  of the level below, become those of this one \return whether it was stopped
 template <int Dim>
-class Cascade {
- public:
-  Cascade(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> levels,
-          const SolverOptions& options, const Reporter& reporter)
-      : problem_(problem), levels_(std::move(levels)), options_(options), reporter_(reporter) {}
-
-  //! Solves the coarse levels, coarsest first.
-  void climb() {
-    while (num_solved_ < levels_.size() && !stopped_) solve_level(levels_[num_solved_]);
-  }
-
-  Weights solve_finest(MethodRun<Dim>& run, SolveReport& report) {
-    Stopwatch watch;
-    auto options = options_;
-    if (stopped_) options.max_iterations = 1;  // for weights that belong to this mesh
-    std::unique_ptr<Transfer<Dim>> transfer;
-    if (num_solved_ > 0) {
-      auto& below = levels_[num_solved_ - 1];
-      transfer = std::make_unique<Transfer<Dim>>(below.problem, duals_, problem_,
-                                                 std::move(below.finest_vertices));
-    }
-    const double placing = watch.lap();
-    const auto forget_levels = [&] {
-      transfer.reset();
-      duals_ = {};
-      for (auto& level : levels_) level = {{}, {}, level.report};
-    };
-    auto weights = run.solve(options, reporter_, report, {transfer.get(), nullptr, forget_levels});
-    if (stopped_) report.status = SolveStatus::kStopped;
-    report.seconds.solve += placing;
-    for (std::size_t k = 0; k < levels_.size(); ++k) {
-      const auto& level = levels_[k].report;
-      report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
-      if (k < num_solved_) report.coarse_levels.push_back(level);
-    }
-    return weights;
-  }
-
- private:
-  void solve_level(CoarseProblem<Dim>& level) {
-    Stopwatch watch;
-    auto options = options_;
-    *options.tolerance *= options_.coarse_levels.looseness;
-    const auto finer_levels = static_cast<int>(levels_.size() - num_solved_);
-    std::unique_ptr<Transfer<Dim>> transfer;
-    if (num_solved_ > 0) {
-      transfer =
-          std::make_unique<Transfer<Dim>>(levels_[num_solved_ - 1].problem, duals_, level.problem);
-    }
-    SolveReport report;
-    MethodRun<Dim> run(level.problem);
-    const auto started = [&level] { level.cold.reset(); };
-    run.solve(options, reporter_.with_more_to_come(finer_levels), report,
-              {transfer.get(), level.cold ? &*level.cold : nullptr, started, true});
-    stopped_ = report.status == SolveStatus::kStopped;
-    duals_ = run.duals(handed_on(level.problem));
-    level.problem.phi = {};  // finer ones have theirs
-    level.report.iterations = report.iterations;
-    level.report.solve_seconds = watch.lap();
-    ++num_solved_;
-  }
-
+bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int finer_levels,
+                 const SolverOptions& given, const Reporter& reporter, Duals<Dim>& duals) {
+  Stopwatch watch;
+  auto options = given;
+  *options.tolerance *= given.coarse_levels.looseness;
+  std::optional<Transfer<Dim>> transfer;
+  if (below != nullptr) transfer.emplace(below->problem, duals, level.problem);
+  SolveReport report;
+  MethodRun<Dim> run(level.problem);
+  const auto started = [&level] { level.cold.reset(); };
+  run.solve(options, reporter.with_more_to_come(finer_levels), report,
+            {transfer ? &*transfer : nullptr, level.cold ? &*level.cold : nullptr, started, true});
   // An active set on the finer mesh reads duals only where weights are.
-  double handed_on(const LbcProblem<Dim>& problem) const {
-    return plan::active_set(plan::sizes_of(problem), options_)
-               ? active_set::threshold_for(*options_.tolerance)
-               : 0;
-  }
-
-  const LbcProblem<Dim>& problem_;
-  std::vector<CoarseProblem<Dim>> levels_;
-  const SolverOptions& options_;
-  const Reporter& reporter_;
-  Duals<Dim> duals_;  // of the finest level solved so far
-  std::size_t num_solved_ = 0;
-  bool stopped_ = false;
-};
+  const bool on_active_set = plan::active_set(plan::sizes_of(level.problem), given);
+  duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
+  level.problem.phi = {};  // finer ones have theirs
+  level.report.iterations = report.iterations;
+  level.report.solve_seconds = watch.lap();
+  return report.status == SolveStatus::kStopped;
+}
 
 }  // namespace
 
 template <int Dim>
 Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& options,
+                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& given,
                          const Reporter& reporter, SolveReport& report) {
-  Cascade<Dim> cascade(problem, std::move(levels), options, reporter);
-  cascade.climb();
-  return cascade.solve_finest(run, report);
+  Duals<Dim> duals;
+  std::size_t num_solved = 0;
+  CoarseProblem<Dim>* below = nullptr;
+  bool stopped = false;
+  while (num_solved < levels.size() && !stopped) {
+    auto& level = levels[num_solved];
+    const auto finer_levels = static_cast<int>(levels.size() - num_solved++);
+    stopped = solve_level(level, below, finer_levels, given, reporter, duals);
+    below = &level;
+  }
+  Stopwatch watch;
+  auto options = given;
+  if (stopped) options.max_iterations = 1;  // for weights that belong to this mesh
+  std::optional<Transfer<Dim>> transfer;
+  if (below != nullptr) {
+    transfer.emplace(below->problem, duals, problem, std::move(below->finest_vertices));
+  }
+  const double placing = watch.lap();
+  const auto forget_levels = [&] {
+    transfer.reset();
+    duals = {};
+    for (auto& level : levels) level = {{}, {}, level.report};
+  };
+  auto weights = run.solve(options, reporter, report,
+                           {transfer ? &*transfer : nullptr, nullptr, forget_levels});
+  if (stopped) report.status = SolveStatus::kStopped;
+  report.seconds.solve += placing;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const auto& level = levels[k].report;
+    report.seconds.solve += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
+    if (k < num_solved) report.coarse_levels.push_back(level);
+  }
+  return weights;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                              \
-  template Weights solve_in_cascade(const LbcProblem<Dim>&, MethodRun<Dim>&,               \
-                                    std::vector<CoarseProblem<Dim>>, const SolverOptions&, \
-                                    const Reporter&, SolveReport&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(solve_in_cascade)
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/instantiate.h"
 #include "base/stopwatch.h"
 #include "flbc/domain_mesh.h"
 #include "problem/geodesic/bounded_distances.h"
@@ -34,17 +35,6 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// The vertices at which every control point is active.
-template <int Dim>
-VertexItems<Index> needed_by(const LbcProblem<Dim>& geometry,
-                             const active_set::ActiveLists& active) {
-  return items_by_vertex<Index>(geometry.num_control_points(), [&](const auto& visit) {
-    for (Index v = 0; v < geometry.mesh.num_vertices(); ++v) {
-      for (const auto i : active.of(v)) visit(i, v);
-    }
-  });
-}
-
 // Distances as far as the solution on the active set needs them, if there is to be one.
 template <int Dim>
 std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
@@ -55,29 +45,28 @@ std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
   auto cold = active_set::cold_start(geometry, plan::linear_solver(sizes, options));
   const double density = active_set::density(geometry, cold.active);
   if (!plan::active_set_pays(density, options)) return {};
-  auto bounded =
-      bounded_distances(geometry.mesh, geometry.topology, geometry.boundary.control_vertices,
-                        needed_by(geometry, cold.active));
+  const auto needed = items_by_vertex<Index>(sizes.control_points, [&](const auto& visit) {
+    for (Index v = 0; v < sizes.vertices; ++v) {
+      for (const auto i : cold.active.of(v)) visit(i, v);
+    }
+  });
+  auto bounded = bounded_distances(geometry.mesh, geometry.topology,
+                                   geometry.boundary.control_vertices, needed);
   level.cold = std::move(cold);
   level.reach = std::move(bounded.reach);
   return std::move(bounded.distances);
 }
 
-// They are checked where the finest mesh takes them over.
-template <int Dim>
-DistanceMatrix inherit_distances(const CoarseProblem<Dim>& below, CoarseProblem<Dim>& level) {
-  level.reach = below.reach;
-  return distances_from(below.problem, level.problem,
-                        places_in(below.problem, level.problem.mesh.points));
-}
-
-//! \param below  the next coarser problem, null for none
+// Those that are inherited are checked where the finest mesh takes them over.
+// \param below  the next coarser problem, null for none
 template <int Dim>
 void measure_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
                  CoarseProblem<Dim>& level) {
   std::optional<DistanceMatrix> distances;
   if (use.distances && below != nullptr) {
-    distances = inherit_distances(*below, level);
+    level.reach = below->reach;
+    distances = distances_from(below->problem, level.problem,
+                               places_in(below->problem, level.problem.mesh.points));
   } else if (use.distances && use.start) {
     distances = measure_on_active_set(level, options);
   }
@@ -119,14 +108,7 @@ std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& prob
   return coarse;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                            \
-  template DistanceMatrix distances_from(const LbcProblem<Dim>&, const LbcProblem<Dim>&, \
-                                         const std::vector<Location<Dim>>&);             \
-  template std::vector<CoarseProblem<Dim>> make_coarse_problems(                         \
-      const LbcProblem<Dim>&, const CoarseMesher<Dim>&, const std::vector<Index>&,       \
-      const SolverOptions&, CoarseUse);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(distances_from)
+FLBC_INSTANTIATE_FUNCTION(make_coarse_problems)
 
 }  // namespace flbc

@@ -11,7 +11,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
-#include "solver/methods/active_set/cold_start.h"
+#include "solver/methods/active_set/active_lists.h"
 
 namespace flbc {
 

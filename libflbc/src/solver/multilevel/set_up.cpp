@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/multilevel/set_up.h"
 
+#include <omp.h>
+
+#include <future>
+#include <memory>
 #include <utility>
 
+#include "base/instantiate.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "flbc/domain_mesh.h"
 #include "problem/problem_geometry.h"
-#include "solver/multilevel/choose_distances.h"
-#include "solver/multilevel/mesh_ahead.h"
+#include "problem/unit_scale.h"
+#include "solver/multilevel/coarse_distances.h"
 #include "solver/plan/choices.h"
 #include "solver/start/transfer.h"
 
@@ -32,19 +37,30 @@ CoarsePlan plan_coarse(const plan::Sizes& sizes, const SolverOptions& options, b
   return {std::move(coarse), {starts, interpolates}};
 }
 
+// A mesher of the same meshes, which begins with that of the first size at once, from a thread of
+// its own if there are several: it is made while the finest mesh is set up.
+// \param cage  of the finest mesh, unscaled \param mesher  outlives what is returned
 template <int Dim>
-DistanceMatrix place_and_choose(SetUp<Dim>& result, const SolverOptions& options) {
-  auto& coarse = result.coarse.back();
-  coarse.finest_vertices = places_in(coarse.problem, result.problem.mesh.points);
-  return choose_distances(coarse, result.problem, options, result.distances);
+CoarseMesher<Dim> mesh_ahead(const Cage<Dim>& cage, const std::vector<Index>& sizes,
+                             const CoarseMesher<Dim>& mesher) {
+  if (sizes.empty() || omp_get_max_threads() == 1) return mesher;
+  auto scaled = cage;
+  scaled.points = UnitScale<Dim>(cage)(cage.points);
+  auto first = std::make_shared<std::future<DomainMesh<Dim>>>(std::async(
+      std::launch::async | std::launch::deferred, [&mesher, scaled, size = sizes.front()] {
+        omp_set_num_threads(1);  // the others have work
+        return mesher(scaled, size);
+      }));
+  return [first, &mesher](const Cage<Dim>& coarse_cage, Index vertices) {
+    return first->valid() ? first->get() : mesher(coarse_cage, vertices);
+  };
 }
 
-// A copy, with the places of the finest mesh's vertices.
+// Finds the finest mesh's vertices in a coarse one, once.
 template <int Dim>
-CoarseProblem<Dim> coarsest_of(const SetUp<Dim>& result) {
-  auto coarse = result.coarse.front();
+CoarseProblem<Dim>& with_places(CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& finest) {
   if (coarse.finest_vertices.empty()) {
-    coarse.finest_vertices = places_in(coarse.problem, result.problem.mesh.points);
+    coarse.finest_vertices = places_in(coarse.problem, finest.mesh.points);
   }
   return coarse;
 }
@@ -57,39 +73,32 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
                   std::optional<CoarseProblem<Dim>>* coarsest, const MeshTopology<Dim>* topology) {
   Stopwatch watch;
   require_connected(mesh);
-  const auto coarse = plan_coarse({Dim, cage.size(), mesh.num_vertices()}, options, bool(mesher));
-  const MeshAhead<Dim> ahead(cage, coarse.sizes, mesher);
+  const auto [sizes, use] =
+      plan_coarse({Dim, cage.size(), mesh.num_vertices()}, options, bool(mesher));
+  const auto begun_mesher = mesh_ahead(cage, sizes, mesher);
   SetUp<Dim> result{topology == nullptr
                         ? make_geometry(std::move(cage), std::move(mesh))
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
-  auto& problem = result.problem;
-  if (!plan::minimizes(options.method)) {
-    result.seconds = watch.lap();
-    return result;
+  auto& [problem, coarse, report, seconds] = result;
+  if (plan::minimizes(options.method)) {
+    coarse = make_coarse_problems(problem, begun_mesher, sizes, options, use);
+    const StageScope scope(reporter.stage(Stage::kDistances));
+    set_phi(problem, options.phi,
+            use.distances && !coarse.empty()
+                ? choose_distances(with_places(coarse.back(), problem), problem, options, report)
+                : distances_for(options.phi, problem));
+    if (coarsest != nullptr && report.source == Distances::kInterpolated) {
+      *coarsest = with_places(coarse.front(), problem);
+    }
+    if (!use.start) coarse.clear();
   }
-  result.coarse = make_coarse_problems(problem, ahead.mesher(), coarse.sizes, options, coarse.use);
-  const StageScope scope(reporter.stage(Stage::kDistances));
-  auto distances = coarse.use.distances && !result.coarse.empty()
-                       ? place_and_choose(result, options)
-                       : distances_for(options.phi, problem);
-  set_phi(problem, options.phi, std::move(distances));
-  if (coarsest != nullptr && result.distances.source == Distances::kInterpolated) {
-    *coarsest = coarsest_of(result);
-  }
-  if (!coarse.use.start) result.coarse.clear();
-  result.seconds = watch.lap();
-  for (const auto& level : result.coarse) {
-    result.seconds -= level.report.mesh_seconds + level.report.setup_seconds;
+  seconds = watch.lap();
+  for (const auto& level : coarse) {
+    seconds -= level.report.mesh_seconds + level.report.setup_seconds;
   }
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                  \
-  template SetUp<Dim> set_up(Cage<Dim>, DomainMesh<Dim>, const SolverOptions&, \
-                             const CoarseMesher<Dim>&, const Reporter&,        \
-                             std::optional<CoarseProblem<Dim>>*, const MeshTopology<Dim>*);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(set_up)
 
 }  // namespace flbc

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.h"
+#include "flbc/bounding_box.h"
+#include "flbc/published_penalty.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::plan {
@@ -152,5 +155,18 @@ SolverOptions resolve(SolverOptions options) {
   options.relaxation = plan::relaxation(options);
   return options;
 }
+
+template <int Dim>
+double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
+                         double penalty) {
+  SolverOptions options;
+  options.penalty = penalty;
+  validate(options);
+  if (method == Method::kAuto) method = resolve({}).method;
+  const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
+  return penalty / plan::penalty_unit(method, Dim, size);
+}
+
+FLBC_INSTANTIATE_FUNCTION(published_penalty)
 
 }  // namespace flbc

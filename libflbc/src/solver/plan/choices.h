@@ -49,6 +49,17 @@ bool active_set_pays(double density, const SolverOptions& options);
 //! \param size  of the cage (bounding_box_diagonal)
 double penalty_unit(Method method, int dim, double size);
 
+//! Penalties and thresholds in publications have a meaning for a domain whose farthest vertex is at
+//! radius 250 about the center of its bounding box.
+//! \return published length / length of this mesh
+template <int Dim>
+double published_scale(const DomainMesh<Dim>& mesh) {
+  constexpr double kRadius = 250;
+  const Vector<Dim> center =
+      (mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2;
+  return kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
+}
+
 //! Numbers of vertices of the coarser meshes to start from, ascending; none where they do not pay
 //! or are not wanted. \param options  resolved
 std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options);

@@ -55,8 +55,7 @@ void validate(const SolverOptions& options) {
         "non_negative cannot be a constraint of this method's iteration; project the weights, or "
         "choose another method");
   }
-  const bool iterative =
-      options.method != Method::kHarmonic && options.method != Method::kMeanValue;
+  const bool iterative = plan::minimizes(options.method);
   if (options.certify && !iterative) {
     throw OptionError("certify needs a method that minimises, which this one does not");
   }

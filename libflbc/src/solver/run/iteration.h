@@ -67,10 +67,7 @@ class Iteration {
   //! \param made  iterations of the run \param error  estimated mean squared error of the weights
   //! \param ends  whether the run is about to end because of it
   //! \return iterations to make before the run may end; 0 for none
-  virtual int adapt([[maybe_unused]] int made, [[maybe_unused]] double error,
-                    [[maybe_unused]] bool ends) {
-    return 0;
-  }
+  virtual int adapt(int /*made*/, double /*error*/, bool /*ends*/) { return 0; }
 
   //! Fills in the penalty, the size of the state, and the active set.
   virtual void describe(SolveReport& report) const = 0;

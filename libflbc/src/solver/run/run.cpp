@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/instantiate.h"
 #include "flbc/errors.h"
 #include "flbc/quality.h"
 
@@ -86,11 +87,7 @@ bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport&
   return false;
 }
 
-#define FLBC_INSTANTIATE(Dim)                               \
-  template double unscaled(const LbcProblem<Dim>&, double); \
-  template bool run(Iteration<Dim>&, const RunContext<Dim>&, SolveReport&, int);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(unscaled)
+FLBC_INSTANTIATE_FUNCTION(run)
 
 }  // namespace flbc

@@ -5,12 +5,34 @@
 
 #include <limits>
 
-#include "solver/run/gap_criterion.h"
+#include "solver/plan/constants.h"
 #include "solver/run/iteration.h"
 #include "solver/run/reporter.h"
 #include "solver/run/stop_rule.h"
 
 namespace flbc {
+
+//! Certifies the weights of an iteration from time to time. The number of iterations alone decides
+//! when, so that runs are repeatable.
+class GapCriterion {
+ public:
+  //! \param wanted  relative gap, 0 = none is small enough
+  explicit GapCriterion(double wanted) : wanted_(wanted) {}
+
+  //! Certifies if it is time to. \param made  iterations of the run \param last  whether no other
+  //! follows \return whether the gap is proved to be at most the one wanted
+  template <int Dim>
+  bool is_met(const Iteration<Dim>& iteration, int made, bool last) {
+    if (wanted_ == 0 || made < (last ? plan::kFirstCertified : next_)) return false;
+    if (!iteration.is_certifiable()) return false;
+    next_ = static_cast<int>(plan::kCertifiedGrowth * made);
+    return iteration.certify(iteration.weights().to_dense()).relative_gap <= wanted_;
+  }
+
+ private:
+  double wanted_;
+  int next_ = plan::kFirstCertified;
+};
 
 //! What a run reads besides the iteration. Keeps references.
 template <int Dim>

@@ -3,11 +3,40 @@
 //! Weights and duals that outlive their iteration, in a form that other meshes understand.
 #pragma once
 
+#include <vector>
+
 #include "flbc/sparse_weights.h"
-#include "solver/start/flux_densities.h"
 #include "solver/start/start.h"
 
 namespace flbc {
+
+//! p_s / A_s of every cell, for the control points where it is not zero: nothing else takes memory.
+//! In single precision: its rounding is far below what a start is off by.
+template <int Dim>
+class FluxDensities {
+ public:
+  //! None.
+  FluxDensities() = default;
+
+  //! \param num_control_points  n \param num_cells  F
+  //! \param of_cell  n x Dim; is asked by several threads
+  FluxDensities(Index num_control_points, Index num_cells, const VectorsAt<Dim>& of_cell);
+
+  //! In one cell, n x Dim.
+  Vectors<Dim> cell(Index cell) const;
+
+ private:
+  // The control points and vectors of some cells, one after the other.
+  struct Block {
+    std::vector<Index> starts;
+    std::vector<Index> control_points;
+    std::vector<float> vectors;
+  };
+  static constexpr Index kBlockCells = 64;
+
+  Index num_control_points_ = 0;
+  std::vector<Block> blocks_;
+};
 
 //! The state of an iteration as quantities that have a limit as meshes become finer: densities, not
 //! numbers per cell. Lengths are those of the problem. n control points, V vertices, F cells.
@@ -23,19 +52,6 @@ struct Duals {
 
 //! Copies what a start refers to.
 template <int Dim>
-Duals<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start) {
-  const Index n = problem.num_control_points();
-  const Index num_vertices = problem.mesh.num_vertices();
-  Duals<Dim> duals;
-  duals.flux_density = {n, problem.mesh.num_cells(), start.flux_density};
-  duals.penalty = start.penalty;
-  duals.weights = SparseWeights::of(n, num_vertices, with_known_values(problem, start.weights));
-  if (!start.vertex_dual) return duals;
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
-  duals.vertex_dual = SparseWeights::of(n, num_vertices, [&](Index v) {
-    return problem.boundary.is_interior(v) ? start.vertex_dual(v) : none;
-  });
-  return duals;
-}
+Duals<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start);
 
 }  // namespace flbc

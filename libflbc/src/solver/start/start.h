@@ -4,11 +4,17 @@
 //! from.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "flbc/lbc_problem.h"
 
 namespace flbc {
+
+//! One vector per control point on a cell, n x Dim, as VectorsAt returns it.
+template <int Dim>
+using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Dim>;
 
 //! Views of weights and duals, in the lengths of the problem that starts. Whatever the functions
 //! refer to must outlive them. Without `weights` the start is cold: an iteration then begins with
@@ -47,6 +53,17 @@ VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weig
     problem.boundary.scatter(problem.boundary.boundary_index[v], known);
     return known;
   };
+}
+
+//! Shortens the rows that are longer than phi on a cell. Where most rows are zero it takes longer
+//! to ask for phi than to see that. \param density  n x Dim
+template <class Rows>
+void shorten_to(const WeightFunctions& phi, Index cell, Rows& density) {
+  Eigen::ArrayXd squared = density.col(0).array().square();
+  for (Eigen::Index d = 1; d < density.cols(); ++d) squared += density.col(d).array().square();
+  for (Eigen::Index i = 0; i < density.rows(); ++i) {
+    if (squared[i] > 0) density.row(i) *= std::min(phi(i, cell) / std::sqrt(squared[i]), 1.0);
+  }
 }
 
 }  // namespace flbc

@@ -37,12 +37,10 @@ class Transfer {
   //! Whether it was made by between_shapes().
   bool is_between_shapes() const { return between_shapes_; }
 
-  //! The start on the fine mesh, which refers to this object. Its flux density is that
-  //! of the coarse cell which contains the middle of the fine one, shortened to phi.
+  //! The start on the fine mesh, which refers to this object. Its weights are interpolated. Its
+  //! flux density is that of the coarse cell which contains the middle of the fine one, shortened
+  //! to phi.
   Start<Dim> start() const;
-
-  //! Interpolated weights at an interior vertex of the fine mesh, n numbers.
-  Eigen::VectorXd weights_at(Index vertex) const;
 
   //! The place of a fine vertex in the coarse mesh.
   const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
@@ -51,16 +49,14 @@ class Transfer {
   const SparseWeights& coarse_weights() const { return duals_.weights; }
 
  private:
-  struct Unlocated {};
-  Transfer(Unlocated, const LbcProblem<Dim>& coarse, const Duals<Dim>& duals,
-           const LbcProblem<Dim>& fine);
-
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
+  Transfer(const LbcProblem<Dim>& coarse, const Duals<Dim>& duals, const LbcProblem<Dim>& fine,
+           bool between_shapes)
+      : coarse_(coarse), duals_(duals), fine_(fine), between_shapes_(between_shapes) {}
 
   const LbcProblem<Dim>& coarse_;
   const Duals<Dim>& duals_;
   const LbcProblem<Dim>& fine_;
-  bool between_shapes_ = false;
+  const bool between_shapes_;
   std::vector<Location<Dim>> vertices_;
   std::vector<Index> cells_;  // the coarse ones that contain the middles of the fine ones
 };

@@ -37,7 +37,16 @@ template <int Dim>
 EdgeGraph::EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights,
                      const EdgeList& edges)
     : representatives_(find_representatives<Dim>(points, weights)) {
-  connect(edges);
+  neighbours_ = items_by_vertex<Neighbour>(points.cols(), [&](const auto& visit) {
+    for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+      const Index a = representatives_[edges.ends[e][0]];
+      const Index b = representatives_[edges.ends[e][1]];
+      if (a == b) continue;
+      const double weight = edges.weights.empty() ? 1 : edges.weights[e];
+      visit(a, Neighbour{b, weight});
+      visit(b, Neighbour{a, weight});
+    }
+  });
   masses_.assign(points.cols(), 0);
   for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
     for (const auto& [b, weight] : neighbours_of(a)) {
@@ -45,25 +54,6 @@ EdgeGraph::EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights,
     }
   }
   color();
-}
-
-void EdgeGraph::connect(const EdgeList& edges) {
-  const auto for_each_end = [&](const auto& action) {
-    for (std::size_t e = 0; e < edges.ends.size(); ++e) {
-      const Index a = representatives_[edges.ends[e][0]];
-      const Index b = representatives_[edges.ends[e][1]];
-      if (a == b) continue;
-      const double weight = edges.weights.empty() ? 1 : edges.weights[e];
-      action(a, Neighbour{b, weight});
-      action(b, Neighbour{a, weight});
-    }
-  };
-  start_.assign(representatives_.size() + 1, 0);
-  for_each_end([&](Index a, const Neighbour&) { ++start_[a + 1]; });
-  std::partial_sum(start_.begin(), start_.end(), start_.begin());
-  neighbours_.resize(start_.back());
-  auto next = start_;
-  for_each_end([&](Index a, const Neighbour& neighbour) { neighbours_[next[a]++] = neighbour; });
 }
 
 // Every point gets the first color that none of its neighbours has.

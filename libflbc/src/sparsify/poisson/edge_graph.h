@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/types.h"
+#include "mesh/vertex_cells.h"
 
 namespace flbc {
 
@@ -19,12 +19,6 @@ class EdgeGraph {
     Index point;
     double weight;
   };
-  struct Range {
-    const Neighbour* first;
-    const Neighbour* last;
-    const Neighbour* begin() const { return first; }
-    const Neighbour* end() const { return last; }
-  };
 
   //! \param points  Dim x P \param weights  n x P \param edges  validated
   template <int Dim>
@@ -34,9 +28,7 @@ class EdgeGraph {
   Index representative(Index point) const { return representatives_[point]; }
 
   //! Of a representative; others have none.
-  Range neighbours_of(Index point) const {
-    return {neighbours_.data() + start_[point], neighbours_.data() + start_[point + 1]};
-  }
+  VertexItems<Neighbour>::Range neighbours_of(Index point) const { return neighbours_.of(point); }
 
   //! The sum of k_e |edge|^2 / 2 over the edges of a point: its share of area or volume.
   double mass(Index point) const { return masses_[point]; }
@@ -45,12 +37,10 @@ class EdgeGraph {
   const std::vector<std::vector<Index>>& colors() const { return colors_; }
 
  private:
-  void connect(const EdgeList& edges);
   void color();
 
   std::vector<Index> representatives_;
-  std::vector<std::size_t> start_;
-  std::vector<Neighbour> neighbours_;
+  VertexItems<Neighbour> neighbours_;
   std::vector<double> masses_;
   std::vector<std::vector<Index>> colors_;
 };

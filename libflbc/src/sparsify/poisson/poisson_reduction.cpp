@@ -10,6 +10,7 @@
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "flbc/types.h"
+#include "polytope/scaling.h"
 #include "polytope/weight_projection.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_energy.h"
@@ -17,63 +18,6 @@
 
 namespace flbc {
 namespace {
-
-// Moves the sparse weights of one point at a time to where the energy is less. Points that are one
-// in the graph are taken for one.
-template <int Dim>
-class PoissonDescent {
- public:
-  // All kept by reference, but the options.
-  // \param control_points  Dim x n
-  // \param points  Dim x P
-  // \param given  n x P, the weights to stay near to
-  // \param plain  n x P, some feasible weights that are as sparse as the options say
-  PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
-                 const PointList<Dim>& control_points, const PointList<Dim>& points,
-                 const WeightMatrix& given, const WeightMatrix& plain,
-                 const SparsifyOptions& options);
-
-  // Starts from these feasible weights, n x P, which may have more influences than the options
-  // allow: what is too much is removed when the descent first comes to a point.
-  void start(const WeightMatrix& weights);
-
-  // Goes over the points until no point gains more than `least_gain` any more, but at most
-  // `sweeps` times.
-  void run(int sweeps, double least_gain);
-
-  // The weights of a representative of the graph, n, up to about 1e-8.
-  Eigen::VectorXd weights_of(Index point) const;
-
- private:
-  struct Workspace {
-    Workspace(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points)
-        : selection(Metric(metric), control_points) {}
-    SupportSelection<Dim> selection;
-    PointWeights best;
-    std::vector<bool> may_enter;
-    std::vector<const std::vector<Index>*> supports;
-  };
-
-  bool sweep(double least_gain);
-  bool improve(Index point, double least_gain, Workspace& work);
-  void aim(Index point, Workspace& work) const;
-  void find_allowed(Index point, std::vector<bool>& may_enter) const;
-  void find_supports_around(Index point, Workspace& work) const;
-  void update(Index point, const PointWeights& weights);
-
-  const PoissonEnergy& energy_;
-  const EdgeGraph& graph_;
-  const PointList<Dim>& control_points_;
-  const PointList<Dim>& points_;
-  const WeightMatrix& given_;
-  const WeightMatrix& plain_;
-  SparsifyOptions options_;
-  std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
-  std::vector<bool> fixed_;
-  std::vector<PointWeights> weights_;
-  Eigen::MatrixXd potential_;        // n x P: H (w - given)
-  std::vector<unsigned char> open_;  // per point: may it have something to gain?
-};
 
 // Steps go beyond the minimum of a point by this factor, as in successive over-relaxation. Below 2
 // the energy never rises by that.
@@ -84,13 +28,9 @@ constexpr std::size_t kSupports = 16;
 constexpr double kInvisible = 1e-11;
 
 void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weights) {
-  weights.support.clear();
+  weights.support = positive_entries(column);
   weights.values.clear();
-  for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
-    if (!(column[i] > 0)) continue;
-    weights.support.push_back(i);
-    weights.values.push_back(column[i]);
-  }
+  for (const Index i : weights.support) weights.values.push_back(column[i]);
 }
 
 // Beyond the minimum, too, if no control point left: but not more than half the way to zero, so
@@ -114,188 +54,209 @@ void overshoot(const PointWeights& before, PointWeights& after) {
   }
 }
 
+// Moves the sparse weights of one point at a time to where the energy is less. Points that are one
+// in the graph are taken for one.
 template <int Dim>
-PoissonDescent<Dim>::PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
-                                    const PointList<Dim>& control_points,
-                                    const PointList<Dim>& points, const WeightMatrix& given,
-                                    const WeightMatrix& plain, const SparsifyOptions& options)
-    : energy_(energy),
-      graph_(graph),
-      control_points_(control_points),
-      points_(points),
-      given_(given),
-      plain_(plain),
-      options_(options),
-      stiffness_(points.cols()),
-      fixed_(points.cols()),
-      weights_(points.cols()),
-      potential_(given.rows(), given.cols()),
-      open_(points.cols()) {
-  for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
-    stiffness_[a] = energy.pin * graph.mass(a);
-    for (const auto& neighbour : graph.neighbours_of(a)) stiffness_[a] += neighbour.weight;
-    // On the cage weights are those of its facet.
-    fixed_[a] = (given.col(a).array() != 0).count() <= Dim && plain.col(a) == given.col(a);
+class PoissonDescent {
+ public:
+  // All kept by reference, but the options.
+  // \param control_points  Dim x n
+  // \param points  Dim x P
+  // \param given  n x P, the weights to stay near to
+  // \param plain  n x P, some feasible weights that are as sparse as the options say
+  PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
+                 const PointList<Dim>& control_points, const PointList<Dim>& points,
+                 const WeightMatrix& given, const WeightMatrix& plain,
+                 const SparsifyOptions& options)
+      : energy_(energy),
+        graph_(graph),
+        control_points_(control_points),
+        points_(points),
+        given_(given),
+        plain_(plain),
+        options_(options),
+        stiffness_(points.cols()),
+        fixed_(points.cols()),
+        weights_(points.cols()),
+        potential_(given.rows(), given.cols()),
+        open_(points.cols()) {
+    for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
+      stiffness_[a] = energy.pin * graph.mass(a);
+      for (const auto& neighbour : graph.neighbours_of(a)) stiffness_[a] += neighbour.weight;
+      // On the cage weights are those of its facet.
+      fixed_[a] = (given.col(a).array() != 0).count() <= Dim && plain.col(a) == given.col(a);
+    }
   }
-}
 
-template <int Dim>
-void PoissonDescent<Dim>::start(const WeightMatrix& weights) {
-  const auto num_points = static_cast<Index>(points_.cols());
+  // Starts from these feasible weights, n x P, which may have more influences than the options
+  // allow: what is too much is removed when the descent first comes to a point.
+  void start(const WeightMatrix& weights) {
+    const auto num_points = static_cast<Index>(points_.cols());
 #pragma omp parallel for schedule(static) if (num_points >= 256)
-  for (Index a = 0; a < num_points; ++a) {
-    gather(weights.col(a), weights_[a]);
-    potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
+    for (Index a = 0; a < num_points; ++a) {
+      gather(weights.col(a), weights_[a]);
+      potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
+    }
+    // Where all differences are 0 there is nothing to gain, but maybe something to remove.
+    std::fill(open_.begin(), open_.end(), 0);
+    for (Index a = 0; a < num_points; ++a) {
+      if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = 1;
+      if (weights.col(a) == given_.col(a)) continue;
+      open_[a] = 1;
+      for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = 1;
+    }
   }
-  // Where all differences are 0 there is nothing to gain, but maybe something to remove.
-  std::fill(open_.begin(), open_.end(), 0);
-  for (Index a = 0; a < num_points; ++a) {
-    if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = 1;
-    if (weights.col(a) == given_.col(a)) continue;
-    open_[a] = 1;
-    for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = 1;
-  }
-}
 
-template <int Dim>
-void PoissonDescent<Dim>::run(int sweeps, double least_gain) {
-  // Each sweep leaves about so much work to the next.
-  constexpr double kFall = 0.6;
-  for (int k = 0; k < sweeps; ++k) {
-    const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
-    if (!sweep(least_gain)) return;
+  // Goes over the points until no point gains more than `least_gain` any more, but at most
+  // `sweeps` times.
+  void run(int sweeps, double least_gain) {
+    // Each sweep leaves about so much work to the next.
+    constexpr double kFall = 0.6;
+    for (int k = 0; k < sweeps; ++k) {
+      const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
+      if (!sweep(least_gain)) return;
+    }
   }
-}
 
-// Color by color: points of one color do not see each other, so that their order and the threads
-// do not matter.
-template <int Dim>
-bool PoissonDescent<Dim>::sweep(double least_gain) {
-  Index changes = 0;
-  LoopProgress progress(static_cast<Index>(points_.cols()));
+  // The weights of a representative of the graph, n, up to about 1e-8.
+  Eigen::VectorXd weights_of(Index point) const {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
+    const PointWeights& few = weights_[point];
+    for (std::size_t k = 0; k < few.support.size(); ++k) weights[few.support[k]] = few.values[k];
+    return weights;
+  }
+
+ private:
+  struct Workspace {
+    Workspace(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points)
+        : selection(Metric(metric), control_points) {}
+    SupportSelection<Dim> selection;
+    PointWeights best;
+    std::vector<bool> may_enter;
+    std::vector<const std::vector<Index>*> supports;
+  };
+
+  // Color by color: points of one color do not see each other, so that their order and the threads
+  // do not matter.
+  bool sweep(double least_gain) {
+    Index changes = 0;
+    LoopProgress progress(static_cast<Index>(points_.cols()));
 #pragma omp parallel reduction(+ : changes) if (points_.cols() >= 256)
-  {
-    Workspace work(energy_.metric, control_points_);
-    for (const auto& color : graph_.colors()) {
-      const auto count = static_cast<Index>(color.size());
+    {
+      Workspace work(energy_.metric, control_points_);
+      for (const auto& color : graph_.colors()) {
+        const auto count = static_cast<Index>(color.size());
 #pragma omp for schedule(dynamic, 16)
-      for (Index k = 0; k < count; ++k) {
-        const Index point = color[k];
-        progress.add(1);
-        if (!open_[point] || fixed_[point]) continue;
-        open_[point] = 0;
-        if (!improve(point, least_gain, work)) continue;
-        ++changes;
-        for (const auto& neighbour : graph_.neighbours_of(point)) {
+        for (Index k = 0; k < count; ++k) {
+          const Index point = color[k];
+          progress.add(1);
+          if (!open_[point] || fixed_[point]) continue;
+          open_[point] = 0;
+          if (!improve(point, least_gain, work)) continue;
+          ++changes;
+          for (const auto& neighbour : graph_.neighbours_of(point)) {
 #pragma omp atomic write
-          open_[neighbour.point] = 1;
+            open_[neighbour.point] = 1;
+          }
         }
       }
     }
+    return changes > 0;
   }
-  return changes > 0;
-}
 
-// \return whether the weights have changed
-template <int Dim>
-bool PoissonDescent<Dim>::improve(Index point, double least_gain, Workspace& work) {
-  const double least = std::max(kInvisible, least_gain / stiffness_[point]);
-  const Index most = options_.max_influences;
-  aim(point, work);
-  const PointWeights& before = weights_[point];
-  const bool too_many = static_cast<Index>(before.support.size()) > most;
-  const double cost = work.selection.qp().cost_of(before);
-  PointWeights& best = work.best;
-  best = before;
-  work.selection.qp().descend(best);
-  if (!work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
-    gather(plain_.col(point), best);
-    best.cost = work.selection.qp().cost_of(best);
-  }
-  find_allowed(point, work.may_enter);
-  find_supports_around(point, work);
-  for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
-  work.selection.exchange(most, least, work.may_enter, best);
-  if (!too_many) {
-    if (!(best.cost < cost - least)) return false;
-    overshoot(before, best);
-  }
-  update(point, best);
-  return true;
-}
-
-// For fixed neighbours b the energy is s (w - t) . H (w - t) and a constant, with the stiffness
-// s = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
-template <int Dim>
-void PoissonDescent<Dim>::aim(Index point, Workspace& work) const {
-  Eigen::VectorXd& pull = work.selection.qp().aim_at(points_.col(point));
-  pull = -potential_.col(point);
-  const PointWeights& weights = weights_[point];
-  for (std::size_t k = 0; k < weights.support.size(); ++k) {
-    pull += weights.values[k] * energy_.metric.col(weights.support[k]);
-  }
-  for (const auto& [neighbour, weight] : graph_.neighbours_of(point)) {
-    pull += weight / stiffness_[point] * potential_.col(neighbour);
-  }
-}
-
-template <int Dim>
-void PoissonDescent<Dim>::find_allowed(Index point, std::vector<bool>& may_enter) const {
-  const double least = std::max(options_.threshold, kLeastInfluence);
-  may_enter.resize(given_.rows());
-  for (Index i = 0; i < static_cast<Index>(given_.rows()); ++i) {
-    may_enter[i] = given_(i, point) >= least || plain_(i, point) > 0;
-  }
-}
-
-// A support that suits a neighbour often suits here, too, and then there is no seam between them.
-template <int Dim>
-void PoissonDescent<Dim>::find_supports_around(Index point, Workspace& work) const {
-  auto& supports = work.supports;
-  supports.clear();
-  for (const auto& neighbour : graph_.neighbours_of(point)) {
-    if (supports.size() == kSupports) return;
-    const auto& support = weights_[neighbour.point].support;
-    if (static_cast<Index>(support.size()) > options_.max_influences) continue;
-    const auto may_enter = [&](Index i) { return work.may_enter[i]; };
-    if (options_.threshold > 0 && !std::all_of(support.begin(), support.end(), may_enter)) continue;
-    const auto is_same = [&](const std::vector<Index>* other) { return *other == support; };
-    if (std::none_of(supports.begin(), supports.end(), is_same)) supports.push_back(&support);
-  }
-}
-
-template <int Dim>
-void PoissonDescent<Dim>::update(Index point, const PointWeights& weights) {
-  const auto add = [&](const PointWeights& any, double sign) {
-    for (std::size_t k = 0; k < any.support.size(); ++k) {
-      potential_.col(point) += sign * any.values[k] * energy_.metric.col(any.support[k]);
+  // \return whether the weights have changed
+  bool improve(Index point, double least_gain, Workspace& work) {
+    const double least = std::max(kInvisible, least_gain / stiffness_[point]);
+    const Index most = options_.max_influences;
+    aim(point, work);
+    const PointWeights& before = weights_[point];
+    const bool too_many = static_cast<Index>(before.support.size()) > most;
+    const double cost = work.selection.qp().cost_of(before);
+    PointWeights& best = work.best;
+    best = before;
+    work.selection.qp().descend(best);
+    if (!work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
+      gather(plain_.col(point), best);
+      best.cost = work.selection.qp().cost_of(best);
     }
-  };
-  add(weights_[point], -1);
-  add(weights, 1);
-  weights_[point] = weights;
-}
+    find_allowed(point, work.may_enter);
+    find_supports_around(point, work);
+    for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
+    work.selection.exchange(most, least, work.may_enter, best);
+    if (!too_many) {
+      if (!(best.cost < cost - least)) return false;
+      overshoot(before, best);
+    }
+    update(point, best);
+    return true;
+  }
 
-template <int Dim>
-Eigen::VectorXd PoissonDescent<Dim>::weights_of(Index point) const {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
-  const PointWeights& few = weights_[point];
-  for (std::size_t k = 0; k < few.support.size(); ++k) weights[few.support[k]] = few.values[k];
-  return weights;
-}
+  // For fixed neighbours b the energy is s (w - t) . H (w - t) and a constant, with the stiffness
+  // s = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
+  void aim(Index point, Workspace& work) const {
+    Eigen::VectorXd& pull = work.selection.qp().aim_at(points_.col(point));
+    pull = -potential_.col(point);
+    const PointWeights& weights = weights_[point];
+    for (std::size_t k = 0; k < weights.support.size(); ++k) {
+      pull += weights.values[k] * energy_.metric.col(weights.support[k]);
+    }
+    for (const auto& [neighbour, weight] : graph_.neighbours_of(point)) {
+      pull += weight / stiffness_[point] * potential_.col(neighbour);
+    }
+  }
+
+  void find_allowed(Index point, std::vector<bool>& may_enter) const {
+    const double least = std::max(options_.threshold, kLeastInfluence);
+    may_enter.resize(given_.rows());
+    for (Index i = 0; i < static_cast<Index>(given_.rows()); ++i) {
+      may_enter[i] = given_(i, point) >= least || plain_(i, point) > 0;
+    }
+  }
+
+  // A support that suits a neighbour often suits here, too, and then there is no seam between them.
+  void find_supports_around(Index point, Workspace& work) const {
+    auto& supports = work.supports;
+    supports.clear();
+    for (const auto& neighbour : graph_.neighbours_of(point)) {
+      if (supports.size() == kSupports) return;
+      const auto& support = weights_[neighbour.point].support;
+      if (static_cast<Index>(support.size()) > options_.max_influences) continue;
+      const auto may_enter = [&](Index i) { return work.may_enter[i]; };
+      if (options_.threshold > 0 && !std::all_of(support.begin(), support.end(), may_enter))
+        continue;
+      const auto is_same = [&](const std::vector<Index>* other) { return *other == support; };
+      if (std::none_of(supports.begin(), supports.end(), is_same)) supports.push_back(&support);
+    }
+  }
+
+  void update(Index point, const PointWeights& weights) {
+    const auto add = [&](const PointWeights& any, double sign) {
+      for (std::size_t k = 0; k < any.support.size(); ++k) {
+        potential_.col(point) += sign * any.values[k] * energy_.metric.col(any.support[k]);
+      }
+    };
+    add(weights_[point], -1);
+    add(weights, 1);
+    weights_[point] = weights;
+  }
+
+  const PoissonEnergy& energy_;
+  const EdgeGraph& graph_;
+  const PointList<Dim>& control_points_;
+  const PointList<Dim>& points_;
+  const WeightMatrix& given_;
+  const WeightMatrix& plain_;
+  SparsifyOptions options_;
+  std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
+  std::vector<bool> fixed_;
+  std::vector<PointWeights> weights_;
+  Eigen::MatrixXd potential_;        // n x P: H (w - given)
+  std::vector<unsigned char> open_;  // per point: may it have something to gain?
+};
 
 constexpr int kSweeps = 20;
 // Least gain of a change of one point's weights, as a part of the mean energy of a point.
 constexpr double kLeastGain = 1e-3;
-
-// The control points with a weight, ascending.
-std::vector<Index> support_of(const Eigen::VectorXd& weights) {
-  std::vector<Index> support;
-  for (Index i = 0; i < static_cast<Index>(weights.size()); ++i) {
-    if (weights[i] > 0) support.push_back(i);
-  }
-  return support;
-}
 
 // The weights of the descent with exact sum and reproduction; where rounding is in the way, or
 // nothing is connected, the plain weights.
@@ -313,19 +274,11 @@ WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph
     const Eigen::VectorXd weights = descent.weights_of(representative);
     if (weights == plain.col(a)) continue;
     Eigen::VectorXd exact;
-    if (projection.project(points.col(a), support_of(weights), weights, exact)) {
+    if (projection.project(points.col(a), positive_entries(weights), weights, exact)) {
       result.col(a) = exact;
     }
   }
   return result;
-}
-
-// With one influence more to begin with, neighbours can agree on which one to drop.
-template <int Dim>
-WeightMatrix with_one_more(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                           const WeightMatrix& weights, SparsifyOptions options) {
-  if (options.max_influences < static_cast<Index>(weights.rows())) ++options.max_influences;
-  return sparsify(control_points, points, weights, options);
 }
 
 }  // namespace
@@ -363,7 +316,9 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   };
   const auto start = [&] {
     const StagePart part(kPlain, kStart);
-    return with_one_more(control_points, points, weights, options);
+    // With one influence more to begin with, neighbours can agree on which one to drop.
+    if (options.max_influences < static_cast<Index>(weights.rows())) ++options.max_influences;
+    return sparsify(control_points, points, weights, options);
   }();
   auto result = descend_from(start);
   if (is_better(result)) return result;

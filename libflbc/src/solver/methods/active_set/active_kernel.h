@@ -70,8 +70,5 @@ struct Kernel {
 }  // namespace flbc::active_set
 
 namespace flbc {
-FLBC_DECLARE_KERNEL(active_set, float, 2)
-FLBC_DECLARE_KERNEL(active_set, float, 3)
-FLBC_DECLARE_KERNEL(active_set, double, 2)
-FLBC_DECLARE_KERNEL(active_set, double, 3)
+FLBC_DECLARE_KERNELS(active_set)
 }  // namespace flbc

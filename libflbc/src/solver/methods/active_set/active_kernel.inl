@@ -10,10 +10,6 @@
 namespace flbc::active_set::FLBC_ISA {
 namespace {
 
-inline std::size_t length_of(const Lists& lists, std::int32_t row) {
-  return lists.starts[row + 1] - lists.starts[row];
-}
-
 // work += the matrix's row times source.
 template <class Scalar>
 inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const Lists& lists,
@@ -35,14 +31,27 @@ inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const
   }
 }
 
-// solution (+)= the projection of right_side - work over the diagonal.
-template <class Scalar, int Dim, bool Adds>
-inline void relax_row(const Level<Scalar>& level, std::int32_t row, const Scalar* work,
-                      Scalar* residual) {
+// solution (+)= the projection of right_side - the matrix's row times solution over the diagonal.
+template <class Scalar, int Dim, bool Ascends>
+inline void relax_row(const Level<Scalar>& level, std::int32_t row, std::size_t size,
+                      Scalar* work) {
   using Numbers = PackN<Scalar, 8>;
+  if (level.lists.counts[row] == 0) return;
   const std::size_t start = level.lists.starts[row];
-  const std::size_t length = length_of(level.lists, row);
+  const std::size_t length = level.lists.starts[row + 1] - start;
   const std::uint16_t* items = level.lists.items + start;
+  Scalar* solution = level.solution + start;
+  std::memset(work, 0, size * sizeof(Scalar));
+  add_products(level.lower, row, level.lists, level.solution, work);
+  if (Ascends) {
+    add_products(level.upper, row, level.lists, level.solution, work);
+    // The row itself: its diagonal entry is what the change is divided by.
+    const Scalar diagonal = 1 / level.inverse_diagonal[row];
+    for (std::int32_t j = 0; j < level.lists.counts[row]; ++j) {
+      work[items[j]] += diagonal * solution[j];
+    }
+  }
+  Scalar* residual = work + size;
   const Scalar* right_side = level.right_side + start;
   for (std::size_t j = 0; j < length; ++j) residual[j] = right_side[j] - work[items[j]];
   const Scalar* basis = level.basis + (Dim + 1) * start;
@@ -56,12 +65,11 @@ inline void relax_row(const Level<Scalar>& level, std::int32_t row, const Scalar
     for (int l = 0; l < 8; ++l) excess[k] += sum[l];
   }
   const Scalar scale = level.inverse_diagonal[row];
-  Scalar* solution = level.solution + start;
   for (std::size_t j = 0; j < length; j += 8) {
     Numbers r = load_pack<8>(residual + j);
     for (int k = 0; k <= Dim; ++k) r -= excess[k] * load_pack<8>(basis + k * length + j);
     r *= scale;
-    if (Adds) r += load_pack<8>(solution + j);
+    if (Ascends) r += load_pack<8>(solution + j);
     store_pack<8>(solution + j, r);
   }
 }
@@ -69,31 +77,16 @@ inline void relax_row(const Level<Scalar>& level, std::int32_t row, const Scalar
 template <class Scalar, int Dim>
 void descend(const Level<Scalar>& level, std::int32_t begin, std::int32_t end, std::size_t size,
              Scalar* work) {
-  Scalar* residual = work + size;
   for (std::int32_t row = begin; row < end; ++row) {
-    if (level.lists.counts[row] == 0) continue;
-    std::memset(work, 0, size * sizeof(Scalar));
-    add_products(level.lower, row, level.lists, level.solution, work);
-    relax_row<Scalar, Dim, false>(level, row, work, residual);
+    relax_row<Scalar, Dim, false>(level, row, size, work);
   }
 }
 
 template <class Scalar, int Dim>
 void ascend(const Level<Scalar>& level, std::int32_t begin, std::int32_t end, std::size_t size,
             Scalar* work) {
-  Scalar* residual = work + size;
   for (std::int32_t row = end; row-- > begin;) {
-    if (level.lists.counts[row] == 0) continue;
-    std::memset(work, 0, size * sizeof(Scalar));
-    add_products(level.lower, row, level.lists, level.solution, work);
-    add_products(level.upper, row, level.lists, level.solution, work);
-    // The row itself: its diagonal entry is what the change is divided by.
-    const std::size_t start = level.lists.starts[row];
-    const Scalar diagonal = 1 / level.inverse_diagonal[row];
-    for (std::int32_t j = 0; j < level.lists.counts[row]; ++j) {
-      work[level.lists.items[start + j]] += diagonal * level.solution[start + j];
-    }
-    relax_row<Scalar, Dim, true>(level, row, work, residual);
+    relax_row<Scalar, Dim, true>(level, row, size, work);
   }
 }
 
@@ -146,8 +139,5 @@ constexpr Kernel<Scalar, Dim> kKernel{descend<Scalar, Dim>, ascend<Scalar, Dim>,
 }  // namespace flbc::active_set::FLBC_ISA
 
 namespace flbc {
-FLBC_DEFINE_KERNEL(active_set, float, 2)
-FLBC_DEFINE_KERNEL(active_set, float, 3)
-FLBC_DEFINE_KERNEL(active_set, double, 2)
-FLBC_DEFINE_KERNEL(active_set, double, 3)
+FLBC_DEFINE_KERNELS(active_set)
 }  // namespace flbc

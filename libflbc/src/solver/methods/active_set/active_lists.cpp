@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/instantiate.h"
 #include "base/parallel.h"
+#include "coordinates/poisson_weights.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "solver/plan/constants.h"
 
@@ -72,6 +74,16 @@ bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
   return nearest_point_in_hull<Dim>(points, point).distance <= tolerance;
 }
 
+ActiveLists lists_from(const Flags& is_in) {
+  return items_by_vertex<ControlPoint>(static_cast<Index>(is_in.cols()), [&](const auto& visit) {
+    for (Index v = 0; v < static_cast<Index>(is_in.cols()); ++v) {
+      for (Index i = 0; i < static_cast<Index>(is_in.rows()); ++i) {
+        if (is_in(i, v)) visit(v, static_cast<ControlPoint>(i));
+      }
+    }
+  });
+}
+
 // Adds what every vertex has to have. \param weights  feasible ones of an interior vertex
 template <int Dim>
 ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
@@ -84,19 +96,11 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
   return lists_from(flags);
 }
 
-template <int Dim>
-Flags flags_of_lists(const LbcProblem<Dim>& problem, const ActiveLists& active) {
-  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    for (const ControlPoint i : active.of(v)) flags(i, v) = true;
-  }
-  return flags;
-}
-
-// Interior vertices that share a cell with one, ascending.
-template <int Dim>
-std::vector<Index> interior_neighbours(const LbcProblem<Dim>& problem, const VertexCells& around,
-                                       Index v) {
+// Calls action(place, u) for the places of an interior vertex's list whose control points another
+// interior vertex u of the same cell lacks, in order.
+template <int Dim, class Action>
+void for_missing(const LbcProblem<Dim>& problem, const VertexCells& around,
+                 const ActiveLists& active, Index v, const Action& action) {
   std::vector<Index> neighbours;
   for (const Index s : around.cells_of(v)) {
     for (const Index u : problem.mesh.cells.col(s)) {
@@ -105,17 +109,15 @@ std::vector<Index> interior_neighbours(const LbcProblem<Dim>& problem, const Ver
   }
   std::sort(neighbours.begin(), neighbours.end());
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  return neighbours;
-}
-
-// Calls action(place) for the places of a list whose control points another one lacks, in order.
-template <class Action>
-void for_missing(const ActiveLists::Range& list, const ActiveLists::Range& other,
-                 const Action& action) {
-  const ControlPoint* theirs = other.first;
-  for (const ControlPoint* item = list.first; item != list.last; ++item) {
-    while (theirs != other.last && *theirs < *item) ++theirs;
-    if (theirs == other.last || *theirs != *item) action(static_cast<Index>(item - list.first));
+  const auto list = active.of(v);
+  for (const Index u : neighbours) {
+    const auto other = active.of(u);
+    const ControlPoint* theirs = other.first;
+    for (const ControlPoint* item = list.first; item != list.last; ++item) {
+      while (theirs != other.last && *theirs < *item) ++theirs;
+      if (theirs == other.last || *theirs != *item)
+        action(static_cast<Index>(item - list.first), u);
+    }
   }
 }
 
@@ -124,16 +126,6 @@ void for_missing(const ActiveLists::Range& list, const ActiveLists::Range& other
 double threshold_for(double tolerance) {
   return std::clamp(plan::kActiveErrors * std::sqrt(tolerance), plan::kActiveLeast,
                     plan::kActiveMost);
-}
-
-ActiveLists lists_from(const Flags& is_in) {
-  return items_by_vertex<ControlPoint>(static_cast<Index>(is_in.cols()), [&](const auto& visit) {
-    for (Index v = 0; v < static_cast<Index>(is_in.cols()); ++v) {
-      for (Index i = 0; i < static_cast<Index>(is_in.rows()); ++i) {
-        if (is_in(i, v)) visit(v, static_cast<ControlPoint>(i));
-      }
-    }
-  });
 }
 
 template <int Dim>
@@ -153,8 +145,7 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
       flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
     }
   }
-  return completed(
-      problem, [&](Index v) { return coarse.weights_at(v); }, std::move(flags));
+  return completed(problem, coarse.start().weights, std::move(flags));
 }
 
 template <int Dim>
@@ -171,9 +162,8 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
                                  double threshold) {
   return [&problem, lists = active_of(problem, start.weights, threshold),
           flux_density = start.flux_density](Index s) {
-    const Eigen::Matrix<double, Eigen::Dynamic, Dim> all = flux_density(s);
-    Eigen::Matrix<double, Eigen::Dynamic, Dim> near =
-        Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(all.rows(), Dim);
+    const Vectors<Dim> all = flux_density(s);
+    Vectors<Dim> near = Vectors<Dim>::Zero(all.rows(), Dim);
     for (const Index v : problem.mesh.cells.col(s)) {
       for (const ControlPoint i : lists.of(v)) near.row(i) = all.row(i);
     }
@@ -182,17 +172,34 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 }
 
 template <int Dim>
+ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
+  const DirichletProblem<Dim> laplace(problem.mesh, problem.boundary, linear_solver);
+  // More than exact enough for a start.
+  const auto harmonic = std::make_shared<const Eigen::MatrixXf>(
+      harmonic_coordinates(problem, laplace).template cast<float>());
+  ColdStart<Dim> cold;
+  cold.start.weights = [harmonic](Index v) -> Eigen::VectorXd {
+    return harmonic->col(v).template cast<double>();
+  };
+  cold.start.flux_density = [n = problem.num_control_points()](Index) -> Vectors<Dim> {
+    return Vectors<Dim>::Zero(n, Dim);
+  };
+  cold.active = active_of(problem, cold.start.weights, plan::kLeastHarmonic);
+  return cold;
+}
+
+template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight) {
-  Flags flags = flags_of_lists(problem, active);
+  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
   const VertexCells around(problem.mesh);
-  for (const Index v : problem.boundary.interior_vertices()) {
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     const auto list = active.of(v);
-    for (const Index u : interior_neighbours(problem, around, v)) {
-      for_missing(list, active.of(u), [&](Index place) {
-        if (weight(v, place) > threshold) flags(list.first[place], u) = true;
-      });
-    }
+    for (const ControlPoint i : list) flags(i, v) = true;
+    if (!problem.boundary.is_interior(v)) continue;
+    for_missing(problem, around, active, v, [&](Index place, Index u) {
+      if (weight(v, place) > threshold) flags(list.first[place], u) = true;
+    });
   }
   return lists_from(flags);
 }
@@ -207,11 +214,8 @@ double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active
     std::vector<bool> is_end;
     for (Index k = begin; k < end; ++k) {
       const Index v = interior[k];
-      const auto list = active.of(v);
-      is_end.assign(list.last - list.first, false);
-      for (const Index u : interior_neighbours(problem, around, v)) {
-        for_missing(list, active.of(u), [&](Index place) { is_end[place] = true; });
-      }
+      is_end.assign(active.start[v + 1] - active.start[v], false);
+      for_missing(problem, around, active, v, [&](Index place, Index) { is_end[place] = true; });
       for (Index place = 0; place < static_cast<Index>(is_end.size()); ++place) {
         const double w = is_end[place] ? weight(v, place) : 0;
         sum += w * w;
@@ -230,17 +234,12 @@ double density(const LbcProblem<Dim>& problem, const ActiveLists& active) {
   return interior.empty() ? 1 : pairs / all;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                   \
-  template ActiveLists active_from(const LbcProblem<Dim>&, const Transfer<Dim>&, double);       \
-  template ActiveLists active_of(const LbcProblem<Dim>&, const VectorsAt<1>&, double);          \
-  template VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>&, const Start<Dim>&, double); \
-  template ActiveLists grown(const LbcProblem<Dim>&, const ActiveLists&, double,                \
-                             const WeightInList&);                                              \
-  template double squared_at_ends(const LbcProblem<Dim>&, const ActiveLists&,                   \
-                                  const WeightInList&);                                         \
-  template double density(const LbcProblem<Dim>&, const ActiveLists&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(active_from)
+FLBC_INSTANTIATE_FUNCTION(active_of)
+FLBC_INSTANTIATE_FUNCTION(where_weights_are)
+FLBC_INSTANTIATE_FUNCTION(cold_start)
+FLBC_INSTANTIATE_FUNCTION(grown)
+FLBC_INSTANTIATE_FUNCTION(squared_at_ends)
+FLBC_INSTANTIATE_FUNCTION(density)
 
 }  // namespace flbc::active_set

@@ -13,9 +13,8 @@
 
 namespace flbc::active_set {
 
-//! Number of a control point, of which there are at most kMostControlPoints.
+//! Number of a control point; see plan::active_set() for how many there are at most.
 using ControlPoint = std::uint16_t;
-constexpr Index kMostControlPoints = 65000;
 
 //! The control points of every vertex, ascending.
 using ActiveLists = VertexItems<ControlPoint>;
@@ -42,6 +41,19 @@ template <int Dim>
 VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim>& start,
                                  double threshold);
 
+//! Where an iteration on the active set starts from without a coarser mesh: harmonic coordinates,
+//! without duals, and their active set.
+template <int Dim>
+struct ColdStart {
+  Start<Dim> start;  //!< owns what it refers to
+  ActiveLists active;
+};
+
+//! \param problem  without phi as well \param linear_solver  for the Laplace equation
+//! \throws SolverError if it cannot be solved
+template <int Dim>
+ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver);
+
 //! w at one place of an interior vertex's list.
 using WeightInList = std::function<double(Index vertex, Index place)>;
 
@@ -58,8 +70,5 @@ ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, dou
 //! Pairs of interior vertices and control points, relative to all there are.
 template <int Dim>
 double density(const LbcProblem<Dim>& problem, const ActiveLists& active);
-
-//! Lists from flags, n per vertex.
-ActiveLists lists_from(const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& is_in);
 
 }  // namespace flbc::active_set

@@ -6,6 +6,7 @@
 
 #include "base/flush_denormals.h"
 #include "base/padded_rows.h"
+#include "linear/aggregation.h"
 
 namespace flbc::active_set {
 namespace {
@@ -13,13 +14,75 @@ namespace {
 // Fewer unknowns are swept as fast as they are solved for.
 constexpr Index kCoarsest = 16;
 
+// Rows of a product that a thread takes at a time.
+constexpr Index kRowBlock = 64;
+
 template <class Scalar>
 Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
   return {arrays.starts.data(), arrays.starts.data() + 1, arrays.columns.data(),
           arrays.values.data()};
 }
 
+// Few enough for many blocks of a colour, enough to find neighbours in the cache.
+constexpr Index kBlock = 32;
+
+// The smallest colour that none of the blocks coupled to it has.
+std::vector<Index> colours_of_blocks(const RowMatrix& matrix, Index num_blocks) {
+  constexpr Index kNone = -1;
+  std::vector<Index> colour(num_blocks, kNone);
+  std::vector<Index> taken_by;  // by colour: the last block that may not have it
+  for (Index block = 0; block < num_blocks; ++block) {
+    const auto end = std::min<Index>((block + 1) * kBlock, static_cast<Index>(matrix.rows()));
+    for (Index row = block * kBlock; row < end; ++row) {
+      for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
+        const Index other = colour[it.col() / kBlock];
+        if (other != kNone) taken_by[other] = block;
+      }
+    }
+    const auto free =
+        std::find_if(taken_by.begin(), taken_by.end(), [&](Index taken) { return taken != block; });
+    colour[block] = static_cast<Index>(free - taken_by.begin());
+    if (free == taken_by.end()) taken_by.push_back(kNone);
+  }
+  return colour;
+}
+
+// Calls body(begin, end) for the rows of every block of a colour, by all threads of the team.
+template <class Body>
+void for_blocks(const SweepOrder& order, std::size_t colour, const Body& body) {
+#pragma omp for schedule(static)
+  for (Index block = order.colour_starts[colour]; block < order.colour_starts[colour + 1];
+       ++block) {
+    body(order.block_starts[block], order.block_starts[block + 1]);
+  }
+}
+
 }  // namespace
+
+SweepOrder sweep_order(const RowMatrix& matrix) {
+  const auto size = static_cast<Index>(matrix.rows());
+  const Index num_blocks = (size + kBlock - 1) / kBlock;
+  const auto colour = colours_of_blocks(matrix, num_blocks);
+  std::vector<Index> blocks(num_blocks);
+  for (Index block = 0; block < num_blocks; ++block) blocks[block] = block;
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [&](Index a, Index b) { return colour[a] < colour[b]; });
+  SweepOrder order;
+  order.position.resize(size);
+  Index next = 0;
+  for (Index place = 0; place < num_blocks; ++place) {
+    const Index block = blocks[place];
+    if (place == 0 || colour[block] != colour[blocks[place - 1]]) {
+      order.colour_starts.push_back(place);
+    }
+    order.block_starts.push_back(next);
+    const Index end = std::min((block + 1) * kBlock, size);
+    for (Index unknown = block * kBlock; unknown < end; ++unknown) order.position[unknown] = next++;
+  }
+  order.block_starts.push_back(next);
+  order.colour_starts.push_back(num_blocks);
+  return order;
+}
 
 template <class Scalar, int Dim>
 ActiveMultigrid<Scalar, Dim>::ActiveMultigrid(RowMatrix matrix, const SweepOrder& order,
@@ -92,7 +155,7 @@ PackedLists ActiveMultigrid<Scalar, Dim>::coarse_lists(const PackedLists& fine,
       if (found[i] == count) common.push_back(static_cast<ControlPoint>(i));
     }
     if (common.size() <= Dim + 1) common.clear();
-    lists.append(common.data(), common.data() + common.size(), n_);
+    lists.append({common.data(), common.data() + common.size()}, n_);
   }
   return lists;
 }
@@ -100,10 +163,10 @@ PackedLists ActiveMultigrid<Scalar, Dim>::coarse_lists(const PackedLists& fine,
 template <class Scalar, int Dim>
 Level<Scalar> ActiveMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* right_side) {
   LevelData& level = levels_[l];
-  Level<Scalar> view;
-  view.lists = l == 0 ? lists_.view() : level.own_lists.view();
   const auto& rows = level.matrix.off_diagonal;
   const Index* upper = level.matrix.upper.data();
+  Level<Scalar> view;
+  view.lists = l == 0 ? lists_.view() : level.own_lists.view();
   view.lower = {rows.starts.data(), upper, rows.columns.data(), rows.values.data()};
   view.upper = {upper, rows.starts.data() + 1, rows.columns.data(), rows.values.data()};
   view.inverse_diagonal = level.matrix.inverse_diagonal.data();
@@ -113,16 +176,16 @@ Level<Scalar> ActiveMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* ri
   return view;
 }
 
-// Calls body(begin, end) for the rows of every block of a colour, by all threads of the team.
+// The kernel's product, by all threads of the team.
 template <class Scalar, int Dim>
-template <class Body>
-void ActiveMultigrid<Scalar, Dim>::for_blocks(const LevelData& level, std::size_t colour,
-                                              const Body& body) const {
-  const auto& order = level.order;
+void ActiveMultigrid<Scalar, Dim>::multiply(const Entries<Scalar>& entries,
+                                            const Lists& target_lists, const Lists& source_lists,
+                                            Scalar factor, const Scalar* source, bool adds,
+                                            Scalar* target, Index num_rows, Scalar* work) const {
 #pragma omp for schedule(static)
-  for (Index block = order.colour_starts[colour]; block < order.colour_starts[colour + 1];
-       ++block) {
-    body(order.block_starts[block], order.block_starts[block + 1]);
+  for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
+    kernel_.multiply(entries, target_lists, source_lists, factor, source, adds, target, begin,
+                     std::min(num_rows, begin + kRowBlock), work_size_, work);
   }
 }
 
@@ -132,28 +195,17 @@ template <class Scalar, int Dim>
 void ActiveMultigrid<Scalar, Dim>::descend(std::size_t l, const Scalar* right_side, Scalar* work) {
   LevelData& level = levels_[l];
   const auto fine = view(l, right_side);
-  const std::size_t num_colours = level.order.colour_starts.size() - 1;
-  for (std::size_t colour = 0; colour < num_colours; ++colour) {
-    for_blocks(level, colour, [&](Index begin, Index end) {
+  for (std::size_t colour = 0; colour + 1 < level.order.colour_starts.size(); ++colour) {
+    for_blocks(level.order, colour, [&](Index begin, Index end) {
       kernel_.descend(fine, begin, end, work_size_, work);
     });
   }
   if (l + 1 == levels_.size()) return;
-  const auto num_rows = static_cast<Index>(level.matrix.inverse_diagonal.size());
-#pragma omp for schedule(static)
-  for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
-    kernel_.multiply(fine.upper, fine.lists, fine.lists, -1, fine.solution, false,
-                     level.rest.data(), begin, std::min(num_rows, begin + kRowBlock), work_size_,
-                     work);
-  }
   LevelData& coarse = levels_[l + 1];
-  const auto num_coarse = static_cast<Index>(coarse.matrix.inverse_diagonal.size());
-#pragma omp for schedule(static)
-  for (Index begin = 0; begin < num_coarse; begin += kRowBlock) {
-    kernel_.multiply(all_of(level.restriction), coarse.own_lists.view(), fine.lists, 1,
-                     level.rest.data(), false, coarse.right_side.data(), begin,
-                     std::min(num_coarse, begin + kRowBlock), work_size_, work);
-  }
+  multiply(fine.upper, fine.lists, fine.lists, -1, fine.solution, false, level.rest.data(),
+           level.num_rows(), work);
+  multiply(all_of(level.restriction), coarse.own_lists.view(), fine.lists, 1, level.rest.data(),
+           false, coarse.right_side.data(), coarse.num_rows(), work);
 }
 
 template <class Scalar, int Dim>
@@ -162,16 +214,11 @@ void ActiveMultigrid<Scalar, Dim>::ascend(std::size_t l, const Scalar* right_sid
   const auto fine = view(l, right_side);
   if (l + 1 < levels_.size()) {
     const LevelData& coarse = levels_[l + 1];
-    const auto num_rows = static_cast<Index>(level.matrix.inverse_diagonal.size());
-#pragma omp for schedule(static)
-    for (Index begin = 0; begin < num_rows; begin += kRowBlock) {
-      kernel_.multiply(all_of(level.prolongation), fine.lists, coarse.own_lists.view(), 1,
-                       coarse.solution.data(), true, fine.solution, begin,
-                       std::min(num_rows, begin + kRowBlock), work_size_, work);
-    }
+    multiply(all_of(level.prolongation), fine.lists, coarse.own_lists.view(), 1,
+             coarse.solution.data(), true, fine.solution, level.num_rows(), work);
   }
   for (std::size_t colour = level.order.colour_starts.size() - 1; colour-- > 0;) {
-    for_blocks(level, colour,
+    for_blocks(level.order, colour,
                [&](Index begin, Index end) { kernel_.ascend(fine, begin, end, work_size_, work); });
   }
 }
@@ -185,8 +232,8 @@ void ActiveMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
     for (std::size_t l = 0; l < levels_.size(); ++l) descend(l, rows, work.data());
     for (std::size_t l = levels_.size(); l-- > 0;) ascend(l, rows, work.data());
   }
-  const auto num_unknowns = levels_.front().matrix.inverse_diagonal.size();
-  std::copy_n(levels_.front().solution.data(), lists_.starts[num_unknowns], rows);
+  const LevelData& finest = levels_.front();
+  std::copy_n(finest.solution.data(), lists_.starts[finest.num_rows()], rows);
 }
 
 template class ActiveMultigrid<float, 2>;

@@ -7,10 +7,21 @@
 
 #include "base/aligned_array.h"
 #include "linear/matrix_arrays.h"
-#include "solver/methods/active_set/packed_lists.h"
-#include "solver/methods/active_set/sweep_order.h"
+#include "linear/row_matrix.h"
+#include "solver/methods/active_set/active_data.h"
 
 namespace flbc::active_set {
+
+//! Blocks of unknowns in an order in which those of one colour do not touch: each may be swept by a
+//! thread of its own, with the same result whoever does it.
+struct SweepOrder {
+  std::vector<Index> position;       //!< of every unknown
+  std::vector<Index> block_starts;   //!< positions, blocks + 1
+  std::vector<Index> colour_starts;  //!< blocks, colours + 1
+};
+
+//! Unknowns that follow each other stay together. \param matrix  symmetric
+SweepOrder sweep_order(const RowMatrix& matrix);
 
 //! An approximate minimiser of d^T K d / 2 - b^T d over all changes d of weights that stay within
 //! the supports, sum to zero and reproduce zero at every vertex,
@@ -45,13 +56,16 @@ class ActiveMultigrid {
     PackedLists own_lists;  // of coarse levels
     AlignedArray<Scalar> own_basis;
     AlignedArray<Scalar> right_side, solution, rest;
+
+    Index num_rows() const { return static_cast<Index>(matrix.inverse_diagonal.size()); }
   };
 
   LevelData coarsen(RowMatrix& matrix, const PackedLists& lists, LevelData& level) const;
   PackedLists coarse_lists(const PackedLists& fine, const RowMatrix& restriction) const;
   Level<Scalar> view(std::size_t l, const Scalar* right_side);
-  template <class Body>
-  void for_blocks(const LevelData& level, std::size_t colour, const Body& body) const;
+  void multiply(const Entries<Scalar>& entries, const Lists& target_lists,
+                const Lists& source_lists, Scalar factor, const Scalar* source, bool adds,
+                Scalar* target, Index num_rows, Scalar* work) const;
   void descend(std::size_t l, const Scalar* right_side, Scalar* work);
   void ascend(std::size_t l, const Scalar* right_side, Scalar* work);
 

@@ -13,35 +13,25 @@
 namespace flbc::active_set {
 namespace {
 
-// Squared lengths in the units in which a penalty is their ratio.
-struct Lengths2 {
-  double dual = 0;
-  double motion = 0;
-  Lengths2& operator+=(const Lengths2& other) {
-    dual += other.dual;
-    motion += other.motion;
-    return *this;
-  }
-};
-
-// Of the duals, and of how far the weights are from where they started.
+// Squared lengths, of which a penalty is the ratio: of the duals, and of how far the weights are
+// from where they started.
 template <int Dim>
-Lengths2 moved_lengths2(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
-                        const VectorsAt<1>& before, const Start<Dim>& now) {
-  return parallel_sum(problem.mesh.num_cells(), Lengths2{}, [&](Index begin, Index end) {
-    Lengths2 sum;
+Eigen::Vector2d moved_lengths2(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                               const VectorsAt<1>& before, const Start<Dim>& now) {
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  return parallel_sum(problem.mesh.num_cells(), zero, [&](Index begin, Index end) {
+    Eigen::Vector2d sum = zero;
     for (Index s = begin; s < end; ++s) {
       const auto geometry = cell_geometry(problem.mesh, s);
-      Eigen::Matrix<double, Eigen::Dynamic, Dim> motion =
-          Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(problem.num_control_points(), Dim);
+      Vectors<Dim> motion = Vectors<Dim>::Zero(problem.num_control_points(), Dim);
       for (int k = 0; k <= Dim; ++k) {
         const Index v = problem.mesh.cells(k, s);
         if (!problem.boundary.is_interior(v)) continue;
         motion += (now.weights(v) - before(v)) * geometry.hat_gradients.col(k).transpose();
       }
-      sum.dual +=
+      sum[0] +=
           geometry.measure * geometry.measure / metric.cell[s] * now.flux_density(s).squaredNorm();
-      sum.motion += metric.cell[s] * motion.squaredNorm();
+      sum[1] += metric.cell[s] * motion.squaredNorm();
     }
     return sum;
   });
@@ -60,10 +50,8 @@ ActiveSet<Scalar, Dim>::ActiveSet(const LbcProblem<Dim>& problem, splitting::Met
 
 template <class Scalar, int Dim>
 void ActiveSet<Scalar, Dim>::start(const Start<Dim>& start) {
-  splitting_ = std::make_unique<Splitting>(problem_, metric_, settings_.part * settings_.penalty,
-                                           settings_.relaxation, settings_.half,
-                                           std::exchange(first_active_, {}));
-  splitting_->start(start);
+  rebuild(settings_.part * settings_.penalty, settings_.half, std::exchange(first_active_, {}),
+          start);
   if (settings_.balances) start_weights_ = start.weights;
 }
 
@@ -80,10 +68,12 @@ Start<Dim> ActiveSet<Scalar, Dim>::state() const {
 }
 
 template <class Scalar, int Dim>
-void ActiveSet<Scalar, Dim>::rebuild(double penalty, bool half, ActiveLists active) {
-  auto other = std::make_unique<Splitting>(problem_, metric_, penalty, settings_.relaxation, half,
-                                           std::move(active));
-  other->start(splitting_->state());
+void ActiveSet<Scalar, Dim>::rebuild(double penalty, bool half, ActiveLists active,
+                                     const Start<Dim>& from) {
+  auto other =
+      std::make_unique<Splitting>(problem_, metric_, penalty, settings_.relaxation, half,
+                                  std::move(active), splitting::system_matrix(problem_, metric_));
+  other->start(from);
   splitting_ = std::move(other);
 }
 
@@ -91,18 +81,19 @@ template <class Scalar, int Dim>
 int ActiveSet<Scalar, Dim>::adapt(int made, double error, bool ends) {
   int to_make = 0;
   if (ends) {
-    if (!reaches_ends(error)) return 0;
-    to_make = grow();
+    to_make = grow(error);
+    if (to_make == 0) return 0;
     since_ = made;
   } else if (made == next_balance()) {
-    rebuild(balanced_penalty(made), splitting_->stores_half(), splitting_->active());
+    rebuild(balanced_penalty(made), splitting_->stores_half(), splitting_->active(),
+            splitting_->state());
     since_ = made;
   } else if (made == since_ + plan::kBetweenLooks) {
-    if (reaches_ends(error)) to_make = grow();
+    to_make = grow(error);
     since_ = made;
   }
   if (splitting_->stores_half() && plan::trembles(made, error)) {
-    rebuild(splitting_->penalty(), false, splitting_->active());
+    rebuild(splitting_->penalty(), false, splitting_->active(), splitting_->state());
     since_ = made;
   }
   return to_make;
@@ -119,28 +110,25 @@ template <class Scalar, int Dim>
 double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
   const auto lengths2 = moved_lengths2(problem_, metric_, start_weights_, splitting_->state());
   if (made >= plan::kLastBalance) start_weights_ = nullptr;
-  if (!(lengths2.dual > 0) || !(lengths2.motion > 0)) return splitting_->penalty();
-  const double balanced = plan::kBalance * std::sqrt(lengths2.dual / lengths2.motion);
+  if (!(lengths2[0] > 0) || !(lengths2[1] > 0)) return splitting_->penalty();
+  const double balanced = plan::kBalance * std::sqrt(lengths2[0] / lengths2[1]);
   return settings_.part * std::min(balanced, plan::kLargestPenalty);
 }
 
 // Where weights at the ends of the active set are more than a small part of the error there is, or
-// of the one wanted, they would continue beyond.
+// of the one wanted, they would continue beyond. \return iterations to make, 0 if it does not grow
 template <class Scalar, int Dim>
-bool ActiveSet<Scalar, Dim>::reaches_ends(double error) const {
+int ActiveSet<Scalar, Dim>::grow(double error) {
   const double all =
       static_cast<double>(problem_.num_control_points()) * problem_.mesh.num_vertices();
+  const auto& active = splitting_->active();
   const auto weight = [&](Index v, Index place) { return splitting_->weight(v, place); };
-  return squared_at_ends<Dim>(problem_, splitting_->active(), weight) >
-         plan::kEndsOfError * error * all;
-}
-
-template <class Scalar, int Dim>
-int ActiveSet<Scalar, Dim>::grow() {
+  const double at_ends = squared_at_ends<Dim>(problem_, active, weight);
+  if (!(at_ends > plan::kEndsOfError * error * all)) return 0;
   ++growths_;
-  const auto weight = [&](Index v, Index place) { return splitting_->weight(v, place); };
   rebuild(splitting_->penalty(), splitting_->stores_half(),
-          grown<Dim>(problem_, splitting_->active(), threshold_for(settings_.tolerance), weight));
+          grown<Dim>(problem_, active, threshold_for(settings_.tolerance), weight),
+          splitting_->state());
   return plan::kAfterGrowth;
 }
 

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "solver/methods/active_set/active_splitting.h"
-#include "solver/methods/active_set/cold_start.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::active_set {
@@ -53,11 +52,10 @@ class ActiveSet final : public Iteration<Dim> {
  private:
   using Splitting = ActiveSplitting<Scalar, Dim>;
 
-  void rebuild(double penalty, bool half, ActiveLists active);
+  void rebuild(double penalty, bool half, ActiveLists active, const Start<Dim>& from);
   int next_balance() const;
   double balanced_penalty(int made);
-  bool reaches_ends(double error) const;
-  int grow();
+  int grow(double error);
 
   const LbcProblem<Dim>& problem_;
   const splitting::Metric metric_;

@@ -7,8 +7,9 @@
 
 #include "base/flush_denormals.h"
 #include "base/padded_rows.h"
+#include "base/parallel.h"
 #include "problem/boundary_flux.h"
-#include "solver/start/flux_length.h"
+#include "solver/start/start.h"
 
 namespace flbc::active_set {
 namespace {
@@ -29,15 +30,24 @@ struct PatchRows {
         slot_of(n + 1) {}
 };
 
-}  // namespace
-
+// The vertex of every row.
 template <class Scalar, int Dim>
-ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
-                                              splitting::Metric metric, double penalty,
-                                              double relaxation, bool half, ActiveLists active)
-    : ActiveSplitting(problem, metric, penalty, relaxation, half, std::move(active),
-                      splitting::system_matrix(problem, metric)) {
+std::vector<Index> vertices_of_rows(const LbcProblem<Dim>& problem,
+                                    const compact::CompactData<Scalar, Dim>& data) {
+  auto vertices = data.vertices;
+  const auto& boundary = problem.boundary.vertices;
+  vertices.insert(vertices.end(), boundary.begin(), boundary.end());
+  return vertices;
 }
+
+PackedLists lists_of(const ActiveLists& active, const std::vector<Index>& vertices,
+                     ControlPoint n) {
+  PackedLists lists;
+  for (const Index v : vertices) lists.append(active.of(v), n);
+  return lists;
+}
+
+}  // namespace
 
 template <class Scalar, int Dim>
 ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
@@ -56,8 +66,10 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
       active_(std::move(active)),
       order_(sweep_order(system)),
       data_(compact::make_rows_and_cells<Scalar>(problem, metric_, order_.position, unit_)),
-      lists_(lists_of_rows()),
-      bases_(row_bases<Scalar, Dim>(lists_, problem.cage.points, points_of_rows(), &targets_)),
+      lists_(lists_of(active_, vertices_of_rows(problem, data_), static_cast<ControlPoint>(n_))),
+      bases_(row_bases<Scalar, Dim>(
+          lists_, problem.cage.points,
+          problem.mesh.points(Eigen::all, vertices_of_rows(problem, data_)), &targets_)),
       patches_(make_patches(problem, metric_, unit_, data_, lists_, loops_)),
       multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
       a_(lists_.size()),
@@ -66,28 +78,6 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
       residual_(num_interior_numbers()),
       left_(patches_.num_left),
       P_(Dim * patches_.radius.size()) {
-}
-
-template <class Scalar, int Dim>
-PackedLists ActiveSplitting<Scalar, Dim>::lists_of_rows() const {
-  PackedLists lists;
-  const auto n = static_cast<ControlPoint>(n_);
-  for (const Index v : data_.vertices) {
-    lists.append(active_.of(v).first, active_.of(v).last, n);
-  }
-  for (const Index v : problem_.boundary.vertices) {
-    lists.append(active_.of(v).first, active_.of(v).last, n);
-  }
-  return lists;
-}
-
-template <class Scalar, int Dim>
-PointList<Dim> ActiveSplitting<Scalar, Dim>::points_of_rows() const {
-  PointList<Dim> points(Dim, lists_.num_rows());
-  Index row = 0;
-  for (const Index v : data_.vertices) points.col(row++) = problem_.mesh.points.col(v);
-  for (const Index v : problem_.boundary.vertices) points.col(row++) = problem_.mesh.points.col(v);
-  return points;
 }
 
 template <class Scalar, int Dim>
@@ -118,7 +108,9 @@ double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation
     for (Index p = 0; p < num_patches; ++p) {
       const Patch& patch = patches_.patches[p];
       const Index* numbers = patches_.rows.data() + patch.first_row;
-      set_slots(patches_, patch, rows.slot_of);
+      for (std::size_t j = 0; j < patch.stride; ++j) {
+        rows.slot_of[patches_.items[patch.first_item + j]] = static_cast<std::uint16_t>(j);
+      }
       auto state = patch_state(patch);
       state.relaxation = static_cast<Scalar>(relaxation);
       state.extrapolated = rows.extrapolated.data();
@@ -181,30 +173,19 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::row_state(Index row) 
 template <class Scalar, int Dim>
 compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
   const auto num_rows = static_cast<Index>(data_.vertices.size());
-  std::vector<compact::RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
-#pragma omp parallel
-  {
+  return parallel_sum(num_rows, compact::RowSums{}, [&](Index begin, Index end) {
     const FlushDenormals flush;
-#pragma omp for schedule(static)
-    for (std::size_t block = 0; block < parts.size(); ++block) {
-      const Index begin = static_cast<Index>(block) * kRowBlock;
-      for (Index row = begin; row < std::min(num_rows, begin + kRowBlock); ++row) {
-        parts[block] += loop(row_state(row), 0, 1);
-      }
-    }
-  }
-  compact::RowSums sums;
-  for (const auto& part : parts) sums += part;
-  return sums;
+    compact::RowSums sums;
+    for (Index row = begin; row < end; ++row) sums += loop(row_state(row), 0, 1);
+    return sums;
+  });
 }
 
 template <class Scalar, int Dim>
 Step ActiveSplitting<Scalar, Dim>::iterate(bool measures) {
   if (measures) {
     difference_ = AlignedArray<Scalar>(W_.size());
-    for (std::size_t k = 0; k < W_.size(); ++k) {
-      difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
-    }
+    for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
   }
   const double of_cells = pass_cells(measures, relaxation_);
   collect_divergence();
@@ -219,14 +200,23 @@ Scalar ActiveSplitting<Scalar, Dim>::weight_at(std::size_t place) const {
   return static_cast<Scalar>(0.5 / sigma()) * (a_[place] + W_[place]);
 }
 
+// Writes a vertex's numbers for all control points, zero where it is not active.
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
-  std::fill_n(weights, n_, 0.0);
+template <class NumberAt>
+void ActiveSplitting<Scalar, Dim>::spread(Index vertex, const NumberAt& number_at,
+                                          double* numbers) const {
+  std::fill_n(numbers, n_, 0.0);
   const Index row = data_.row_of[vertex];
   const std::size_t start = lists_.starts[row];
   for (Index j = 0; j < lists_.counts[row]; ++j) {
-    weights[lists_.items[start + j]] = weight_at(start + j);
+    numbers[lists_.items[start + j]] = number_at(start + j);
   }
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
+  spread(
+      vertex, [this](std::size_t place) { return weight_at(place); }, weights);
 }
 
 template <class Scalar, int Dim>
@@ -240,16 +230,11 @@ double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
 // a = sigma w on the lists, boundary rows included.
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
-  const auto num_interior = static_cast<Index>(data_.vertices.size());
+  const auto of_vertex = with_known_values(problem_, weights);
 #pragma omp parallel for schedule(static)
-  for (Index row = 0; row < lists_.num_rows(); ++row) {
-    Eigen::VectorXd numbers;
-    if (row < num_interior) {
-      numbers = weights(data_.vertices[row]);
-    } else {
-      numbers = Eigen::VectorXd::Zero(n_);
-      problem_.boundary.scatter(row - num_interior, numbers);
-    }
+  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
+    const Eigen::VectorXd numbers = of_vertex(v);
+    const Index row = data_.row_of[v];
     const std::size_t start = lists_.starts[row];
     for (Index j = 0; j < lists_.counts[row]; ++j) {
       a_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
@@ -263,30 +248,10 @@ void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
 
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-  const auto num_patches = static_cast<Index>(patches_.patches.size());
-#pragma omp parallel
-  {
-    AlignedArray<Scalar> rows(Dim * (padded(static_cast<std::size_t>(n_)) + kRowLanes));
-#pragma omp for schedule(static)
-    for (Index p = 0; p < num_patches; ++p) {
-      const Patch& patch = patches_.patches[p];
-      for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
-        const Index s = patches_.cell_index[k];
-        const double scale = compact::dual_scale(problem_, metric_, unit_, s);
-        const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
-        for (std::size_t j = 0; j < patch.stride; ++j) {
-          const Index i = patches_.items[patch.first_item + j];
-          for (int d = 0; d < Dim; ++d) {
-            rows[d * patch.stride + j] =
-                i < n_ ? static_cast<Scalar>(scale * density(i, d)) : Scalar(0);
-          }
-        }
-        loops_.encode(rows.data(), P_.data(),
-                      Dim * (patch.first_number + (k - patch.first_cell) * patch.stride),
-                      Dim * patch.stride);
-      }
-    }
-  }
+  store_in_cells<Dim>(patches_, loops_, n_, P_, [&](Index s) {
+    const double scale = compact::dual_scale(problem_, metric_, unit_, s);
+    return [scale, density = flux_density(s)](Index i, int d) { return scale * density(i, d); };
+  });
 }
 
 template <class Scalar, int Dim>
@@ -314,24 +279,8 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   collect_divergence();
   multigrid_.cycle(residual_.data());
   pass_rows(loops_.correct);
-  for (std::size_t k = 0; k < W_.size(); ++k) {
-    W_[k] = 2 * W_[k] - a_[k];
-  }
+  for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
   pass_rows(loops_.w_step);
-}
-
-// A vertex's numbers for all control points, zero where it is not active.
-template <class Scalar, int Dim>
-template <class NumberAt>
-Eigen::VectorXd ActiveSplitting<Scalar, Dim>::spread(Index vertex,
-                                                     const NumberAt& number_at) const {
-  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
-  const Index row = data_.row_of[vertex];
-  const std::size_t start = lists_.starts[row];
-  for (Index j = 0; j < lists_.counts[row]; ++j) {
-    numbers[lists_.items[start + j]] = number_at(start + j);
-  }
-  return numbers;
 }
 
 // Boundary values are known better than single precision holds them.
@@ -366,32 +315,32 @@ Start<Dim> ActiveSplitting<Scalar, Dim>::state() const {
   Start<Dim> state;
   state.penalty = penalty_;
   state.weights = [this](Index v) {
-    return spread(v, [&](std::size_t place) { return weight_at(place); });
+    Eigen::VectorXd weights(n_);
+    read_weights(v, weights.data());
+    return weights;
   };
   state.flux_density = [this](Index s) { return flux_density(s); };
-  if (has_vertex_dual()) state.vertex_dual = [this](Index v) { return vertex_dual_at(v); };
+  if (!has_vertex_dual()) return state;
+  state.vertex_dual = [this](Index v) {
+    Eigen::VectorXd dual(n_);
+    const auto dual_at = [this](std::size_t place) {
+      const double difference = static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
+      return (S_[place] - 0.5 * difference) / sigma();
+    };
+    spread(v, dual_at, dual.data());
+    return dual;
+  };
   return state;
 }
 
 template <class Scalar, int Dim>
-Eigen::VectorXd ActiveSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
-  return spread(vertex, [&](std::size_t place) {
-    const double difference = static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
-    return (S_[place] - 0.5 * difference) / sigma();
-  });
-}
-
-template <class Scalar, int Dim>
-Eigen::Matrix<double, Eigen::Dynamic, Dim> ActiveSplitting<Scalar, Dim>::flux_density(
-    Index cell) const {
+Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
   if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> density =
-      Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n_, Dim);
+  Vectors<Dim> density = Vectors<Dim>::Zero(n_, Dim);
   const Index k = patches_.place_of_cell[cell];
   const Patch& patch = patches_.patches[k / kPatchCells];
   AlignedArray<Scalar> rows(Dim * patch.stride);
-  const std::size_t first = patch.first_number + (k - patch.first_cell) * patch.stride;
-  loops_.decode(P_.data(), Dim * first, rows.data(), Dim * patch.stride);
+  loops_.decode(P_.data(), Dim * patch.number_of(k), rows.data(), Dim * patch.stride);
   const double scale = 1 / compact::dual_scale(problem_, metric_, unit_, cell);
   for (std::size_t j = 0; j < patch.stride; ++j) {
     const Index i = patches_.items[patch.first_item + j];

@@ -3,14 +3,13 @@
 //! The compact splitting where weights are zero outside of an active set.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/sparse_weights.h"
+#include "solver/methods/active_set/active_data.h"
 #include "solver/methods/active_set/active_multigrid.h"
-#include "solver/methods/active_set/cell_patches.h"
 #include "solver/methods/splitting/compact_data.h"
 #include "solver/run/iteration.h"
 
@@ -28,8 +27,9 @@ class ActiveSplitting {
   //! \param relaxation  alpha in (0, 2)
   //! \param half  whether P and the radii are stored in half precision
   //! \param active  with weights for every vertex
+  //! \param system  of problem and metric, see splitting::system_matrix()
   ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
-                  double relaxation, bool half, ActiveLists active);
+                  double relaxation, bool half, ActiveLists active, const RowMatrix& system);
 
   //! Starts from weights and duals that were found elsewhere.
   void start(const Start<Dim>& start);
@@ -56,36 +56,25 @@ class ActiveSplitting {
   //! not active.
   Start<Dim> state() const;
 
-  //! p / A of a cell, n x Dim.
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
-
-  bool has_vertex_dual() const { return S_.size() > 0; }
-
-  //! q - w of an interior vertex, n numbers.
-  Eigen::VectorXd vertex_dual_at(Index vertex) const;
-
   //! Numbers of state held per cell and control point, in units of the Scalar.
   double state_scalars_per_cell() const;
 
  private:
-  ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
-                  double relaxation, bool half, ActiveLists active, const RowMatrix& system);
-
   using State = compact::Arrays<Scalar, Dim>;
   using RowLoop = typename compact::Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
   std::size_t num_interior_numbers() const { return lists_.starts[data_.vertices.size()]; }
   Scalar weight_at(std::size_t place) const;
-  PackedLists lists_of_rows() const;
-  PointList<Dim> points_of_rows() const;
+  bool has_vertex_dual() const { return S_.size() > 0; }
   State patch_state(const Patch& patch);
   State row_state(Index row);
   double pass_cells(bool measures, double relaxation);
   void collect_divergence();
   compact::RowSums pass_rows(RowLoop loop);
   template <class NumberAt>
-  Eigen::VectorXd spread(Index vertex, const NumberAt& number_at) const;
+  void spread(Index vertex, const NumberAt& number_at, double* numbers) const;
+  Vectors<Dim> flux_density(Index cell) const;
   void set_weights(const VectorsAt<1>& weights);
   void set_cell_dual(const VectorsAt<Dim>& flux_density);
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);

@@ -4,12 +4,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/gradient/gradient_kernel.h"
 
 namespace flbc::gradient {
+namespace {
 
+// Orthonormal basis of the facet's tangent space, a column per direction.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet) {
   const auto point = [&](int k) {
@@ -24,53 +27,44 @@ Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem
   return tangents;
 }
 
-namespace {
+// h of (9), n x (Dim - 1): the derivatives of the boundary values along the facet's tangents.
+template <int Dim>
+Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> boundary_slopes(
+    const LbcProblem<Dim>& problem, Index facet,
+    const Eigen::Matrix<double, Dim, Dim - 1>& tangents) {
+  const auto corners = problem.topology.facets.col(facet);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(problem.num_control_points(), Dim);
+  Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
+  for (int k = 0; k < Dim; ++k) {
+    problem.boundary.scatter(problem.boundary.boundary_index[corners[k]], weights.col(k));
+    if (k == 0) continue;
+    edges.col(k - 1) = tangents.transpose() *
+                       (problem.mesh.points.col(corners[k]) - problem.mesh.points.col(corners[0]));
+  }
+  return (weights.template rightCols<Dim - 1>().colwise() - weights.col(0)) * edges.inverse();
+}
 
 template <class Scalar, int Dim>
 void set_up_facets(const LbcProblem<Dim>& problem, std::size_t stride,
                    ConstraintData<Scalar, Dim>& data) {
-  const Index num_facets = problem.topology.num_facets();
-  data.tangents.resize(static_cast<std::size_t>(num_facets) * (Dim - 1) * Dim);
-  data.boundary_index.assign(num_facets, -1);
-  Index num_boundary = 0;
-  for (Index f = 0; f < num_facets; ++f) {
-    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(data.tangents.data() + f * (Dim - 1) * Dim) =
-        tangent_basis(problem, f).template cast<Scalar>();
-    if (problem.topology.is_boundary(f)) data.boundary_index[f] = num_boundary++;
-  }
-  data.boundary_slope =
-      AlignedArray<Scalar>(static_cast<std::size_t>(num_boundary) * (Dim - 1) * stride);
-}
-
-// h of (9): the derivatives of the boundary values along the facet's tangents.
-template <class Scalar, int Dim>
-void set_up_boundary_slopes(const LbcProblem<Dim>& problem, std::size_t stride,
-                            ConstraintData<Scalar, Dim>& data) {
-  const Index n = problem.num_control_points();
-  const auto& facets = problem.topology.facets;
-  Eigen::MatrixXd corner_weights(n, Dim);
-  for (Index f = 0; f < problem.topology.num_facets(); ++f) {
-    if (data.boundary_index[f] < 0) continue;
+  constexpr std::size_t kTangents = Dim - 1;
+  const auto& topology = problem.topology;
+  const auto num_boundary = static_cast<std::size_t>((topology.sides.row(1).array() < 0).count());
+  data.tangents.resize(topology.num_facets() * kTangents * Dim);
+  data.boundary_index.assign(topology.num_facets(), -1);
+  data.boundary_slope = AlignedArray<Scalar>(num_boundary * kTangents * stride);
+  Index boundary = 0;
+  for (Index f = 0; f < topology.num_facets(); ++f) {
     const auto tangents = tangent_basis(problem, f);
-    corner_weights.setZero();
-    Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
-    for (int k = 0; k < Dim; ++k) {
-      problem.boundary.scatter(problem.boundary.boundary_index[facets(k, f)],
-                               corner_weights.col(k));
-      if (k == 0) continue;
-      edges.col(k - 1) = tangents.transpose() * (problem.mesh.points.col(facets(k, f)) -
-                                                 problem.mesh.points.col(facets(0, f)));
+    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(data.tangents.data() + f * kTangents * Dim) =
+        tangents.template cast<Scalar>();
+    if (!topology.is_boundary(f)) continue;
+    const auto slopes = boundary_slopes(problem, f, tangents);
+    for (std::size_t t = 0; t < kTangents; ++t) {
+      Scalar* row = data.boundary_slope.data() + (boundary * kTangents + t) * stride;
+      for (Index i = 0; i < slopes.rows(); ++i) row[i] = static_cast<Scalar>(slopes(i, t));
     }
-    const Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> slopes =
-        (corner_weights.template rightCols<Dim - 1>().colwise() - corner_weights.col(0)) *
-        edges.inverse();
-    for (int t = 0; t < Dim - 1; ++t) {
-      for (Index i = 0; i < n; ++i) {
-        data.boundary_slope[(static_cast<std::size_t>(data.boundary_index[f]) * (Dim - 1) + t) *
-                                stride +
-                            i] = static_cast<Scalar>(slopes(i, t));
-      }
-    }
+    data.boundary_index[f] = boundary++;
   }
 }
 
@@ -113,20 +107,11 @@ ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem,
                                                  std::size_t stride) {
   ConstraintData<Scalar, Dim> data;
   set_up_facets(problem, stride, data);
-  set_up_boundary_slopes(problem, stride, data);
   set_up_interpolation(problem, stride, data);
   set_up_radii(problem, penalty, stride, data);
   return data;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                               \
-  template ConstraintData<float, Dim> make_constraint_data(const LbcProblem<Dim>&, double,  \
-                                                           std::size_t);                    \
-  template ConstraintData<double, Dim> make_constraint_data(const LbcProblem<Dim>&, double, \
-                                                            std::size_t);                   \
-  template Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>&, Index);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_SCALAR_FUNCTION(make_constraint_data)
 
 }  // namespace flbc::gradient

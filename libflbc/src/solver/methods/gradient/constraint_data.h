@@ -28,8 +28,4 @@ template <class Scalar, int Dim>
 ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
                                                  std::size_t stride);
 
-//! Orthonormal basis of the facet's tangent space, a column per direction.
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet);
-
 }  // namespace flbc::gradient

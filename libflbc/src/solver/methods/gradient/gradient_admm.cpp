@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/flush_denormals.h"
+#include "base/instantiate.h"
 #include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 
@@ -44,25 +45,20 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
   tv_dual_ = AlignedArray<Scalar>(cells * Dim * stride_);
   facet_dual_ = AlignedArray<Scalar>(facets * (Dim - 1) * stride_);
   data_ = make_constraint_data<Scalar>(problem, penalty, stride_);
-  set_up_periods(periods);
-  sweep_ = make_sweep(problem.mesh, problem.topology, omp_get_max_threads());
-  for (const auto& part : sweep_.parts) {
-    slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
-  }
-  cell_change_.resize(cells);
-  facet_change_.resize(facets);
-}
-
-template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::set_up_periods(const std::vector<Period<Dim>>& periods) {
   period_dual_ = AlignedArray<Scalar>(periods.size() * stride_);
   period_values_ = AlignedArray<double>(periods.size() * stride_);
   for (std::size_t p = 0; p < periods.size(); ++p) {
     for (const double number : periods[p].field.reshaped()) {
       period_fields_.push_back(static_cast<Scalar>(number));
     }
-    for (Index i = 0; i < n_; ++i) period_values_[p * stride_ + i] = periods[p].values[i];
+    std::copy_n(periods[p].values.data(), n_, period_values_.data() + p * stride_);
   }
+  sweep_ = make_sweep(problem.mesh, problem.topology, omp_get_max_threads());
+  for (const auto& part : sweep_.parts) {
+    slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
+  }
+  cell_change_.resize(cells);
+  facet_change_.resize(facets);
 }
 
 // The period constraints' dual step. The field has norm 1, so the dual grows by the violation.
@@ -167,8 +163,8 @@ void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool no
 #pragma omp parallel for schedule(static, 1) if (num_parts > 1)
   for (Index p = 0; p < num_parts; ++p) {
     const FlushDenormals scope;
-    const auto path = sweep_.parts[p].path();
-    note ? kernel_.sweep_and_note(arrays, path) : kernel_.sweep(arrays, path, slots_[p].data());
+    (note ? kernel_.sweep_and_note : kernel_.sweep)(arrays, sweep_.parts[p].path(),
+                                                    slots_[p].data());
   }
   parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
     kernel_.listed_xy_step(arrays, sweep_.seams.data() + begin, end - begin, note);
@@ -255,9 +251,6 @@ Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
   return arrays;
 }
 
-template class GradientAdmm<float, 2>;
-template class GradientAdmm<float, 3>;
-template class GradientAdmm<double, 2>;
-template class GradientAdmm<double, 3>;
+FLBC_INSTANTIATE_SCALAR_CLASS(GradientAdmm)
 
 }  // namespace flbc::gradient

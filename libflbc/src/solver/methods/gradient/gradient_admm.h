@@ -75,7 +75,6 @@ class GradientAdmm {
   double state_scalars_per_cell() const;
 
  private:
-  void set_up_periods(const std::vector<Period<Dim>>& periods);
   void xyz_steps(const Arrays<Scalar, Dim>& arrays);
   void sweep(const Arrays<Scalar, Dim>& arrays, bool note);
   Change g_step(const Arrays<Scalar, Dim>& arrays);

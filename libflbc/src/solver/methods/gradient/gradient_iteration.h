@@ -24,19 +24,59 @@ struct Settings {
 template <class Scalar, int Dim>
 class GradientIteration final : public Iteration<Dim> {
  public:
-  GradientIteration(const LbcProblem<Dim>& problem, const Settings& settings);
+  GradientIteration(const LbcProblem<Dim>& problem, const Settings& settings)
+      : problem_(problem),
+        settings_(settings),
+        admm_(problem, settings.penalty, settings.relaxation,
+              boundary_periods(problem, settings.linear_solver)) {}
 
   //! Cold, as settings say: no other iteration hands over to this one.
-  void start(const Start<Dim>& start) override;
-  Step iterate(int count, bool measure) override;
+  void start(const Start<Dim>&) override {
+    if (!settings_.harmonic) {
+      admm_.start_from_least_norm();
+      return;
+    }
+    start_weights_ = harmonic_coordinates(problem_, poisson());
+    admm_.start_from_weights(start_weights_);
+  }
+
+  Step iterate(int count, bool) override {
+    start_weights_ = {};
+    const Change change = admm_.iterate(count);
+    const auto residuals = admm_.residuals(change);
+    const double components = admm_.num_residual_components();
+    return {change.gradient, change.dual, residuals.primal / components,
+            residuals.dual / components};
+  }
+
   //! Recovered from the present gradients; before the first iteration those of a harmonic start.
-  Weights weights() const override;
-  void read_weights(Index vertex, double* weights) const override;
-  Certificate certify(const WeightMatrix& weights) const override;
-  void describe(SolveReport& report) const override;
+  Weights weights() const override {
+    if (start_weights_.size() > 0) return {start_weights_, {}};
+    if (settings_.recovery == Recovery::kBreadthFirst) {
+      return {integrate_breadth_first(problem_, admm_.gradients()), {}};
+    }
+    return {integrate_least_squares(problem_, admm_.gradients(), poisson()), {}};
+  }
+
+  void read_weights(Index vertex, double* weights) const override {
+    const auto all = this->weights().dense;
+    Eigen::Map<Eigen::VectorXd>(weights, all.rows()) = all.col(vertex);
+  }
+
+  Certificate certify(const WeightMatrix& weights) const override {
+    return flbc::certify(problem_, admm_.flux(), weights);
+  }
+
+  void describe(SolveReport& report) const override {
+    report.penalty = settings_.penalty;
+    report.state_scalars_per_cell = admm_.state_scalars_per_cell();
+  }
 
  private:
-  const DirichletProblem<Dim>& poisson() const;
+  const DirichletProblem<Dim>& poisson() const {
+    if (!poisson_) poisson_.emplace(problem_.mesh, problem_.boundary, settings_.linear_solver);
+    return *poisson_;
+  }
 
   const LbcProblem<Dim>& problem_;
   const Settings settings_;

@@ -110,14 +110,11 @@ struct Kernel {
   void (*sweep)(State, const SweepPath& path, Scalar* slots);
 
   //! The same, with all extrapolated gradients kept in their array and changes of duals noted.
-  void (*sweep_and_note)(State, const SweepPath& path);
+  void (*sweep_and_note)(State, const SweepPath& path, Scalar* unused);
 };
 
 }  // namespace flbc::gradient
 
 namespace flbc {
-FLBC_DECLARE_KERNEL(gradient, float, 2)
-FLBC_DECLARE_KERNEL(gradient, float, 3)
-FLBC_DECLARE_KERNEL(gradient, double, 2)
-FLBC_DECLARE_KERNEL(gradient, double, 3)
+FLBC_DECLARE_KERNELS(gradient)
 }  // namespace flbc

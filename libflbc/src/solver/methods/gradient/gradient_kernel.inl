@@ -15,7 +15,7 @@ namespace {
 #include "solver/methods/gradient/gradient_steps.inl"
 
 template <class Scalar, int Dim>
-const Scalar* extrapolated_of(const Arrays<Scalar, Dim>& arrays, std::int32_t cell) {
+Scalar* extrapolated_of(const Arrays<Scalar, Dim>& arrays, std::int32_t cell) {
   return arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride;
 }
 
@@ -47,14 +47,13 @@ void z_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t 
   for (std::int32_t cell = begin; cell < end; ++cell) {
     const Scalar* extrapolated = extrapolated_of(arrays, cell);
     SquareSum<Scalar, true> change;
-    for_packs<Scalar>(
-        arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-          constexpr int kCount = decltype(lanes)::kCount;
-          PackN<Scalar, kCount> e[Dim];
+    for_packs<kWide<Scalar>>(
+        0, arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+          PackN<Scalar, lanes()> e[Dim];
           for (int d = 0; d < Dim; ++d) {
-            e[d] = load_pack<kCount>(extrapolated + d * arrays.stride + i);
+            e[d] = load_pack<lanes()>(extrapolated + d * arrays.stride + i);
           }
-          z_step_at<kCount>(arrays, cell, i, e, change);
+          z_step_at<lanes()>(arrays, cell, i, e, change);
         });
     arrays.cell_change[cell] = change.total();
   }
@@ -64,8 +63,7 @@ template <class Scalar, int Dim>
 Change g_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
   Change change;
   for (std::int32_t cell = begin; cell < end; ++cell) {
-    change += g_step_at<true, false, false>(
-        arrays, cell, arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride);
+    change += g_step_at<true, false, false>(arrays, cell, extrapolated_of(arrays, cell));
   }
   return change;
 }
@@ -96,12 +94,11 @@ template <class Scalar, int Dim>
 // So many visits take as long as memory takes to answer.
 constexpr std::size_t kVisitsAhead = 4;
 
-template <class Scalar, int Dim>
+template <bool note, class Scalar, int Dim>
 void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slots) {
-  const std::size_t size = Dim * arrays.stride;
   const auto extrapolated = [&](Place place) {
-    return place >= 0 ? slots + std::size_t(place) * size
-                      : arrays.extrapolated + std::size_t(~place) * size;
+    return place >= 0 ? slots + std::size_t(place) * Dim * arrays.stride
+                      : extrapolated_of(arrays, ~place);
   };
   const Closing* closing = path.closings;
   for (std::size_t k = 0; k < path.num_visits; ++k) {
@@ -109,39 +106,29 @@ void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slo
     if (k + kVisitsAhead < path.num_visits) {
       prefetch_cell(arrays, path.visits[k + kVisitsAhead].cell);
     }
-    g_step_at<false, true, false>(arrays, visit.cell, extrapolated(visit.place));
+    const Place place = note ? ~visit.cell : visit.place;
+    const double change =
+        g_step_at<false, true, note>(arrays, visit.cell, extrapolated(place)).dual;
+    if constexpr (note) arrays.cell_change[visit.cell] = change;
     for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
-      xy_step_at<false>(arrays, closing->facet, extrapolated(closing->first),
-                        extrapolated(closing->second));
+      if constexpr (note) {
+        xy_step_at<true>(arrays, closing->facet);
+      } else {
+        xy_step_at<false>(arrays, closing->facet, extrapolated(closing->first),
+                          extrapolated(closing->second));
+      }
     }
   }
 }
 
 template <class Scalar, int Dim>
-void sweep_and_note(const Arrays<Scalar, Dim>& arrays, const SweepPath& path) {
-  const Closing* closing = path.closings;
-  for (std::size_t k = 0; k < path.num_visits; ++k) {
-    const Visit visit = path.visits[k];
-    Scalar* extrapolated = arrays.extrapolated + std::size_t(visit.cell) * Dim * arrays.stride;
-    arrays.cell_change[visit.cell] =
-        g_step_at<false, true, true>(arrays, visit.cell, extrapolated).dual;
-    for (const Closing* end = closing + visit.num_closings; closing < end; ++closing) {
-      xy_step_at<true>(arrays, closing->facet);
-    }
-  }
-}
-
-template <class Scalar, int Dim>
-constexpr Kernel<Scalar, Dim> kKernel{xy_step<Scalar, Dim>, listed_xy_step<Scalar, Dim>,
-                                      z_step<Scalar, Dim>,  g_step<Scalar, Dim>,
-                                      sweep<Scalar, Dim>,   sweep_and_note<Scalar, Dim>};
+constexpr Kernel<Scalar, Dim> kKernel{xy_step<Scalar, Dim>,      listed_xy_step<Scalar, Dim>,
+                                      z_step<Scalar, Dim>,       g_step<Scalar, Dim>,
+                                      sweep<false, Scalar, Dim>, sweep<true, Scalar, Dim>};
 
 }  // namespace
 }  // namespace flbc::gradient::FLBC_ISA
 
 namespace flbc {
-FLBC_DEFINE_KERNEL(gradient, float, 2)
-FLBC_DEFINE_KERNEL(gradient, float, 3)
-FLBC_DEFINE_KERNEL(gradient, double, 2)
-FLBC_DEFINE_KERNEL(gradient, double, 3)
+FLBC_DEFINE_KERNELS(gradient)
 }  // namespace flbc

@@ -16,35 +16,33 @@ inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet, 
   const std::int32_t boundary = arrays.boundary_index[facet];
   if (boundary >= 0) {
     const Scalar* slope = arrays.boundary_slope + std::size_t(boundary) * kTangents * stride;
-    for_packs<Scalar>(
-        stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-          constexpr int kCount = decltype(lanes)::kCount;
+    for_packs<kWide<Scalar>>(
+        0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
           for (int t = 0; t < kTangents; ++t) {
-            auto step = load_pack<kCount>(slope + t * stride + i);
+            auto step = load_pack<lanes()>(slope + t * stride + i);
             for (int d = 0; d < Dim; ++d) {
-              step -= tangents[t * Dim + d] * load_pack<kCount>(first + d * stride + i);
+              step -= tangents[t * Dim + d] * load_pack<lanes()>(first + d * stride + i);
             }
             Scalar* place = dual + t * stride + i;
-            store_pack<kCount>(place, load_pack<kCount>(place) + arrays.relaxation * step);
-            change.template add<kCount>(step);
+            store_pack<lanes()>(place, load_pack<lanes()>(place) + arrays.relaxation * step);
+            change.template add<lanes()>(step);
           }
         });
     return note ? change.total() : 0;
   }
-  for_packs<Scalar>(
-      stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        PackN<Scalar, kCount> half_jump[Dim];
+  for_packs<kWide<Scalar>>(
+      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        PackN<Scalar, lanes()> half_jump[Dim];
         for (int d = 0; d < Dim; ++d) {
-          half_jump[d] = Scalar(0.5) * (load_pack<kCount>(second + d * stride + i) -
-                                        load_pack<kCount>(first + d * stride + i));
+          half_jump[d] = Scalar(0.5) * (load_pack<lanes()>(second + d * stride + i) -
+                                        load_pack<lanes()>(first + d * stride + i));
         }
         for (int t = 0; t < kTangents; ++t) {
-          PackN<Scalar, kCount> step{};
+          PackN<Scalar, lanes()> step{};
           for (int d = 0; d < Dim; ++d) step += tangents[t * Dim + d] * half_jump[d];
           Scalar* place = dual + t * stride + i;
-          store_pack<kCount>(place, load_pack<kCount>(place) + arrays.relaxation * step);
-          change.template add<kCount>(step);
+          store_pack<lanes()>(place, load_pack<lanes()>(place) + arrays.relaxation * step);
+          change.template add<lanes()>(step);
         }
       });
   return note ? 2 * change.total() : 0;
@@ -159,34 +157,32 @@ template <bool note, class Scalar, int Dim>
                                                 std::int32_t cell, Scalar* extrapolated,
                                                 Scalar* excess,
                                                 GradientChange<Scalar, note>& change) {
-  constexpr int kWide = kWideLanes<Scalar>;
   const std::size_t stride = arrays.stride;
   FacetMultiplier<Scalar, Dim> multipliers[Dim + 1];
   gather_facets(arrays, cell, multipliers);
   const auto average = [&](auto lanes, std::size_t i,
-                           PackN<Scalar, decltype(lanes)::kCount>* projection)
+                           PackN<Scalar, decltype(lanes)::value>* projection)
       __attribute__((always_inline)) {
-    constexpr int kCount = decltype(lanes)::kCount;
-    PackN<Scalar, kCount> r[Dim];
-    average_candidates<kCount>(arrays, cell, multipliers, i, r);
-    add_projection<Scalar, Dim, kCount>(arrays, i, r, projection);
+    PackN<Scalar, lanes()> r[Dim];
+    average_candidates<lanes()>(arrays, cell, multipliers, i, r);
+    add_projection<Scalar, Dim, lanes()>(arrays, i, r, projection);
     for (int d = 0; d < Dim; ++d) {
       Scalar* place = extrapolated + d * stride + i;
       // The old extrapolation is needed once more, for the residual, but only its distance from r:
       // what the projection takes away from r is orthogonal to every difference of gradients.
-      if constexpr (note) change.lead.template add<kCount>(load_pack<kCount>(place) - r[d]);
-      store_pack<kCount>(place, r[d]);
+      if constexpr (note) change.lead.template add<lanes()>(load_pack<lanes()>(place) - r[d]);
+      store_pack<lanes()>(place, r[d]);
     }
   };
 
   // One by one: a loop over them, or clearing them at once, would take them to memory.
   Pack<Scalar> projection[kProjectionEights<Dim> * kLanes];
   std::size_t i = 0;
-  if constexpr (kWide > kLanes) {
-    PackN<Scalar, kWide> wide[kProjections<Dim>];
+  if constexpr (constexpr std::integral_constant<int, kWide<Scalar>> lanes{}; lanes() > kLanes) {
+    PackN<Scalar, lanes()> wide[kProjections<Dim>];
 #pragma GCC unroll 16
-    for (auto& pack : wide) pack = PackN<Scalar, kWide>{};
-    for (; i + kWide <= stride; i += kWide) average(Lanes<kWide>{}, i, wide);
+    for (auto& pack : wide) pack = PackN<Scalar, lanes()>{};
+    for (; i + lanes() <= stride; i += lanes()) average(lanes, i, wide);
 #pragma GCC unroll 16
     for (int k = 0; k < kProjections<Dim>; ++k) projection[k] = fold<Scalar>(wide[k]);
   } else {
@@ -197,7 +193,7 @@ template <bool note, class Scalar, int Dim>
   for (int k = kProjections<Dim>; k < kProjectionEights<Dim> * kLanes; ++k) {
     projection[k] = Pack<Scalar>{};
   }
-  for (; i < stride; i += kLanes) average(Lanes<kLanes>{}, i, projection);
+  for (; i < stride; i += kLanes) average(std::integral_constant<int, kLanes>{}, i, projection);
 
 #pragma GCC unroll 2
   for (int eight = 0; eight < kProjectionEights<Dim>; ++eight) {
@@ -220,24 +216,23 @@ inline Change g_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
   SquareSum<Scalar, note_tv> dual_change;
   alignas(64) Scalar excess[kProjectionEights<Dim> * kLanes];
   average_cell(arrays, cell, extrapolated, excess, change);
-  for_packs<Scalar>(
-      stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        using P = PackN<Scalar, kCount>;
+  for_packs<kWide<Scalar>>(
+      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        using P = PackN<Scalar, lanes()>;
         P q[Dim + 1];
         P e[Dim];
-        for (int k = 0; k <= Dim; ++k) q[k] = load_pack<kCount>(arrays.basis + k * stride + i);
+        for (int k = 0; k <= Dim; ++k) q[k] = load_pack<lanes()>(arrays.basis + k * stride + i);
         for (int d = 0; d < Dim; ++d) {
-          P projected = load_pack<kCount>(extrapolated + d * stride + i);
+          P projected = load_pack<lanes()>(extrapolated + d * stride + i);
           for (int k = 0; k <= Dim; ++k) projected -= excess[d * (Dim + 1) + k] * q[k];
-          const P old = load_pack<kCount>(gradient + d * stride + i);
+          const P old = load_pack<lanes()>(gradient + d * stride + i);
           const P step = projected - old;
           e[d] = projected + step;
-          store_pack<kCount>(extrapolated + d * stride + i, e[d]);
-          store_pack<kCount>(gradient + d * stride + i, old + arrays.relaxation * step);
-          change.gradient.template add<kCount>(step);
+          store_pack<lanes()>(extrapolated + d * stride + i, e[d]);
+          store_pack<lanes()>(gradient + d * stride + i, old + arrays.relaxation * step);
+          change.gradient.template add<lanes()>(step);
         }
-        if constexpr (then_tv) z_step_at<kCount>(arrays, cell, i, e, dual_change);
+        if constexpr (then_tv) z_step_at<lanes()>(arrays, cell, i, e, dual_change);
       });
   Change result;
   if constexpr (note_tv) result.dual = dual_change.total();

@@ -6,20 +6,9 @@
 template <class Scalar>
 using Pack = PackN<Scalar, kLanes>;
 
-// As many numbers as fill the widest registers, if that is more than rows are padded to.
-#ifdef __AVX512F__
+// Lanes of the packs that fill the widest registers.
 template <class Scalar>
-constexpr int kWideLanes = sizeof(Scalar) == 4 ? 16 : kLanes;
-#else
-template <class Scalar>
-constexpr int kWideLanes = kLanes;
-#endif
-
-template <class Scalar>
-inline Pack<Scalar> fold(PackN<Scalar, 2 * kLanes> pack) {
-  return __builtin_shufflevector(pack, pack, 0, 1, 2, 3, 4, 5, 6, 7) +
-         __builtin_shufflevector(pack, pack, 8, 9, 10, 11, 12, 13, 14, 15);
-}
+constexpr int kWide = sizeof(Scalar) == 4 ? kWideLanes : kLanes;
 
 // Each halves the numbers that are left to sum per argument; results stand side by side.
 template <class Scalar>
@@ -72,20 +61,3 @@ class SquareSum {
  private:
   Pack<Scalar> total_{};
 };
-
-template <int lanes>
-struct Lanes {
-  static constexpr int kCount = lanes;
-};
-
-// Calls `body(Lanes, first)` for packs that cover a row.
-template <class Scalar, class Body>
-[[gnu::always_inline]] inline void for_packs(std::size_t stride, const Body& body) {
-  std::size_t i = 0;
-  if constexpr (kWideLanes < Scalar >> kLanes) {
-    for (; i + kWideLanes<Scalar> <= stride; i += kWideLanes<Scalar>) {
-      body(Lanes<kWideLanes<Scalar>>{}, i);
-    }
-  }
-  for (; i < stride; i += kLanes) body(Lanes<kLanes>{}, i);
-}

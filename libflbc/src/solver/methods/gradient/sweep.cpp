@@ -10,23 +10,6 @@
 namespace flbc::gradient {
 namespace {
 
-// Slots are handed out again most recently returned first: that one is still in the cache.
-class SlotPool {
- public:
-  Place take() {
-    if (free_.empty()) return size_++;
-    const Place slot = free_.back();
-    free_.pop_back();
-    return slot;
-  }
-  void give_back(Place slot) { free_.push_back(slot); }
-  std::int32_t size() const { return size_; }
-
- private:
-  std::vector<Place> free_;
-  std::int32_t size_ = 0;
-};
-
 template <int Dim>
 class SweepBuilder {
  public:
@@ -72,14 +55,21 @@ class SweepBuilder {
 
   SweepPart build_part(std::size_t p) {
     SweepPart part;
-    SlotPool slots;
+    // Slots are taken again most recently released first: that one is still in the cache.
+    std::vector<Place> free;
+    const auto take = [&] {
+      if (free.empty()) return part.num_slots++;
+      const Place slot = free.back();
+      free.pop_back();
+      return slot;
+    };
     const auto release = [&](State& state) {
-      if (--state.open_facets == 0 && state.place >= 0) slots.give_back(state.place);
+      if (--state.open_facets == 0 && state.place >= 0) free.push_back(state.place);
     };
     for (std::size_t k = first_[p]; k < first_[p + 1]; ++k) {
       const Index cell = order_[k];
       State& own = state_[cell];
-      own = {at_seam(cell) ? ~cell : slots.take(), Dim + 1, true};
+      own = {at_seam(cell) ? ~cell : take(), Dim + 1, true};
       std::int32_t num_closings = 0;
       for (int j = 0; j <= Dim; ++j) {
         const Index facet = topology_.cell_facets(j, cell);
@@ -95,7 +85,6 @@ class SweepBuilder {
       }
       part.visits.push_back({cell, own.place, num_closings});
     }
-    part.num_slots = slots.size();
     return part;
   }
 

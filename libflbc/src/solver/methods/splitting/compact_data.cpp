@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
+#include "problem/barycentric_constraints.h"
 #include "problem/boundary_flux.h"
 
 namespace flbc::compact {
@@ -101,13 +103,20 @@ CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
 }
 
 template <class Scalar, int Dim>
-CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>& problem,
-                                           const splitting::Metric& metric,
-                                           const std::vector<Index>& position, double unit,
-                                           std::size_t stride) {
-  auto data = make_rows_and_cells<Scalar>(problem, metric, position, unit);
-  data.constraints = splitting::row_constraints<Scalar>(problem, data.vertices, stride);
-  return data;
+void set_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
+                     CompactData<Scalar, Dim>& data) {
+  const BarycentricConstraints<Dim> constraints(problem.cage.points);
+  data.basis = AlignedArray<Scalar>((Dim + 1) * stride);
+  for (int k = 0; k <= Dim; ++k) {
+    for (Index i = 0; i < problem.num_control_points(); ++i) {
+      data.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
+    }
+  }
+  for (const Index v : data.vertices) {
+    for (const double number : constraints.weight_target(problem.mesh.points.col(v))) {
+      data.row_target.push_back(static_cast<Scalar>(number));
+    }
+  }
 }
 
 template <class Scalar, int Dim>
@@ -135,21 +144,9 @@ void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, 
   }
 }
 
-template double radius_unit(const LbcProblem<2>&, const splitting::Metric&);
-template double radius_unit(const LbcProblem<3>&, const splitting::Metric&);
-#define FLBC_INSTANTIATE(Scalar, Dim)                                                       \
-  template CompactData<Scalar, Dim> make_rows_and_cells(                                    \
-      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double); \
-  template CompactData<Scalar, Dim> make_compact_data(                                      \
-      const LbcProblem<Dim>&, const splitting::Metric&, const std::vector<Index>&, double,  \
-      std::size_t);                                                                         \
-  template void set_radii(const LbcProblem<Dim>&, const splitting::Metric&, double,         \
-                          const splitting::ColumnSlices&, const Loops<Scalar, Dim>&,        \
-                          CompactData<Scalar, Dim>&);
-FLBC_INSTANTIATE(float, 2)
-FLBC_INSTANTIATE(float, 3)
-FLBC_INSTANTIATE(double, 2)
-FLBC_INSTANTIATE(double, 3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(radius_unit)
+FLBC_INSTANTIATE_SCALAR_FUNCTION(make_rows_and_cells)
+FLBC_INSTANTIATE_SCALAR_FUNCTION(set_constraints)
+FLBC_INSTANTIATE_SCALAR_FUNCTION(set_radii)
 
 }  // namespace flbc::compact

@@ -25,7 +25,8 @@ struct CompactData {
   AlignedArray<unsigned char> radius;  // as the loops store numbers
   double boundary_dual2 = 0;           // squared radii of the cells without interior corners
   std::vector<Scalar> vertex_metric;   // empty: w may be negative
-  splitting::RowConstraints<Scalar, Dim> constraints;
+  AlignedArray<Scalar> basis;
+  std::vector<Scalar> row_target;
 };
 
 //! u, by which radii are of about 8, and of no more than 1000: they keep P within half precision.
@@ -42,21 +43,18 @@ double dual_scale(const LbcProblem<Dim>& problem, const splitting::Metric& metri
 //! A cell's phi may be as good as zero, which must not take radii into the denormal range.
 constexpr double kSmallestPhi = 1e-10;
 
-//! Rows and cells alone. \param position  the row of every unknown in the linear solver's arrays
-//! \param unit  as below
+//! All but the radii and the constraints.
+//! \param position  the row of every unknown in the linear solver's arrays
+//! \param unit  u: a radius is u phi A / sqrt(m)
 template <class Scalar, int Dim>
 CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
                                              const splitting::Metric& metric,
                                              const std::vector<Index>& position, double unit);
 
-//! \param position  the row of every unknown in the linear solver's arrays
-//! \param unit  u: a radius is u phi A / sqrt(m)
-//! \return all but the radii
+//! The constraints { sum w = 1, sum w c = x } of every row. \param stride  numbers per row
 template <class Scalar, int Dim>
-CompactData<Scalar, Dim> make_compact_data(const LbcProblem<Dim>& problem,
-                                           const splitting::Metric& metric,
-                                           const std::vector<Index>& position, double unit,
-                                           std::size_t stride);
+void set_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
+                     CompactData<Scalar, Dim>& data);
 
 //! The radii in slices, as the loops store them.
 template <class Scalar, int Dim>

@@ -122,8 +122,5 @@ struct Kernel {
 }  // namespace flbc::compact
 
 namespace flbc {
-FLBC_DECLARE_KERNEL(compact, float, 2)
-FLBC_DECLARE_KERNEL(compact, float, 3)
-FLBC_DECLARE_KERNEL(compact, double, 2)
-FLBC_DECLARE_KERNEL(compact, double, 3)
+FLBC_DECLARE_KERNELS(compact)
 }  // namespace flbc

@@ -25,28 +25,23 @@ inline int num_interior_corners(const Cell<Scalar, Dim>& cell, std::size_t num_i
   return count;
 }
 
-template <int count>
-struct Corners {
-  static constexpr int kCount = count;
-};
-
-// Calls `body(Corners, cell)` for all cells, so that loops over a cell's interior corners have an
-// end that is known.
+// Calls `body(corners, cell)` for all cells, so that loops over a cell's interior corners have an
+// end that is known, corners().
 template <class Scalar, int Dim, class Body>
 [[gnu::always_inline]] inline void for_cells(const Arrays<Scalar, Dim>& arrays, const Body& body) {
   for (std::size_t s = 0; s < arrays.num_cells; ++s) {
     switch (num_interior_corners(arrays.cells[s], arrays.num_interior)) {
       case 1:
-        body(Corners<1>{}, s);
+        body(std::integral_constant<int, 1>{}, s);
         break;
       case 2:
-        body(Corners<2>{}, s);
+        body(std::integral_constant<int, 2>{}, s);
         break;
       case 3:
-        body(Corners<3>{}, s);
+        body(std::integral_constant<int, 3>{}, s);
         break;
       default:
-        body(Corners<Dim + 1>{}, s);
+        body(std::integral_constant<int, Dim + 1>{}, s);
     }
   }
 }
@@ -64,11 +59,10 @@ template <class Scalar, class Stored, int Dim, bool Measured>
 void z_step(const Arrays<Scalar, Dim>& arrays, Columns columns) {
   for_cells(
       arrays, [&](auto corners, std::size_t s) __attribute__((always_inline)) {
-        for_packs(
+        for_packs<kWideLanes>(
             columns.begin,
             columns.end, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-              z_step_at<Scalar, Stored, Dim, decltype(corners)::kCount, Measured,
-                        decltype(lanes)::kCount>(arrays, s, i);
+              z_step_at<Scalar, Stored, Dim, corners(), Measured, lanes()>(arrays, s, i);
             });
         if constexpr (Measured) {
           if (s % kCollected == 0) collect_violation(arrays, columns);
@@ -81,11 +75,10 @@ template <class Scalar, int Dim>
 void harmonic_residual(const Arrays<Scalar, Dim>& arrays, Columns columns) {
   for_cells(
       arrays, [&](auto corners, std::size_t s) __attribute__((always_inline)) {
-        for_packs(
+        for_packs<kWideLanes>(
             columns.begin,
             columns.end, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-              harmonic_residual_at<Scalar, Dim, decltype(corners)::kCount, decltype(lanes)::kCount>(
-                  arrays, s, i);
+              harmonic_residual_at<Scalar, Dim, corners(), lanes()>(arrays, s, i);
             });
       });
 }
@@ -118,11 +111,10 @@ RowSums w_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32
   return over_rows(begin, end, [&](std::size_t row) {
     RowSum<Scalar> none;
     const Scalar* a = arrays.extrapolated + row * arrays.stride;
-    for_packs(
+    for_packs<kWideLanes>(
         0, arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-          constexpr int kCount = decltype(lanes)::kCount;
-          w_step_at<Scalar, Dim, false, kCount>(arrays, row, i, load_pack<kCount>(a + i),
-                                                PackN<Scalar, kCount>{}, none);
+          w_step_at<Scalar, Dim, false, lanes()>(arrays, row, i, load_pack<lanes()>(a + i),
+                                                 PackN<Scalar, lanes()>{}, none);
         });
     return RowSums{};
   });
@@ -230,8 +222,5 @@ constexpr Kernel<float, Dim> kKernel<float, Dim>{kLoops<float, float, Dim>,
 }  // namespace flbc::compact::FLBC_ISA
 
 namespace flbc {
-FLBC_DEFINE_KERNEL(compact, float, 2)
-FLBC_DEFINE_KERNEL(compact, float, 3)
-FLBC_DEFINE_KERNEL(compact, double, 2)
-FLBC_DEFINE_KERNEL(compact, double, 3)
+FLBC_DEFINE_KERNELS(compact)
 }  // namespace flbc

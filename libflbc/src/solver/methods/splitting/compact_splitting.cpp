@@ -11,19 +11,15 @@
 #include <omp.h>
 
 #include "base/flush_denormals.h"
+#include "base/instantiate.h"
 #include "base/padded_rows.h"
 #include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
 #include "problem/boundary_flux.h"
 #include "solver/plan/constants.h"
-#include "solver/start/flux_length.h"
+#include "solver/start/start.h"
 
 namespace flbc::compact {
-namespace {
-
-constexpr Index kRowBlock = 256;
-
-}  // namespace
 
 template <class Scalar, int Dim>
 CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
@@ -40,7 +36,8 @@ CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
       unit_(radius_unit(problem, metric_)),
       penalty_(settings.penalty),
       solver_(splitting::system_matrix(problem, metric_), stride_, settings.linear_solver),
-      data_(make_compact_data<Scalar>(problem, metric_, solver_.position(), unit_, stride_)) {
+      data_(make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_)) {
+  set_constraints(problem, stride_, data_);
   set_radii(problem, metric_, unit_, slices_, *loops_, data_);
   const std::size_t interior = data_.vertices.size();
   a_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_);
@@ -68,23 +65,12 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.cell_index = data_.cell_index.data();
   arrays.radius = data_.radius.data();
   arrays.vertex_metric = data_.vertex_metric.data();
-  arrays.basis = data_.constraints.basis.data();
-  arrays.row_target = data_.constraints.target.data();
+  arrays.basis = data_.basis.data();
+  arrays.row_target = data_.row_target.data();
   arrays.difference = difference_.data();
   arrays.sigma = static_cast<Scalar>(sigma());
   arrays.relaxation = static_cast<Scalar>(settings_.relaxation);
   return arrays;
-}
-
-template <class Scalar, int Dim>
-Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::in_slice(State state, Slice slice) const {
-  const std::size_t bytes = loops_->bytes;
-  state.cell_stride = slices_.stride_of(slice);
-  state.cell_dual = static_cast<unsigned char*>(state.cell_dual) +
-                    bytes * slices_.offset_of(slice, state.num_cells * Dim);
-  state.radius = static_cast<const unsigned char*>(state.radius) +
-                 bytes * slices_.offset_of(slice, state.num_cells);
-  return state;
 }
 
 // Calls `body` for each slice of control points; to be called by all threads of a team.
@@ -94,7 +80,15 @@ void CompactSplitting<Scalar, Dim>::for_slices(
   const FlushDenormals flush;
 #pragma omp for schedule(static, 1)
   for (std::size_t k = 0; k < slices_.size(); ++k) {
-    body(in_slice(state, slices_[k]), Columns{slices_[k].begin, slices_[k].end});
+    const Slice slice = slices_[k];
+    const auto start_of = [&](std::size_t rows) {
+      return loops_->bytes * slices_.offset_of(slice, rows);
+    };
+    State part = state;
+    part.cell_stride = slices_.stride_of(slice);
+    part.cell_dual = static_cast<unsigned char*>(state.cell_dual) + start_of(state.num_cells * Dim);
+    part.radius = data_.radius.data() + start_of(state.num_cells);
+    body(part, Columns{slice.begin, slice.end});
   }
 }
 
@@ -102,6 +96,7 @@ void CompactSplitting<Scalar, Dim>::for_slices(
 // then its share of the rows. Without a loop over cells there is no solve either.
 template <class Scalar, int Dim>
 RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells, RowLoop rows) {
+  constexpr Index kRowBlock = 256;
   const auto num_rows = static_cast<Index>(data_.vertices.size());
   std::vector<RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
 #pragma omp parallel
@@ -146,34 +141,38 @@ Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure) {
   set_difference();
   violation_ = AlignedArray<double>(stride_);
   violation_sum_ = AlignedArray<Scalar>(stride_);
-  const auto before = settings_.paper_residuals ? rows_of_weights() : AlignedArray<Scalar>();
+  // First w, then its change in the iteration, which is zero on the boundary.
+  AlignedArray<Scalar> moved;
+  if (settings_.paper_residuals) {
+    moved = AlignedArray<Scalar>(a_.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]);
+  }
   const RowSums sums = pass(arrays(), loops_->z_step_measured, loops_->y_step_measured);
   const double of_cells = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
   Step step{scale * sums.change, scale * (of_cells + sums.violation)};
-  if (settings_.paper_residuals) add_paper_residuals(before, step);
+  if (settings_.paper_residuals) add_paper_residuals(moved, step);
   return step;
 }
 
 // r_p is the violation of the constraints, r_d = rho times the change of the gradients and the
 // weights in an iteration, both in the metric.
 template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::add_paper_residuals(const AlignedArray<Scalar>& before,
-                                                        Step& step) {
-  auto moved = rows_of_weights();
+void CompactSplitting<Scalar, Dim>::add_paper_residuals(AlignedArray<Scalar>& moved, Step& step) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]) - moved[k];
+  const std::size_t rows = S_.size() > 0 ? data_.vertices.size() : 0;
   double of_rows = 0;
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto metric = static_cast<double>(data_.vertex_metric[row]);
     for (std::size_t i = 0; i < stride_; ++i) {
-      Scalar& delta = moved[row * stride_ + i];
-      delta -= before[row * stride_ + i];
-      if (S_.size() == 0) continue;
-      of_rows += static_cast<double>(data_.vertex_metric[row]) * static_cast<double>(delta) *
-                 static_cast<double>(delta);
+      const auto delta = static_cast<double>(moved[row * stride_ + i]);
+      of_rows += metric * delta * delta;
     }
   }
-  const double of_cells = squared_lengths(moved).motion;
+  const double of_cells = squared_lengths(moved).second;
   const double cells = static_cast<double>(problem_.mesh.num_cells()) * Dim;
-  const double rows = S_.size() > 0 ? static_cast<double>(data_.vertices.size()) : 0;
-  const double components = (cells + rows) * n_;
+  const double components = (cells + static_cast<double>(rows)) * n_;
   step.primal = std::sqrt(step.violation) / components;
   step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / components;
 }
@@ -197,19 +196,10 @@ void CompactSplitting<Scalar, Dim>::set_difference() {
   for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
 }
 
-// w, zero on the boundary.
-template <class Scalar, int Dim>
-AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::rows_of_weights() const {
-  AlignedArray<Scalar> rows(a_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) rows[k] = Scalar(0.5) * (a_[k] + W_[k]);
-  return rows;
-}
-
 // |P + G (w - W)|^2 and |G moved|^2; needs w - W.
 template <class Scalar, int Dim>
-typename CompactSplitting<Scalar, Dim>::SquaredLengths
-CompactSplitting<Scalar, Dim>::squared_lengths(const AlignedArray<Scalar>& moved) {
+std::pair<double, double> CompactSplitting<Scalar, Dim>::squared_lengths(
+    const AlignedArray<Scalar>& moved) {
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
 #pragma omp parallel
@@ -229,11 +219,10 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   AlignedArray<Scalar> moved(a_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
-  auto squared = squared_lengths(moved);
-  squared.dual += data_.boundary_dual2;
-  if (!(squared.dual > 0) || !(squared.motion > 0)) return;
-  const double factor =
-      std::max(1 / (ratio * std::sqrt(squared.dual / squared.motion)), penalty_ / largest);
+  auto [dual2, motion2] = squared_lengths(moved);
+  dual2 += data_.boundary_dual2;
+  if (!(dual2 > 0) || !(motion2 > 0)) return;
+  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
   penalty_ /= factor;
   const auto shrink = static_cast<Scalar>(1 / factor);
 #pragma omp parallel for schedule(static)
@@ -498,9 +487,6 @@ void CompactSplitting<Scalar, Dim>::describe(SolveReport& report) const {
   report.penalty = penalty_;
 }
 
-template class CompactSplitting<float, 2>;
-template class CompactSplitting<float, 3>;
-template class CompactSplitting<double, 2>;
-template class CompactSplitting<double, 3>;
+FLBC_INSTANTIATE_SCALAR_CLASS(CompactSplitting)
 
 }  // namespace flbc::compact

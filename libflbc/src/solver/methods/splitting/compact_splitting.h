@@ -5,16 +5,13 @@
 
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "base/aligned_array.h"
 #include "base/kernel_dispatch.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/types.h"
 #include "linear/spd_solver.h"
-#include "solver/methods/splitting/column_slices.h"
 #include "solver/methods/splitting/compact_data.h"
-#include "solver/methods/splitting/compact_kernel.h"
-#include "solver/methods/splitting/metric.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::compact {
@@ -122,17 +119,12 @@ class CompactSplitting final : public Iteration<Dim> {
 
  private:
   using State = Arrays<Scalar, Dim>;
-  using SliceLoop = void (*)(const State&, Columns);
-  using RowLoop = RowSums (*)(const State&, std::int32_t, std::int32_t);
-
-  struct SquaredLengths {
-    double dual, motion;
-  };
+  using SliceLoop = typename Loops<Scalar, Dim>::SliceLoop;
+  using RowLoop = typename Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
-  SquaredLengths squared_lengths(const AlignedArray<Scalar>& moved);
+  std::pair<double, double> squared_lengths(const AlignedArray<Scalar>& moved);
   State arrays();
-  State in_slice(State state, Slice slice) const;
   void set_weights(const VectorsAt<1>& weights);
   void set_boundary_rows();
   void begin_from_weights();
@@ -142,10 +134,9 @@ class CompactSplitting final : public Iteration<Dim> {
   void for_slices(const State& state, const std::function<void(const State&, Columns)>& body) const;
   RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
   Step iterate_once(bool measure);
-  void add_paper_residuals(const AlignedArray<Scalar>& before, Step& step);
+  void add_paper_residuals(AlignedArray<Scalar>& moved, Step& step);
   void adapt_penalty(double ratio, double largest);
   void set_difference();
-  AlignedArray<Scalar> rows_of_weights() const;
 
   const LbcProblem<Dim>& problem_;
   const Kernel<Scalar, Dim>& kernel_;

@@ -115,71 +115,59 @@ template <class Scalar, int Dim, bool Measured, int Lanes>
   }
 }
 
-// What a row has too much of Q^T r for { sum w = 1, sum w c = x }.
-template <class Scalar, int Dim>
-[[gnu::always_inline]] inline void excess_of(const Arrays<Scalar, Dim>& arrays, std::size_t row,
-                                             const RowSum<Scalar>* projection, Scalar* excess) {
+// Projects a row on { sum w = 1, sum w c = x } and calls `use(lanes, column, w)` for its packs.
+// \param candidate  of (lanes, column), the numbers to project, less the solution
+template <class Scalar, int Dim, class Candidate, class Use>
+[[gnu::always_inline]] inline void project_row(const Arrays<Scalar, Dim>& arrays, std::size_t row,
+                                               const Candidate& candidate, const Use& use) {
+  const std::size_t stride = arrays.stride;
+  Scalar* solution = arrays.residual + row * stride;
+  RowSum<Scalar> projection[Dim + 1];
+  for_packs<kWideLanes>(
+      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        const PackN<Scalar, lanes()> r = candidate(lanes, i) + load_pack<lanes()>(solution + i);
+        store_pack<lanes()>(solution + i, r);
+        for (int k = 0; k <= Dim; ++k) {
+          projection[k].template add<lanes()>(load_pack<lanes()>(arrays.basis + k * stride + i) *
+                                              r);
+        }
+      });
+  Scalar excess[Dim + 1];  // of Q^T r
   const Scalar* target = arrays.row_target + row * (Dim + 1);
   for (int k = 0; k <= Dim; ++k) excess[k] = projection[k].total() - arrays.sigma * target[k];
-}
-
-template <class Scalar, int Dim, int Lanes>
-[[gnu::always_inline]] inline PackN<Scalar, Lanes> projected(const Arrays<Scalar, Dim>& arrays,
-                                                             std::size_t i, const Scalar* excess,
-                                                             PackN<Scalar, Lanes> numbers) {
-  for (int k = 0; k <= Dim; ++k) {
-    numbers -= excess[k] * load_pack<Lanes>(arrays.basis + k * arrays.stride + i);
-  }
-  return numbers;
-}
-
-// W += relaxation (w - W) with w = (a + W) / 2.
-template <class Scalar, int Dim, int Lanes>
-[[gnu::always_inline]] inline PackN<Scalar, Lanes> relaxed_at(const Arrays<Scalar, Dim>& arrays,
-                                                              const Scalar* relaxed,
-                                                              const Scalar* extrapolated,
-                                                              std::size_t i) {
-  const PackN<Scalar, Lanes> W = load_pack<Lanes>(relaxed + i);
-  return W + Scalar(0.5) * arrays.relaxation * (load_pack<Lanes>(extrapolated + i) - W);
+  for_packs<kWideLanes>(
+      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+        PackN<Scalar, lanes()> w = load_pack<lanes()>(solution + i);
+        for (int k = 0; k <= Dim; ++k) {
+          w -= excess[k] * load_pack<lanes()>(arrays.basis + k * stride + i);
+        }
+        use(lanes, i, w);
+      });
 }
 
 // Y-step: W relaxed, w = W + the solution, projected. Then the next W-step.
 template <class Scalar, int Dim, bool Measured>
 inline RowSums y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
-  const std::size_t stride = arrays.stride;
-  Scalar* extrapolated = arrays.extrapolated + row * stride;
-  Scalar* relaxed = arrays.relaxed + row * stride;
-  Scalar* solution = arrays.residual + row * stride;
-  RowSum<Scalar> projection[Dim + 1];
-  for_packs(
-      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        const PackN<Scalar, kCount> r =
-            relaxed_at<Scalar, Dim, kCount>(arrays, relaxed, extrapolated, i) +
-            load_pack<kCount>(solution + i);
-        store_pack<kCount>(solution + i, r);
-        for (int k = 0; k <= Dim; ++k) {
-          projection[k].template add<kCount>(load_pack<kCount>(arrays.basis + k * stride + i) * r);
-        }
-      });
-  Scalar excess[Dim + 1];
-  excess_of(arrays, row, projection, excess);
+  Scalar* extrapolated = arrays.extrapolated + row * arrays.stride;
+  Scalar* relaxed = arrays.relaxed + row * arrays.stride;
+  // W += relaxation (w - W) with w = (a + W) / 2.
+  const auto next = [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
+    const auto W = load_pack<lanes()>(relaxed + i);
+    return W + Scalar(0.5) * arrays.relaxation * (load_pack<lanes()>(extrapolated + i) - W);
+  };
   RowSum<Scalar> change;
   RowSum<Scalar> violation;
-  for_packs(
-      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        using Numbers = PackN<Scalar, kCount>;
-        const Numbers w =
-            projected<Scalar, Dim, kCount>(arrays, i, excess, load_pack<kCount>(solution + i));
+  project_row(
+      arrays, row, next, [&](auto lanes, std::size_t i, auto w) __attribute__((always_inline)) {
+        using Numbers = PackN<Scalar, lanes()>;
         const Numbers before =
-            Scalar(0.5) * (load_pack<kCount>(extrapolated + i) + load_pack<kCount>(relaxed + i));
-        const Numbers W = relaxed_at<Scalar, Dim, kCount>(arrays, relaxed, extrapolated, i);
+            Scalar(0.5) * (load_pack<lanes()>(extrapolated + i) + load_pack<lanes()>(relaxed + i));
+        const Numbers W = next(lanes, i);
         const Numbers a = Scalar(2) * w - W;
-        change.template add<kCount>((w - before) * (w - before));
-        store_pack<kCount>(relaxed + i, W);
-        store_pack<kCount>(extrapolated + i, a);
-        w_step_at<Scalar, Dim, Measured, kCount>(arrays, row, i, a, w, violation);
+        change.template add<lanes()>((w - before) * (w - before));
+        store_pack<lanes()>(relaxed + i, W);
+        store_pack<lanes()>(extrapolated + i, a);
+        w_step_at<Scalar, Dim, Measured, lanes()>(arrays, row, i, a, w, violation);
       });
   return {static_cast<double>(change.total()), static_cast<double>(violation.total())};
 }
@@ -187,33 +175,18 @@ inline RowSums y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
 // a += the solution, projected; the residual is cleared.
 template <class Scalar, int Dim>
 inline RowSums correct_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
-  const std::size_t stride = arrays.stride;
-  Scalar* weights = arrays.extrapolated + row * stride;
-  Scalar* solution = arrays.residual + row * stride;
-  RowSum<Scalar> projection[Dim + 1];
-  for_packs(
-      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        const PackN<Scalar, kCount> r =
-            load_pack<kCount>(weights + i) + load_pack<kCount>(solution + i);
-        store_pack<kCount>(solution + i, r);
-        for (int k = 0; k <= Dim; ++k) {
-          projection[k].template add<kCount>(load_pack<kCount>(arrays.basis + k * stride + i) * r);
-        }
-      });
-  Scalar excess[Dim + 1];
-  excess_of(arrays, row, projection, excess);
+  Scalar* weights = arrays.extrapolated + row * arrays.stride;
+  Scalar* solution = arrays.residual + row * arrays.stride;
   RowSum<Scalar> change;
-  for_packs(
-      0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
-        constexpr int kCount = decltype(lanes)::kCount;
-        using Numbers = PackN<Scalar, kCount>;
-        const Numbers w =
-            projected<Scalar, Dim, kCount>(arrays, i, excess, load_pack<kCount>(solution + i));
-        const Numbers step = w - load_pack<kCount>(weights + i);
-        change.template add<kCount>(step * step);
-        store_pack<kCount>(weights + i, w);
-        store_pack<kCount>(solution + i, Numbers{});
+  project_row(
+      arrays, row,
+      [&](auto lanes, std::size_t i)
+          __attribute__((always_inline)) { return load_pack<lanes()>(weights + i); },
+      [&](auto lanes, std::size_t i, auto w) __attribute__((always_inline)) {
+        const PackN<Scalar, lanes()> step = w - load_pack<lanes()>(weights + i);
+        change.template add<lanes()>(step * step);
+        store_pack<lanes()>(weights + i, w);
+        store_pack<lanes()>(solution + i, PackN<Scalar, lanes()>{});
       });
   return {static_cast<double>(change.total()), 0};
 }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
-#include "problem/barycentric_constraints.h"
 #include "problem/laplacian.h"
 
 namespace flbc::splitting {
@@ -38,36 +38,8 @@ RowMatrix system_matrix(const LbcProblem<Dim>& problem, const Metric& metric) {
   return matrix;
 }
 
-template <class Scalar, int Dim>
-RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>& problem,
-                                            const std::vector<Index>& vertices,
-                                            std::size_t stride) {
-  const BarycentricConstraints<Dim> constraints(problem.cage.points);
-  RowConstraints<Scalar, Dim> rows;
-  rows.basis = AlignedArray<Scalar>((Dim + 1) * stride);
-  for (int k = 0; k <= Dim; ++k) {
-    for (Index i = 0; i < problem.num_control_points(); ++i) {
-      rows.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
-    }
-  }
-  rows.target.resize(vertices.size() * (Dim + 1));
-  for (std::size_t row = 0; row < vertices.size(); ++row) {
-    Eigen::Map<Eigen::Matrix<Scalar, Dim + 1, 1>>(rows.target.data() + row * (Dim + 1)) =
-        constraints.weight_target(problem.mesh.points.col(vertices[row])).template cast<Scalar>();
-  }
-  return rows;
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                                  \
-  template Metric measure_metric(const LbcProblem<Dim>&, bool);                                \
-  template Metric squared_measure_metric(const LbcProblem<Dim>&, double);                      \
-  template RowMatrix system_matrix(const LbcProblem<Dim>&, const Metric&);                     \
-  template RowConstraints<float, Dim> row_constraints(const LbcProblem<Dim>&,                  \
-                                                      const std::vector<Index>&, std::size_t); \
-  template RowConstraints<double, Dim> row_constraints(const LbcProblem<Dim>&,                 \
-                                                       const std::vector<Index>&, std::size_t);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(measure_metric)
+FLBC_INSTANTIATE_FUNCTION(squared_measure_metric)
+FLBC_INSTANTIATE_FUNCTION(system_matrix)
 
 }  // namespace flbc::splitting

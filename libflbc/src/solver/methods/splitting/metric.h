@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The metric of the splitting, its linear system, and the constraints of its rows.
+//! The metric of the splitting, and its linear system.
 #pragma once
 
-#include <limits>
-#include <vector>
-
-#include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 #include "linear/row_matrix.h"
-#include "solver/methods/splitting/column_slices.h"
 
 namespace flbc::splitting {
 
@@ -33,17 +28,5 @@ Metric squared_measure_metric(const LbcProblem<Dim>& problem, double vertex_weig
 //! sum m grad^T grad + k over the interior vertices, ascending.
 template <int Dim>
 RowMatrix system_matrix(const LbcProblem<Dim>& problem, const Metric& metric);
-
-//! The constraints { sum w = 1, sum w c = x } of every row.
-template <class Scalar, int Dim>
-struct RowConstraints {
-  AlignedArray<Scalar> basis;  //!< (Dim + 1): orthonormal basis Q of [1; c]
-  std::vector<Scalar> target;  //!< m x (Dim + 1): Q^T w of every row that is feasible
-};
-
-//! \param vertices  the vertex of each row \param stride  numbers per row
-template <class Scalar, int Dim>
-RowConstraints<Scalar, Dim> row_constraints(const LbcProblem<Dim>& problem,
-                                            const std::vector<Index>& vertices, std::size_t stride);
 
 }  // namespace flbc::splitting

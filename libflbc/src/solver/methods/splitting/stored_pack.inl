@@ -3,13 +3,6 @@
 //! Packs of numbers that may be stored in half precision, and sums of packs. Included by
 //! compact_kernel.inl within its namespace of the instruction set.
 
-// As many numbers as fill the widest registers, if that is more than rows are padded to.
-#ifdef __AVX512F__
-constexpr int kWideLanes = 16;
-#else
-constexpr int kWideLanes = 8;
-#endif
-
 #ifdef __F16C__
 template <int Lanes>
 inline PackN<float, Lanes> load_half(const Half* from) {
@@ -92,8 +85,7 @@ inline PackN<Scalar, Lanes> shrinkage(PackN<Scalar, Lanes> radius, PackN<Scalar,
 template <class Scalar, int Lanes>
 inline Scalar sum_of(PackN<Scalar, Lanes> pack) {
   if constexpr (Lanes == 16) {
-    return sum_of<Scalar, 8>(__builtin_shufflevector(pack, pack, 0, 1, 2, 3, 4, 5, 6, 7) +
-                             __builtin_shufflevector(pack, pack, 8, 9, 10, 11, 12, 13, 14, 15));
+    return sum_of<Scalar, 8>(fold<Scalar>(pack));
   } else {
     const auto four = __builtin_shufflevector(pack, pack, 0, 1, 2, 3) +
                       __builtin_shufflevector(pack, pack, 4, 5, 6, 7);
@@ -119,18 +111,3 @@ struct RowSum {
   }
   Scalar total() const { return sum_of<Scalar, kWideLanes>(wide) + sum_of<Scalar, 8>(rest); }
 };
-
-template <int lanes>
-struct LaneCount {
-  static constexpr int kCount = lanes;
-};
-
-// Calls `body(LaneCount, first)` for packs that cover the columns begin .. end - 1.
-template <class Body>
-[[gnu::always_inline]] inline void for_packs(std::size_t begin, std::size_t end, const Body& body) {
-  std::size_t i = begin;
-  for (; i + kWideLanes <= end; i += kWideLanes) body(LaneCount<kWideLanes>{}, i);
-  if constexpr (kWideLanes > 8) {
-    if (i < end) body(LaneCount<8>{}, i);
-  }
-}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances while the cage and its mesh move.
+//! Distances from a coarser mesh where they are good enough, and while the cage and its mesh move.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,16 @@
 #include "solver/multilevel/coarse_problem.h"
 
 namespace flbc {
+
+//! Interpolates distances, checks them against exact ones of some control points, and for
+//! Distances::kAuto computes all of them if they change the weights too much.
+//! \param coarse  with the places of the problem's vertices
+//! \param problem  whose phi is not asked for
+//! \param report  becomes what was done
+//! \return n x V
+template <int Dim>
+DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                                const SolverOptions& options, DistanceReport& report);
 
 //! A coarse mesh that moves along with a finer one of the same cage, which takes its distances from
 //! there instead of computing all of them for every shape.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/methods/active_set/cell_patches.h"
+#include "solver/methods/active_set/active_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,47 @@
 
 namespace flbc::active_set {
 namespace {
+
+// Q and R^-T of [1; c] = Q R for one list, by Gram and Schmidt, every column twice.
+template <int Dim>
+struct ListBasis {
+  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> q;
+  Eigen::Matrix<double, Dim + 1, Dim + 1> r = Eigen::Matrix<double, Dim + 1, Dim + 1>::Zero();
+
+  // Columns that depend on those before, to rounding, are left out: what they say is said already.
+  void orthogonalise() {
+    constexpr double kDependent = 1e-9;
+    for (int k = 0; k <= Dim; ++k) {
+      const double before = q.col(k).norm();
+      for (int pass = 0; pass < 2; ++pass) {
+        for (int l = 0; l < k; ++l) {
+          const double part = q.col(l).dot(q.col(k));
+          q.col(k) -= part * q.col(l);
+          r(l, k) += part;
+        }
+      }
+      const double length = q.col(k).norm();
+      if (length <= kDependent * before || before == 0) {
+        q.col(k).setZero();
+        continue;
+      }
+      q.col(k) /= length;
+      r(k, k) = length;
+    }
+  }
+
+  // Q^T w from [1; x] = R^T Q^T w.
+  Vector<Dim + 1> target(const Vector<Dim + 1>& sums) const {
+    Vector<Dim + 1> target = Vector<Dim + 1>::Zero();
+    for (int k = 0; k <= Dim; ++k) {
+      if (r(k, k) == 0) continue;
+      double rest = sums[k];
+      for (int l = 0; l < k; ++l) rest -= r(l, k) * target[l];
+      target[k] = rest / r(k, k);
+    }
+    return target;
+  }
+};
 
 // Rows of a patch's corners, interior ones first, and cells in terms of these.
 template <class Scalar, int Dim>
@@ -59,37 +100,50 @@ void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result, cons
   }
 }
 
-template <class Scalar, int Dim>
-void set_up_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-                  const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& result) {
-  const Patch& last = result.patches.back();
-  result.radius = AlignedArray<unsigned char>(
-      loops.bytes * (last.first_number + (last.end_cell - last.first_cell) * last.stride));
-#pragma omp parallel
-  {
-    AlignedArray<Scalar> radii(padded(static_cast<std::size_t>(problem.num_control_points()) + 1));
-#pragma omp for schedule(static)
-    for (std::size_t p = 0; p < result.patches.size(); ++p) {
-      const Patch& patch = result.patches[p];
-      for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
-        const Index s = result.cell_index[k];
-        const double scale = compact::dual_scale(problem, metric, unit, s);
-        for (std::size_t j = 0; j < patch.stride; ++j) {
-          const Index i = result.items[patch.first_item + j];
-          const bool pads = i >= problem.num_control_points();
-          radii[j] =
-              pads
-                  ? Scalar(0)
-                  : static_cast<Scalar>(scale * std::max(problem.phi(i, s), compact::kSmallestPhi));
-        }
-        loops.encode(radii.data(), result.radius.data(),
-                     patch.first_number + (k - patch.first_cell) * patch.stride, patch.stride);
-      }
-    }
-  }
+}  // namespace
+
+void PackedLists::append(const ActiveLists::Range& list, ControlPoint n) {
+  items.insert(items.end(), list.first, list.last);
+  counts.push_back(static_cast<std::int32_t>(list.last - list.first));
+  items.resize(padded(items.size()), n);
+  starts.push_back(items.size());
 }
 
-}  // namespace
+template <class Scalar, int Dim>
+AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& control_points,
+                               const PointList<Dim>& points, std::vector<Scalar>* targets) {
+  AlignedArray<Scalar> bases((Dim + 1) * lists.size());
+  if (targets != nullptr) targets->assign((Dim + 1) * lists.counts.size(), Scalar(0));
+#pragma omp parallel for schedule(static)
+  for (Index row = 0; row < lists.num_rows(); ++row) {
+    const std::size_t start = lists.starts[row];
+    const std::size_t length = lists.starts[row + 1] - start;
+    const Index count = lists.counts[row];
+    if (count == 0) continue;
+    Vector<Dim> center = Vector<Dim>::Zero();
+    for (Index j = 0; j < count; ++j) center += control_points.col(lists.items[start + j]) / count;
+    ListBasis<Dim> basis;
+    basis.q.resize(count, Dim + 1);
+    basis.q.col(0).setOnes();
+    for (Index j = 0; j < count; ++j) {
+      basis.q.row(j).template tail<Dim>() =
+          (control_points.col(lists.items[start + j]) - center).transpose();
+    }
+    basis.orthogonalise();
+    for (int k = 0; k <= Dim; ++k) {
+      Scalar* numbers = bases.data() + (Dim + 1) * start + k * length;
+      for (Index j = 0; j < count; ++j) numbers[j] = static_cast<Scalar>(basis.q(j, k));
+    }
+    if (targets == nullptr) continue;
+    Vector<Dim + 1> sums;
+    sums << 1, points.col(row) - center;
+    const Vector<Dim + 1> target = basis.target(sums);
+    for (int k = 0; k <= Dim; ++k) {
+      (*targets)[row * (Dim + 1) + k] = static_cast<Scalar>(target[k]);
+    }
+  }
+  return bases;
+}
 
 template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
@@ -118,7 +172,13 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
     result.largest_block = std::max(result.largest_block, patch.num_rows * patch.stride);
     result.patches.push_back(patch);
   }
-  if (!result.patches.empty()) set_up_radii(problem, metric, unit, loops, result);
+  result.radius = AlignedArray<unsigned char>(loops.bytes * next_number);
+  store_in_cells<1>(result, loops, n, result.radius, [&](Index s) {
+    const double scale = compact::dual_scale(problem, metric, unit, s);
+    return [&problem, s, scale](Index i, int) {
+      return scale * std::max(problem.phi(i, s), compact::kSmallestPhi);
+    };
+  });
   result.left = items_by_vertex<std::size_t>(num_interior, [&](const auto& visit) {
     for (const Patch& patch : result.patches) {
       for (Index k = 0; k < patch.num_interior; ++k) {
@@ -129,10 +189,9 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
   return result;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                           \
-  template CellPatches<Scalar, Dim> make_patches(               \
-      const LbcProblem<Dim>&, const splitting::Metric&, double, \
-      compact::CompactData<Scalar, Dim>&, const PackedLists&, const compact::Loops<Scalar, Dim>&);
+#define FLBC_INSTANTIATE(Scalar, Dim)                               \
+  template decltype(row_bases<Scalar, Dim>) row_bases<Scalar, Dim>; \
+  template decltype(make_patches<Scalar, Dim>) make_patches<Scalar, Dim>;
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What stays the same during the iteration on the active set: rows of different lengths in one
+//! array, and their constraints. Cells that follow each other share one list of control points, so
+//! that the inner loops of the compact splitting serve them as they are.
+#pragma once
+
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "base/padded_rows.h"
+#include "solver/methods/active_set/active_kernel.h"
+#include "solver/methods/active_set/active_lists.h"
+#include "solver/methods/splitting/compact_data.h"
+
+namespace flbc::active_set {
+
+//! The arrays that Lists point to.
+struct PackedLists {
+  std::vector<std::size_t> starts{0};
+  std::vector<std::int32_t> counts;
+  std::vector<ControlPoint> items;
+
+  Lists view() const { return {starts.data(), counts.data(), items.data()}; }
+  Index num_rows() const { return static_cast<Index>(counts.size()); }
+  //! Numbers of all rows, padding included.
+  std::size_t size() const { return starts.back(); }
+
+  //! Adds a row. \param n  what stands in the padding
+  void append(const ActiveLists::Range& list, ControlPoint n);
+};
+
+//! Orthonormal bases of [1; c] on the control points of every row: Dim + 1 rows of its length each.
+//! Where its control points lie in a plane or are too few, some are zero.
+//! \param points  Dim x rows, or without columns \param targets  Q^T w of all w on the list that
+//! sum to one and reproduce the row's point, Dim + 1 numbers per row; null without points
+template <class Scalar, int Dim>
+AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& control_points,
+                               const PointList<Dim>& points, std::vector<Scalar>* targets);
+
+//! As many cells as share most of their corners and control points.
+constexpr Index kPatchCells = 64;
+
+//! Some cells and the rows of their corners. The places are those in the arrays of CellPatches.
+struct Patch {
+  Index first_cell, end_cell;
+  Index first_row, num_interior, num_rows;
+  std::size_t first_item, stride;  // of the list, padded
+  std::size_t first_number;        // of the radii; of P, times Dim
+
+  //! The first number of a cell.
+  std::size_t number_of(Index cell) const { return first_number + (cell - first_cell) * stride; }
+};
+
+//! All cells with interior corners, in patches.
+template <class Scalar, int Dim>
+struct CellPatches {
+  std::vector<Patch> patches;
+  std::vector<compact::Cell<Scalar, Dim>> cells;  // corners by their place among the patch's rows
+  std::vector<Index> cell_index;                  // of the mesh
+  std::vector<Index> place_of_cell;               // of a mesh's cell in `cells`, -1 for none
+  std::vector<Index> rows;                        // of the splitting, interior ones first
+  std::vector<ControlPoint> items;                // ascending; n in the padding
+  AlignedArray<unsigned char> radius;             // as the loops store numbers
+  std::vector<std::size_t> leaves;  // place where a row's part of the divergence is left, as rows
+  std::size_t num_left = 0;         // numbers
+  std::size_t largest_block = 0;    // numbers of a patch's rows
+  VertexItems<std::size_t> left;    // of every interior row, the places of its parts
+};
+
+//! \param data  rows and cells \param lists  of all rows \param unit  u
+template <class Scalar, int Dim>
+CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
+                                      const splitting::Metric& metric, double unit,
+                                      compact::CompactData<Scalar, Dim>& data,
+                                      const PackedLists& lists,
+                                      const compact::Loops<Scalar, Dim>& loops);
+
+//! Stores numbers of all cells as the loops do, `Rows` per control point; zero in the padding.
+//! \param of_cell  number(control point, row) of a cell of the mesh
+template <int Rows, class Scalar, int Dim, class OfCell>
+void store_in_cells(const CellPatches<Scalar, Dim>& patches,
+                    const compact::Loops<Scalar, Dim>& loops, Index n,
+                    AlignedArray<unsigned char>& stored, const OfCell& of_cell) {
+#pragma omp parallel
+  {
+    AlignedArray<Scalar> rows(Rows * padded(static_cast<std::size_t>(n)));
+#pragma omp for schedule(static)
+    for (std::size_t p = 0; p < patches.patches.size(); ++p) {
+      const Patch& patch = patches.patches[p];
+      for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
+        const auto number_at = of_cell(patches.cell_index[k]);
+        for (std::size_t j = 0; j < patch.stride; ++j) {
+          const Index i = patches.items[patch.first_item + j];
+          for (int r = 0; r < Rows; ++r) {
+            rows[r * patch.stride + j] = i < n ? static_cast<Scalar>(number_at(i, r)) : Scalar(0);
+          }
+        }
+        loops.encode(rows.data(), stored.data(), Rows * patch.number_of(k), Rows * patch.stride);
+      }
+    }
+  }
+}
+
+}  // namespace flbc::active_set
