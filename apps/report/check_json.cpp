@@ -26,6 +26,11 @@ Json to_json(const Extreme<Dim>& extreme) {
   return json;
 }
 
+// 0 is what was not measured.
+Json positive_or_null(double value) {
+  return value > 0 ? Json(value) : Json();
+}
+
 template <int Dim>
 Json cage_json(const CheckReport<Dim>& report) {
   Json json{{"file", report.cage_file},
@@ -80,6 +85,8 @@ Json mesh_json(const MeshCheck<Dim>& mesh) {
           {"highest_maximum", to_json(mesh.highest_maximum)},
           {"total_variation", mesh.total_variation},
           {"harmonic_total_variation", mesh.harmonic_total_variation},
+          {"weighted_variation", positive_or_null(mesh.weighted_variation)},
+          {"harmonic_weighted_variation", positive_or_null(mesh.harmonic_weighted_variation)},
           {"harmonic_mean_influences", mesh.harmonic_mean_influences},
           {"influence_ratio", mesh.influence_ratio}};
 }

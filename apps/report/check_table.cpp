@@ -36,9 +36,12 @@ std::string place(const Extreme<Dim>& extreme) {
   return text;
 }
 
-// "1 point", "2 points".
+// "1 vertex", "2 vertices".
+std::string count(std::int64_t number, const std::string& noun, const std::string& nouns) {
+  return std::to_string(number) + " " + (number == 1 ? noun : nouns);
+}
 std::string count(std::int64_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+  return count(number, noun, noun + "s");
 }
 
 void print_fact(std::ostream& out, const std::string& name, const std::string& value) {
@@ -75,8 +78,8 @@ void print_error(std::ostream& out, const std::string& name, const Extreme<Dim>&
 template <int Dim>
 std::string describe_thinness(double part) {
   constexpr double kTooThin = 1e-8;  // for all meshers in 3D
-  if (Dim == 3 && part <= kTooThin) return ": too thin to be meshed";
-  if (part < kThin) return ": so thin that meshing may take long, or not end in time";
+  if (Dim == 3 && part <= kTooThin) return ": too thin to mesh";
+  if (part < kThin) return ": so thin that meshing may be slow or exceed --mesh-timeout";
   return "";
 }
 
@@ -84,23 +87,23 @@ template <int Dim>
 void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
   const auto& cage = report.cage;
   if (!report.defects.empty()) {
-    out << report.cage_file << ": no cage, "
+    out << report.cage_file << ": not a cage, "
         << (report.defects.size() == kMostDefects ? "at least " : "")
         << count(static_cast<std::int64_t>(report.defects.size()), "defect") << '\n';
     for (const auto& defect : report.defects) out << "  " << defect.message << '\n';
     if (!report.model_file.empty() || !report.weights_file.empty()) {
-      out << "Nothing else was looked at: it has no meaning without a sound cage.\n";
+      out << "The other checks need a sound cage and were skipped.\n";
     }
     return;
   }
   const auto& facts = *report.facts;
   out << report.cage_file << ": a sound " << Dim << "D cage"
-      << (report.intersections_checked ? "" : " (self-intersections were not looked for)") << '\n';
+      << (report.intersections_checked ? "" : " (not checked for self-intersections)") << '\n';
   print_fact(out, "control points", std::to_string(cage.size()));
   print_fact(out, Dim == 2 ? "edges" : "triangles", std::to_string(cage.facets.cols()));
   print_fact(out, Dim == 2 ? "outer loops" : "outer shells",
              std::to_string(facts.parts) +
-                 (facts.parts > 1 ? ", not connected: each part is solved by itself" : ""));
+                 (facts.parts > 1 ? ", not connected; each part is solved on its own" : ""));
   print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
   print_fact(out, "bounding box",
              "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +
@@ -125,14 +128,14 @@ void print_model(std::ostream& out, const CheckReport<Dim>& report) {
   const auto& [points, outside, farthest] = *report.model;
   out << report.model_file << ": ";
   if (outside.empty()) {
-    out << count(points.cols(), "point") << ", none outside the cage\n";
+    out << count(points.cols(), "vertex", "vertices") << ", none outside the cage\n";
     return;
   }
-  out << outside.size() << " of " << count(points.cols(), "point")
-      << " lie outside the cage, the farthest is vertex " << farthest.point << " at "
+  out << outside.size() << " of " << count(points.cols(), "vertex", "vertices")
+      << " are outside the cage; the farthest is vertex " << farthest.point << " at "
       << position<Dim>(points.col(farthest.point)) << ", " << number(farthest.distance)
       << " from it, " << number(100 * farthest.distance / report.facts->size)
-      << " % of its size; use flbc solve --outside, or make a cage around it with flbc cage\n";
+      << "% of the cage size; use flbc solve --outside, or make a cage around it with flbc cage\n";
 }
 
 template <int Dim>
@@ -140,16 +143,23 @@ void print_on_mesh(std::ostream& out, const MeshCheck<Dim>& mesh, const Quality&
   const auto print_extrema = [&](const std::string& name, const std::vector<Index>& numbers,
                                  const Extreme<Dim>& worst) {
     const auto total = std::accumulate(numbers.begin(), numbers.end(), std::int64_t{0});
-    print_line(out, name, std::to_string(total), yes_no(total == 0),
-               total == 0 ? "" : "by " + number(worst.value, 3) + " at " + place(worst));
+    const bool is_fine = worst.value <= kSolverAccuracy;
+    print_line(out, name, std::to_string(total), yes_no(is_fine),
+               total == 0
+                   ? ""
+                   : "at most " + number(worst.value, 3) +
+                         (is_fine ? " deep (within solver accuracy), " : " deep, ") + place(worst));
   };
   print_extrema("local minima inside", mesh.local_minima, mesh.deepest_minimum);
   print_extrema("local maxima inside", mesh.local_maxima, mesh.highest_maximum);
-  print_line(out, "total variation", number(mesh.total_variation, 4), "",
-             "harmonic coordinates: " + number(mesh.harmonic_total_variation, 4));
+  const bool has_parts = mesh.weighted_variation == 0;
+  print_line(out, "weighted total variation", has_parts ? "-" : number(mesh.weighted_variation, 4),
+             "",
+             has_parts ? "the mesh has several parts"
+                       : "harmonic coordinates: " + number(mesh.harmonic_weighted_variation, 4));
   print_line(out, "influences / harmonic", number(mesh.influence_ratio, 3), "",
              number(quality.mean_influences, 4) + " / " + number(mesh.harmonic_mean_influences, 4) +
-                 " a point");
+                 " per vertex");
 }
 
 template <int Dim>
@@ -172,7 +182,7 @@ void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
              "");
   print_line(out, "largest weight", number(check.max_weight.value, 3), "", place(check.max_weight));
   print_line(out, "influences above 1e-4, mean", number(check.quality.mean_influences, 4), "", "");
-  print_line(out, "influences above 1e-4, most", number(check.influences.value), "",
+  print_line(out, "influences above 1e-4, maximum", number(check.influences.value), "",
              place(check.influences));
   if (check.mesh) print_on_mesh(out, *check.mesh, check.quality);
 }

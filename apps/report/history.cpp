@@ -38,7 +38,7 @@ int small_integer(const Json& value) {
   constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
   const auto number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
   if (number < 0 || number > kLargest)
-    throw InputError(value.dump() + " is no number of iterations");
+    throw InputError(value.dump() + " is not a number of iterations");
   return static_cast<int>(number);
 }
 
@@ -115,7 +115,7 @@ RunHistory read_history(const std::string& file) {
   try {
     report = Json::parse(io::read_file(file));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": is no report: " + error.what());
+    throw InputError(file + ": not a report: " + error.what());
   }
   const auto& solve = report.contains("solve") ? report["solve"] : report;
   if (!solve.is_object() || !solve.contains("history")) {

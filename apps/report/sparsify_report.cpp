@@ -44,12 +44,12 @@ Json over_poses(const SparsifiedWeights<Dim>& weights, const Measure& measure) {
 std::string percents(const Json& errors) {
   std::ostringstream text;
   const auto add = [&](const char* poses, const Json& norms) {
-    text << "over " << poses << " " << 100 * norms["rms"].get<double>() << " % rms, "
-         << 100 * norms["max"].get<double>() << " % max";
+    text << "over " << poses << " " << 100 * norms["rms"].get<double>() << "% rms, "
+         << 100 * norms["max"].get<double>() << "% max";
   };
   add("random poses", errors["independent"]);
   text << ", ";
-  add("smooth ones", errors["smooth"]);
+  add("smooth poses", errors["smooth"]);
   return text.str();
 }
 
@@ -58,12 +58,15 @@ std::string percents(const Json& errors) {
 template <int Dim>
 Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWeights& weights,
                   const PointList<Dim>& control_points, const PointList<Dim>& points) {
-  const auto influences = count_influences(weights);
+  const auto influences = count_influences(weights, kInfluenceThreshold);
+  const auto stored = count_influences(weights);
   const auto quality = measure_quality(control_points, points, weights);
   return {{"file", file},
           {"bytes", bytes},
           {"mean_influences", influences.mean},
           {"max_influences", influences.max},
+          {"mean_nonzeros", stored.mean},
+          {"max_nonzeros", stored.max},
           {"min_weight", quality.min_weight},
           {"max_partition_error", quality.max_partition_error},
           {"max_reproduction_error", quality.max_reproduction_error}};
@@ -91,7 +94,7 @@ std::string summary_of(const Json& report) {
   const auto& error = report["error"];
   std::ostringstream text;
   text << after["file"].get<std::string>() << ": " << after["mean_influences"].get<double>()
-       << " influences per point, at most " << after["max_influences"] << " (before "
+       << " influences per vertex, at most " << after["max_influences"] << " (before "
        << before["mean_influences"].get<double>() << ", " << before["max_influences"] << "); "
        << after["bytes"] << " bytes (before " << before["bytes"] << "); deformation error "
        << percents(error["deformation"]) << " of the size";

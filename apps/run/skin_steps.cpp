@@ -8,6 +8,7 @@
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
@@ -70,14 +71,14 @@ ErrorNorms deformation_error_in(const Json& errors) {
 
 std::string facts_of(const SparseWeights& before, const SparseWeights& after,
                      const ErrorNorms& error, std::size_t num_poses) {
-  const auto influences = count_influences(after);
+  const auto influences = count_influences(after, kInfluenceThreshold);
   const char* const poses = num_poses == 0   ? "smooth random poses"
                             : num_poses == 1 ? "the pose"
                                              : "the poses";
   Facts facts;
-  facts << influences.mean << " influences per point, at most " << influences.max << " (before "
-        << count_influences(before).max << "); deformation error " << 100 * error.rms << " % rms, "
-        << 100 * error.max << " % max of the size in " << poses;
+  facts << influences.mean << " influences per vertex, at most " << influences.max << " (before "
+        << count_influences(before, kInfluenceThreshold).max << "); deformation error "
+        << 100 * error.rms << "% rms, " << 100 * error.max << "% max of the size in " << poses;
   return facts.text();
 }
 
@@ -95,11 +96,11 @@ std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
   }
   facts << ", at most " << skin.influences << " influences per vertex";
   if (skin.influences > kFewJoints) {
-    facts << ", of which readers of one set, as three.js, see the largest 4";
+    facts << "; readers of one set, such as three.js, use the largest 4";
   }
   const double change = skin.position_change / bounding_box_diagonal<Dim>(run.shape().points);
   if (change > kWorthATell) {
-    facts << "; single precision, which glTF has, moves vertices by up to " << change
+    facts << "; single precision, which glTF uses, moves vertices by up to " << change
           << " of the size";
   }
   return facts.text();

@@ -41,7 +41,7 @@ def poses(cage, animation, folder):
 
 def row_of(name, method, k, told):
     row = {"weights": name, "points": told["points"], "control_points": told["control_points"],
-           "influences_before": told["before"]["mean_influences"], "k": k, "method": method,
+           "influences_before": told["before"]["mean_nonzeros"], "k": k, "method": method,
            "min_weight": told["after"]["min_weight"],
            "reproduction_error": told["after"]["max_reproduction_error"],
            "seconds": told["seconds"]}

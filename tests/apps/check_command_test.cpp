@@ -55,7 +55,7 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 0\nv 6 6 0\n"
                          "l 1 2 3 4\n");
   expect_check(cage + " --json " + path("r.json"), 2,
-               {"no cage, 4 defects", "control point 5 at (6, 6) belongs to no edge",
+               {"not a cage, 4 defects", "control point 5 at (6, 6) belongs to no edge",
                 "open at control point 0 at (0, 0)"},
                {"bad.obj: control point 4 at (5, 5) belongs to no edge"});
   const auto json = Json::parse(slurp(path("r.json")));
@@ -66,7 +66,7 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
 
   const auto crossed = file("crossed.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n");
   expect_check(crossed, 2, {"(0.5, 0.5)"}, {"crossed.obj: "});
-  expect_check(crossed + " --model " + path("absent.obj"), 2, {"Nothing else was looked at"});
+  expect_check(crossed + " --model " + path("absent.obj"), 2, {"were skipped"});
 }
 
 TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
@@ -87,7 +87,7 @@ TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
                          "v 1 0.999999999 1\nf 1 3 4\nf 1 4 2\nf 5 9 8\nf 5 6 9\nf 5 8 7\n"
                          "f 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\n"
                          "f 2 8 9\nf 2 9 6\n");
-  expect_check(cage, 0, {": too thin to be meshed"});
+  expect_check(cage, 0, {": too thin to mesh"});
   const auto start = std::chrono::steady_clock::now();
   const auto refused = expect("solve " + cage + " -o " + path("w.npy"), 2,
                               "control point 8 at (1, 1, 1) is too close to triangle");
@@ -114,7 +114,7 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
   expect_check(cage + " --model " + model + " --json " + path("r.json"), 0,
-               {"2 of 4 points lie outside the cage, the farthest is vertex 1 at (5, 1)"});
+               {"2 of 4 vertices are outside the cage; the farthest is vertex 1 at (5, 1)"});
   const auto json = Json::parse(slurp(path("r.json")))["model"];
   EXPECT_EQ(json["outside"], 2);
   EXPECT_EQ(json["first_outside"]["point"], 1);
@@ -124,7 +124,7 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   if (!has_model("defective/half_outside_cage.obj")) GTEST_SKIP() << "the real models are absent";
   expect_check(model_path("defective/half_outside_cage.obj") + " --model " +
                    model_path("defective/half_outside_model.obj"),
-               0, {"209 of 386 points lie outside the cage"});
+               0, {"209 of 386 vertices are outside the cage"});
 }
 
 template <int Dim>
@@ -172,6 +172,36 @@ TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
   expect_measures<3>(on_mesh, sample("3d/limb_cage.obj"), io::read_domain<3>(path("d.mesh")).points,
                      path("v.npy"));
   EXPECT_FALSE(at_model["weights"].contains("mesh"));
+}
+
+// What the program delivers by default passes its own check, and beats harmonic coordinates in what
+// it minimizes.
+TEST_F(CheckCommand, DefaultResultsAreFine) {
+  const auto cage = sample("2d/figure_cage.obj");
+  expect("solve " + cage + " --vertices 2500 --distances exact -q -o " + path("w.npy") +
+         " --save-domain " + path("d.obj") + " --report " + path("r.json"));
+  const auto checked = expect_check(cage + " --domain " + path("d.obj") + " --weights " +
+                                        path("w.npy") + " --json " + path("c.json"),
+                                    0, {" deep (within solver accuracy), ", "weighted total"});
+  EXPECT_EQ(checked.output.find("  no  "), std::string::npos) << checked.output;
+  const auto mesh = Json::parse(slurp(path("c.json")))["weights"]["mesh"];
+  const double weighted = mesh["weighted_variation"];
+  const double objective = Json::parse(slurp(path("r.json")))["objective"];
+  EXPECT_NEAR(weighted, objective, 1e-6 * objective);
+  EXPECT_LT(weighted, 0.9 * mesh["harmonic_weighted_variation"].get<double>());
+}
+
+// An extremum that no solve leaves.
+TEST_F(CheckCommand, DeepExtremaAreNotFine) {
+  ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
+  auto weights = io::read_weights(path("v.npy"));
+  Eigen::Index inside = 0;  // on the cage, one of two weights is 0.5 at least
+  ASSERT_LT(weights.colwise().maxCoeff().minCoeff(&inside), 0.5);
+  weights(3, inside) += 2;
+  io::write_weights(path("x.npy"), weights);
+  const auto checked = run("check " + sample("2d/ring_cage.obj") + " --domain " + path("d.obj") +
+                           " --weights " + path("x.npy"));
+  EXPECT_NE(checked.output.find(" no   at most "), std::string::npos) << checked.output;
 }
 
 TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {

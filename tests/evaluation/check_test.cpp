@@ -62,6 +62,8 @@ TEST_IN_2D_AND_3D(CheckTest, SoundWeightsAreSound) {
     // They are harmonic coordinates themselves.
     EXPECT_NEAR(check.mesh->total_variation, check.mesh->harmonic_total_variation,
                 1e-9 * check.mesh->total_variation);
+    EXPECT_NEAR(check.mesh->weighted_variation, check.mesh->harmonic_weighted_variation,
+                1e-9 * check.mesh->weighted_variation);
     EXPECT_NEAR(check.mesh->influence_ratio, 1, 1e-3);
   }
 }
@@ -87,6 +89,9 @@ TEST_IN_2D_AND_3D(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
     const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(sample.cage.size(), sample.mesh.num_cells());
     const double variation = testing::objective(sample.mesh, weights, ones);
     EXPECT_NEAR(check.mesh->total_variation, variation, 1e-12 * variation);
+    const auto phi = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare).phi.dense();
+    const double weighted = testing::objective(sample.mesh, weights, phi);
+    EXPECT_NEAR(check.mesh->weighted_variation, weighted, 1e-9 * weighted);
 
     const auto quality = measure_quality(sample.cage.points, sample.mesh.points, weights);
     EXPECT_EQ(check.quality.min_weight, quality.min_weight);
@@ -193,7 +198,7 @@ TEST_IN_2D_AND_3D(CheckTest, WeightsThatAreNoNumbersAreSetApart) {
   EXPECT_LT(check.partition.value, 1e-12);
   EXPECT_LT(check.reproduction.value, 1e-12);
   expect_one_violation(check,
-                       "2 weights are not finite, the first is the weight for control point "
+                       "2 weights are not finite; the first is the weight for control point "
                        "4 at point " +
                            std::to_string(v));
 }
@@ -279,7 +284,7 @@ TEST_IN_2D_AND_3D(CheckTest, SizesAndMeshesThatDoNotBelongAreRefused) {
     return "no error";
   };
   const PointList<Dim> fewer = mesh.points.leftCols(7);
-  EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("belong to 7 points"),
+  EXPECT_NE(message([&] { check_weights(cage, fewer, sound.weights); }).find("match 7 points"),
             std::string::npos);
   const WeightMatrix other = sound.weights.topRows(5);
   EXPECT_NE(message([&] { check_weights(cage, mesh, other); }).find("and 5 control points"),

@@ -7,6 +7,7 @@
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/poses.h"
+#include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "support/dimensions.h"
@@ -23,6 +24,8 @@ TEST_IN_2D_AND_3D(SparsifyErrorTest, InfluencesNormsAndPoses) {
   after(0, 0) = after(1, 1) = 1;
   EXPECT_EQ(count_influences(after).mean, 1);
   EXPECT_EQ(count_influences(WeightMatrix(before + after)).max, 2);
+  EXPECT_EQ(count_influences(WeightMatrix(1e-5 * before + after)).max, 2);
+  EXPECT_EQ(count_influences(WeightMatrix(1e-5 * before + after), kInfluenceThreshold).max, 1);
   EXPECT_EQ(weight_error(before, after).max, 1);
   EXPECT_DOUBLE_EQ(weight_error(before, after).rms, 0.5);  // two of eight differ by 1
   const double distance = (control_points.col(0) - control_points.col(1)).norm();

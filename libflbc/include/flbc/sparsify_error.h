@@ -12,15 +12,16 @@
 
 namespace flbc {
 
-//! Numbers of weights other than 0 per point.
+//! Numbers of weights per point.
 struct Influences {
   double mean = 0;
   Index max = 0;
 };
 
-//! Counts weights other than 0.
+//! Counts the weights that are stored, or of these only the influences.
 //! \param weights  n x P
-Influences count_influences(const SparseWeights& weights);
+//! \param threshold  counts |w_i| above it; kInfluenceThreshold for influences as Quality has them
+Influences count_influences(const SparseWeights& weights, double threshold = 0);
 
 //! Root of the mean square, and largest.
 struct ErrorNorms {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/instantiate.h"
 #include "base/messages.h"
@@ -103,11 +104,17 @@ Extrema<Dim> find_extrema(const DomainMesh<Dim>& mesh, const std::vector<Index>&
   return parallel_sum(static_cast<Index>(interior.size()), Extrema<Dim>(n), search);
 }
 
+// The objective in the units of the mesh. \param problem  with phi
+template <int Dim>
+double weighted_variation(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
+  return objective(problem.mesh, problem.phi, weights) / std::pow(problem.scale, Dim - 1);
+}
+
 // \param problem  made of the mesh
 // \param domain  the mesh, in its own units
 // \param mean_influences  of the weights
 template <int Dim>
-MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Dim>& domain,
+MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& domain,
                              const WeightMatrix& weights, double mean_influences) {
   const auto interior = problem.boundary.interior_vertices();
   MeshCheck<Dim> check;
@@ -121,6 +128,11 @@ MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Di
 
   const auto harmonic = harmonic_coordinates(problem);
   check.harmonic_total_variation = total_variation(domain, harmonic);
+  if (count_parts(domain) == 1) {
+    set_phi(problem, DistanceScheme::kSquare);
+    check.weighted_variation = weighted_variation(problem, weights);
+    check.harmonic_weighted_variation = weighted_variation(problem, harmonic);
+  }
   check.harmonic_mean_influences =
       static_cast<double>((harmonic.array().abs() > kInfluenceThreshold).count()) /
       static_cast<double>(domain.num_vertices());
@@ -128,7 +140,7 @@ MeshCheck<Dim> check_on_mesh(const LbcProblem<Dim>& problem, const DomainMesh<Di
   return check;
 }
 
-constexpr double kCoincidence = 1e-10;  // of the cage's size: a point that near is at the place
+constexpr double kCoincidence = 1e-10;  // of the cage size: a point that near is at the place
 constexpr double kRounding = 1e-12;     // a weight not more than this below 0 is not negative
 
 // Counts and extremes of weights; those of parts are added up in the order of points.
@@ -302,9 +314,9 @@ template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights) {
   check_size(weights, cage.size(), domain.num_vertices());
-  const auto problem = make_geometry(cage, domain);  // which may have several parts
+  auto problem = make_geometry(cage, domain);  // which may have several parts
   auto check = check_at_points(cage, domain.points, weights, to_known_weights(problem.boundary));
-  check.mesh = check_on_mesh(problem, domain, weights, check.quality.mean_influences);
+  check.mesh = check_on_mesh(std::move(problem), domain, weights, check.quality.mean_influences);
   return check;
 }
 
@@ -323,7 +335,7 @@ std::vector<std::string> find_violations(const WeightCheck<Dim>& check) {
   if (check.non_finite > 0) {
     const auto& first = check.first_non_finite;
     violations.push_back(std::to_string(check.non_finite) +
-                         " weights are not finite, the first is " +
+                         " weights are not finite; the first is " +
                          weight_for(first.control_point) + " at " + point_of(first));
   }
   const auto add = [&](const Extreme<Dim>& error, const std::string& before,
@@ -337,7 +349,7 @@ std::vector<std::string> find_violations(const WeightCheck<Dim>& check) {
       "");
   add(check.reproduction,
       "the weights of " + point_of(check.reproduction) + " do not reproduce it: sum w c is off by ",
-      " of the cage's size");
+      " of the cage size");
   add(check.lagrange,
       "at " + point_of(check.lagrange) + ", where a control point is, " +
           weight_for(check.lagrange.control_point) + " is off by ",

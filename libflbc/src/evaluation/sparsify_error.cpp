@@ -23,14 +23,16 @@ SparseWeights difference_of(const SparseWeights& before, const SparseWeights& af
 
 }  // namespace
 
-Influences count_influences(const SparseWeights& weights) {
+Influences count_influences(const SparseWeights& weights, double threshold) {
   if (weights.num_points() == 0) return {};
   Influences influences;
   for (Index p = 0; p < weights.num_points(); ++p) {
-    const auto count = static_cast<Index>(weights.starts()[p + 1] - weights.starts()[p]);
+    Index count = 0;
+    weights.visit(p, [&](Index, double weight) { count += std::abs(weight) > threshold ? 1 : 0; });
     influences.max = std::max(influences.max, count);
+    influences.mean += count;
   }
-  influences.mean = static_cast<double>(weights.values().size()) / weights.num_points();
+  influences.mean /= weights.num_points();
   return influences;
 }
 
