@@ -36,7 +36,7 @@ int main(int argc, char** argv) try {
     mesh.set_color(vertex, Mesh::Color(255, fade, fade));
   }
   std::cout << report.iterations << " iterations, " << report.quality.mean_influences
-            << " control points matter to a vertex\n";
+            << " control points influence a vertex\n";
   return OpenMesh::IO::write_mesh(mesh, argv[4], OpenMesh::IO::Options::VertexColor) ? 0 : 4;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -12,7 +12,7 @@ Cage<3> cage_of_polygons(const PointList<3>& points,
                          const std::vector<std::vector<Index>>& polygons) {
   if (polygons.size() == 1) {
     throw InputError(
-        "the mesh is a single polygon and no closed surface; for a cage in the plane "
+        "the mesh is a single polygon, not a closed surface; for a 2D cage, "
         "use to_outline()");
   }
   std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
@@ -52,10 +52,9 @@ std::vector<Index> loop_of(const Cage<2>& cage) {
     next = first == before ? second : first;
   }
   if (static_cast<Index>(loop.size()) != cage.size()) {
-    throw InputError(
-        "the cage has several loops, of which a polygon cannot be made: the first has " +
-        std::to_string(loop.size()) + " of the " + std::to_string(cage.size()) +
-        " control points; triangulate() it instead");
+    throw InputError("the cage has several loops and cannot be one polygon: the first has " +
+                     std::to_string(loop.size()) + " of the " + std::to_string(cage.size()) +
+                     " control points; use triangulate()");
   }
   double twice_area = 0;
   for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -70,7 +69,7 @@ std::vector<Index> loop_of(const Cage<2>& cage) {
 void refuse_face(const char* kind, Index number) {
   throw InputError(std::string(kind) + " " + std::to_string(number) +
                    " does not fit into a half-edge mesh: another one is already on the same side "
-                   "of one of its edges, or its neighbours meet there otherwise than in a surface");
+                   "of one of its edges, or its neighbors do not form a surface there");
 }
 
 }  // namespace flbc::openmesh::internal

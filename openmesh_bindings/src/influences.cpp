@@ -24,18 +24,18 @@ PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& na
   std::array<char, kPairsMagic.size()> magic{};
   std::array<Count, 4> fields{};
   if (!read_numbers(in, magic.data(), magic.size(), false)) {
-    refuse_stored(name, "the file ends before it");
+    refuse_stored(name, "the file ends before the property");
   }
   if (magic != kPairsMagic) {
     refuse_stored(name, "the file has a property of another type under this name");
   }
   if (!read_numbers(in, fields.data(), fields.size(), swap)) {
-    refuse_stored(name, "the file ends in it");
+    refuse_stored(name, "the file ends within the property");
   }
   const PairsHeader header{fields[0], fields[1], fields[2], fields[3]};
   if (header.elements != elements) {
     refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
-                            " elements, the mesh has " + std::to_string(elements));
+                            " elements, but the mesh has " + std::to_string(elements));
   }
   if (header.data_bytes > kMostStoredBytes || header.most > kMostStoredBytes ||
       product(product(header.elements, header.most), kPairBytes) != header.data_bytes) {
@@ -47,14 +47,14 @@ PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& na
 InfluenceBlock read_pairs(std::istream& in, bool swap, const std::string& name,
                           const PairsHeader& header) {
   const auto left = bytes_left(in);
-  if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
+  if (left && *left < header.data_bytes) refuse_stored(name, "the file ends within the property");
   InfluenceBlock block(header.control_points, header.most);
   block.resize(header.elements);
   const std::size_t count = header.elements * header.most;
   if (count == 0) return block;
   if (!read_numbers(in, block.control_points(), count, swap) ||
       !read_numbers(in, block.weights(), count, swap)) {
-    refuse_stored(name, "the file ends in it");
+    refuse_stored(name, "the file ends within the property");
   }
   for (std::size_t j = 0; j < count; ++j) {
     if (block.control_points()[j] < header.control_points) continue;

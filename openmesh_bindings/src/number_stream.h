@@ -28,9 +28,9 @@ constexpr Count kMostStoredBytes = std::numeric_limits<std::uint32_t>::max();
 //! \throws IoError if a property takes more bytes than .om files hold
 inline void require_storable(const std::string& name, std::size_t bytes) {
   if (bytes <= kMostStoredBytes) return;
-  throw IoError("property '" + name + "' takes " + std::to_string(bytes) +
-                " bytes, .om files hold at most " + std::to_string(kMostStoredBytes) +
-                " of one property");
+  throw IoError("property '" + name + "' needs " + std::to_string(bytes) +
+                " bytes, but .om files store at most " + std::to_string(kMostStoredBytes) +
+                " per property");
 }
 
 template <class Number>

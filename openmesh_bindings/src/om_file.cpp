@@ -42,7 +42,7 @@ void add_polygons(OmMesh& mesh, const io::PolygonSoup& soup) {
     throw InputError("polygon " + std::to_string(f) +
                      " does not fit into a half-edge mesh, which .om files hold: " +
                      (is_simple ? "another one is already on the same side of one of its edges, or "
-                                  "its neighbours meet there otherwise than in a surface"
+                                  "its neighbors do not form a surface there"
                                 : "it has a vertex twice"));
   }
 }

@@ -21,7 +21,7 @@ SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>&
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) {
   if (cage.size() > 0) return;
   throw InputError("the mesh does not know the cage of its weights '" + weights +
-                   "'; give it: sparsify(mesh, cage, k), or set_rest_cage() before");
+                   "'; call sparsify(mesh, cage, k), or set_rest_cage() first");
 }
 
 template SparseWeights reduce(const PointList<2>&, const PointList<2>&, const EdgeList&,

@@ -8,13 +8,13 @@ namespace flbc::openmesh::internal {
 void require_number_of_vertices(Eigen::Index in_weights, std::size_t in_mesh) {
   if (in_weights == static_cast<Eigen::Index>(in_mesh)) return;
   throw InputError("weights for " + std::to_string(in_weights) +
-                   " points do not belong to a mesh with " + std::to_string(in_mesh) + " vertices");
+                   " points do not match a mesh with " + std::to_string(in_mesh) + " vertices");
 }
 
 void require_control_points(std::size_t in_weights, Eigen::Index in_cage) {
   if (in_weights == static_cast<std::size_t>(in_cage)) return;
   throw InputError("weights for " + std::to_string(in_weights) +
-                   " control points do not belong to a cage with " + std::to_string(in_cage));
+                   " control points do not match a cage with " + std::to_string(in_cage));
 }
 
 void refuse_without_weights(const std::string& name) {
@@ -49,7 +49,7 @@ InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most) {
   for (std::size_t p = 0; p < count; ++p) {
     if (is_limited && size_of(p) > most) {
       throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(size_of(p)) +
-                       " weights, more than " + std::to_string(most) + "; sparsify() them before");
+                       " weights, more than " + std::to_string(most) + "; call sparsify() first");
     }
     if (!is_limited) most = std::max(most, size_of(p));
   }

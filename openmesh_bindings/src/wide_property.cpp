@@ -32,19 +32,19 @@ RowsHeader read_rows_header(std::istream& in, bool swap, const std::string& name
   std::array<char, kRowsMagic.size()> magic{};
   std::array<Count, 5> fields{};
   if (!read_numbers(in, magic.data(), magic.size(), false))
-    refuse_stored(name, "the file ends before it");
+    refuse_stored(name, "the file ends before the property");
   if (magic != kRowsMagic)
     refuse_stored(name, "the file has a property of another type under this name");
   if (!read_numbers(in, fields.data(), fields.size(), swap))
-    refuse_stored(name, "the file ends in it");
+    refuse_stored(name, "the file ends within the property");
   const RowsHeader header{fields[0], fields[1], fields[2], fields[3], fields[4]};
   if (header.scalar_bytes != sizeof(Scalar)) {
-    refuse_stored(name, "the file does not have it in the mesh's precision, " +
+    refuse_stored(name, "the file has it in another precision than the mesh, " +
                             std::string(sizeof(Scalar) == sizeof(float) ? "float" : "double"));
   }
   if (header.elements != elements) {
     refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
-                            " elements, the mesh has " + std::to_string(elements));
+                            " elements, but the mesh has " + std::to_string(elements));
   }
   const Count rows = product(header.elements, header.components);
   if (header.data_bytes > kMostStoredBytes || header.components > kMostStoredBytes ||
@@ -59,7 +59,7 @@ template <class Scalar>
 RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
                            const RowsHeader& header) {
   const auto left = bytes_left(in);
-  if (left && *left < header.data_bytes) refuse_stored(name, "the file ends in it");
+  if (left && *left < header.data_bytes) refuse_stored(name, "the file ends within the property");
   // Some numbers at a time, so that a stream of unknown length gets memory for what it has.
   constexpr std::size_t kAtOnce = 1 << 16;
   const std::size_t count = header.data_bytes / sizeof(Scalar);
@@ -69,7 +69,7 @@ RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
     const std::size_t more = std::min(count - done, kAtOnce);
     numbers.resize(done + more);
     if (!read_numbers(in, numbers.data() + done, more, swap)) {
-      refuse_stored(name, "the file ends in it");
+      refuse_stored(name, "the file ends within the property");
     }
   }
   RowBlock<Scalar> rows(header.components, header.width);

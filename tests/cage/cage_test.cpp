@@ -138,7 +138,7 @@ TEST_IN_2D_AND_3D(CageTest, FlatCage) {
         0.1 * corner * (Vector<Dim>::Unit(0) + 0.7 * Vector<Dim>::Unit(Dim - 1));
   }
   EXPECT_TRUE(
-      reports(find_defects(cage), {"all control points lie in one", Dim == 2 ? "line" : "plane"}));
+      reports(find_defects(cage), {"all control points are in one", Dim == 2 ? "line" : "plane"}));
 }
 
 TEST_IN_2D_AND_3D(CageTest, FacetThatOccursTwice) {

@@ -119,7 +119,7 @@ TEST_IN_2D_AND_3D(RepairCageTest, FlapsGo) {
   cage.facets(Dim - 1, flap) = cage.size() - 1;
   const auto repaired = repair(cage);
   EXPECT_TRUE(says(repaired.changes, kind<Dim>() + std::to_string(flap) + " belongs to a flap"));
-  EXPECT_TRUE(says(repaired.changes, "belongs to no facet and is dropped"));
+  EXPECT_TRUE(says(repaired.changes, "belongs to no facet and is removed"));
   EXPECT_EQ(repaired.new_numbers.back(), -1);
   expect_box(repaired.cage);
 }

@@ -131,7 +131,7 @@ TEST_IN_2D_AND_3D(PlacementTest, RefusalsNameTheFarthest) {
     FAIL();
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("2 of " + std::to_string(points.cols()) + " points lie outside"),
+    EXPECT_NE(message.find("2 of " + std::to_string(points.cols()) + " vertices are outside"),
               std::string::npos)
         << message;
     EXPECT_NE(message.find("the farthest is vertex 3"), std::string::npos) << message;

@@ -97,14 +97,14 @@ TEST_F(ModelConversion, WhatIsLostIsTold) {
   EXPECT_EQ(losses(square + "vt 0.1 0\nf 1/1 2/1 3/1\n", "o.om"),
             (Phrases{"texture coordinates beyond single precision"}));
   const std::string coloured = "v 0.1 0 0 0.5 0 1\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n";
-  EXPECT_EQ(losses(coloured, "o.ply"), (Phrases{"colours beyond 256 levels"}));
+  EXPECT_EQ(losses(coloured, "o.ply"), (Phrases{"colors beyond 256 levels"}));
   EXPECT_EQ(losses(coloured, "o.obj"), Phrases());
   EXPECT_EQ(losses(coloured, "o.stl"), (Phrases{"the order of the vertices",
-                                                "coordinates beyond single precision", "colours"}));
+                                                "coordinates beyond single precision", "colors"}));
   const auto seen = open("a.off",
                          "COFF\n3 1 0\n0 0 0 255 0 0 128\n1 0 0 0 255 0 255\n"
                          "0 1 0 1 1 1 255\n3 0 1 2 255 0 0\n");
-  EXPECT_EQ(io::losses(seen.model(), "o.ply"), (Phrases{"transparency", "colours of polygons"}));
+  EXPECT_EQ(io::losses(seen.model(), "o.ply"), (Phrases{"transparency", "colors of polygons"}));
   EXPECT_EQ(seen.model().attributes.colors.col(1), Vector<3>(0, 1, 0));
 }
 

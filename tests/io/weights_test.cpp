@@ -252,7 +252,7 @@ TEST_F(WeightsFile, MalformedDmat) {
        {"0 0\n", ":1: ", "the file ends before the size"},
        {"0 0\n2 x\n", ":2: ", "expected an integer, found \"x\""},
        {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5}), ": at byte 48: ", "after 5 of 6 numbers"},
-       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6, 7}), ": at byte 56: ", "goes on for 8 bytes"},
+       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6, 7}), ": at byte 56: ", "has 8 more bytes"},
        {"0 0\n2 3\n" + doubles({1, 2, 3, 4, nan, 6}),
         ": at byte 40: ", "control point 1 at point 1 is not finite"},
        {"0 0\n2000000000 2000000000\n" + doubles({1, 2}), ": at byte ", "after 2 of 4000000000"}});
@@ -300,7 +300,7 @@ TEST_F(WeightsFile, MalformedNpy) {
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), } x"),
         ": at byte 70: ", "end of the header"},
        {npy(head) + data.substr(0, 45), ": at byte 114: ", "after 5 of 6 numbers"},
-       {npy(head) + data + "!", ": at byte 117: ", "goes on for 1 bytes"},
+       {npy(head) + data + "!", ": at byte 117: ", "has 1 more bytes"},
        {npy(head) + doubles({1, 4, 2, infinity, 3, 6}),
         ": at byte 93: ", "control point 1 at point 1 is not finite: inf"}});
 }

@@ -39,8 +39,8 @@ TEST(Triplets, DefectsAreNamed) {
   expect_refusal("0 0 nan\n", ":1: ");
   expect_refusal("0 0 1 7\n", ":1: ");
   expect_refusal("0 0 1\n1 0 1\n0 0 1\n", ":3: the weight of control point 0 at point 0");
-  expect_refusal("0 2 1\n", "weights for 1 control points, but 2 are there");
-  expect_refusal("1 0 1\n", "weights for 1 points, but 3 are there");
+  expect_refusal("0 2 1\n", "weights for 1 control points, but there are 2");
+  expect_refusal("1 0 1\n", "weights for 1 points, but there are 3");
   expect_refusal("", "weights for 0 control points");
   EXPECT_THROW(io::read_weight_triplets("/absent/w.txt", 2, 3), IoError);
 }
@@ -72,9 +72,8 @@ TEST(Triplets, TellTheirSizeByTheLargestNumbers) {
     const auto name = file(content);
     expect_error<InputError>([&] { io::read_weight_triplets(name); }, {name, text});
   };
-  refuse(
-      "0 0 1\n0 2000000000 1\n",
-      "the largest numbers ask for 1 control points and 2000000001 points, but there are only 2");
+  refuse("0 0 1\n0 2000000000 1\n",
+         "the largest indices imply 1 control points and 2000000001 points, but there are only 2");
   refuse("0 0 1\n0 2000000 1\n", "but there are only 2 weights");
   refuse("# nothing\n", "has no weights");
   refuse("0 0 1\n-1 0 1\n", ":2: ");

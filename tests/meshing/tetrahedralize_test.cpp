@@ -154,7 +154,7 @@ TEST(TetrahedralizeTest, PointsThatCannotBeEmbedded) {
     points << Vector<3>(0.75, 0.75, 0.75), second;
     return message_of<InputError>([&] { tetrahedralize(cage, vertices<3>(0, points)); });
   };
-  EXPECT_NE(refusal({2, 0.5, 0}).find("point 1 at (2, 0.5, 0) cannot be embedded: it lies outside"),
+  EXPECT_NE(refusal({2, 0.5, 0}).find("point 1 at (2, 0.5, 0) cannot be embedded: it is outside"),
             std::string::npos);
   EXPECT_NE(refusal({0, 0.1, 0.2}).find("outside"), std::string::npos) << "in the cavity";
   EXPECT_NE(refusal({1, 0.2, 0.1}).find("on the cage"), std::string::npos);

@@ -118,7 +118,7 @@ TEST(TriangulateTest, PointsThatCannotBeEmbedded) {
     points << Vector<2>(0.75, 0.75), second;
     return message_of<InputError>([&] { triangulate(cage, vertices<2>(0, points)); });
   };
-  EXPECT_NE(refusal({2, 0.5}).find("point 1 at (2, 0.5) cannot be embedded: it lies outside"),
+  EXPECT_NE(refusal({2, 0.5}).find("point 1 at (2, 0.5) cannot be embedded: it is outside"),
             std::string::npos);
   EXPECT_NE(refusal({0.1, 0.2}).find("outside"), std::string::npos) << "in the hole";
   EXPECT_NE(refusal({1, 0.2}).find("on the cage"), std::string::npos);

@@ -177,7 +177,7 @@ TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
   constexpr Index kFacet = 1;
   put_outside<kDimension>(this->model_, cage, kVertex, kFacet);
   const auto rest = this->points();
-  expect_refused("1 of 49 points lie outside the cage, the farthest is vertex 11",
+  expect_refused("1 of 49 vertices are outside the cage; the farthest is vertex 11",
                  [&] { openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_); });
   EXPECT_THROW(openmesh::get_weights(this->model_), InputError);
 
@@ -249,7 +249,7 @@ TYPED_TEST(Bind, BadInputIsNamed) {
   const auto& domain = this->sample_.mesh;
   const auto bind = [&] { openmesh::bind(model, cage, domain, this->options_); };
   this->options_.max_influences = 2;
-  expect_refused("influences per point are too few", bind);
+  expect_refused("influences per vertex are too few", bind);
   this->options_.max_influences = -1;
   expect_refused("max_influences", bind);
   this->options_.max_influences = 5;

@@ -205,7 +205,7 @@ TYPED_TEST(MeshWeights, DeformAsArraysDo) {
   EXPECT_LT((this->points() - dense).cwiseAbs().maxCoeff(), TestFixture::kExact ? 1e-13 : 1e-6);
   Cage<kDimension> other = this->pose_;
   other.points.conservativeResize(kDimension, other.points.cols() - 1);
-  expect_refused("do not belong to a cage with", [&] { openmesh::deform(this->mesh_, other); });
+  expect_refused("do not match a cage with", [&] { openmesh::deform(this->mesh_, other); });
 }
 
 TYPED_TEST(MeshWeights, SparsifyKeepsWhatCounts) {

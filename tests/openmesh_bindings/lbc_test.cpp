@@ -163,7 +163,7 @@ TYPED_TEST(LbcTest, DeformFollowsTheCage) {
     }
   }
   cage.points.conservativeResize(kDimension, cage.points.cols() - 1);
-  expect_refused("do not belong to a cage with", [&] { openmesh::deform(mesh, cage); });
+  expect_refused("do not match a cage with", [&] { openmesh::deform(mesh, cage); });
   auto bare = build<TypeParam>(sample.mesh);
   expect_refused("has no weights", [&] { openmesh::deform(bare, sample.cage); });
 }

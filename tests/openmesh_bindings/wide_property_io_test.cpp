@@ -264,7 +264,8 @@ TEST(WidePropertyLimits, TakesNoMemoryForNumbersThatAreNotThere) {
       ADD_FAILURE() << components << " x " << width;
     } catch (const InputError& error) {
       // Seen at once, not when the memory or the file is used up.
-      EXPECT_STREQ(error.what(), "property 'rows' cannot be read: the file ends in it");
+      EXPECT_STREQ(error.what(),
+                   "property 'rows' cannot be read: the file ends within the property");
     }
     Pipe pipe(damaged);
     std::istream in(&pipe);

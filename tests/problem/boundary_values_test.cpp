@@ -111,7 +111,8 @@ TEST_IN_2D_AND_3D(BoundaryValuesTest, RefusesAMeshOfAnotherCage) {
     values_of(refined, coarse.mesh);
     FAIL() << "accepted a mesh without vertex at a control point";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is no vertex of the domain mesh"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("is not a vertex of the domain mesh"),
+              std::string::npos);
   }
 }
 

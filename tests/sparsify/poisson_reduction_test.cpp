@@ -230,18 +230,16 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, RefusesWhatCannotBe) {
   Numbers numbers(27);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 10, -1, 1), 8, 0.1);
   EXPECT_NO_THROW(problem.reduce(at_most(Dim + 1)));
-  expect_error<OptionError>([&] { problem.reduce(at_most(Dim)); }, {"control points around it"});
+  expect_error<OptionError>([&] { problem.reduce(at_most(Dim)); }, {"are needed to reproduce it"});
   auto wrong = problem;
   wrong.edges.ends.push_back({2, 8});
   expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"ends at point 8"});
   expect_error<InputError>([&] { wrong.cost(problem.weights); }, {"ends at point 8"});
   wrong = problem;
   wrong.weights = numbers.matrix(9, 8, 0, 1);
-  expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"9 control points do not belong"});
-  expect_error<InputError>([&] { wrong.cost(problem.weights); },
-                           {"9 control points do not belong"});
-  expect_error<InputError>([&] { problem.cost(wrong.weights); },
-                           {"9 control points do not belong"});
+  expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"9 control points do not match"});
+  expect_error<InputError>([&] { wrong.cost(problem.weights); }, {"9 control points do not match"});
+  expect_error<InputError>([&] { problem.cost(wrong.weights); }, {"9 control points do not match"});
   wrong = problem;
   wrong.points.col(3).setConstant(9);
   expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"point 3 at (9, 9"});

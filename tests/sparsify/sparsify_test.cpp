@@ -261,7 +261,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, RefusesWhatCannotBe) {
   expect_error<OptionError>([&] { run(at_most(8, 1), weights); }, {"threshold"});
   expect_error<OptionError>([&] { run(at_most(8, std::nan("")), weights); }, {"threshold"});
   expect_error<InputError>([&] { run(at_most(8), numbers.matrix(9, 3, 0, 1)); },
-                           {"9 control points do not belong"});
+                           {"9 control points do not match"});
   expect_error<InputError>([&] { run(at_most(8), numbers.matrix(10, 4, 0, 1)); }, {"4 points"});
   points.col(1).setConstant(5);
   expect_error<InputError>([&] { run(at_most(8), weights); }, {"point 1 at (5, 5"});

@@ -269,23 +269,23 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
                      " is not finite");
   }
   if (facets.size() > 0 && (facets.minCoeff() < 0 || facets.maxCoeff() >= points.cols())) {
-    throw InputError("a facet of the model names a vertex that is not there");
+    throw InputError("a facet of the model refers to a vertex that does not exist");
   }
   const double size = points.cols() > 0 ? bounding_box_diagonal<Dim>(points) : 0;
   if (!(size >= 1e-30 && size <= 1e30)) {
-    throw InputError("the model's size is " + format_number(size) +
-                     "; it must be from 1e-30 to 1e30 to have a cage");
+    throw InputError("the model size of " + format_number(size) +
+                     " is out of range; it must be from 1e-30 to 1e30");
   }
   const std::string least = std::to_string(Dim + 1);
   if (options.control_points != 0 && options.control_points <= Dim) {
     throw OptionError("the number of control points must be at least " + least);
   }
   if (!(options.offset >= 0 && options.offset <= 10 * size)) {
-    throw OptionError("the offset must be from 0 to ten times the model's size of " +
+    throw OptionError("the offset must be from 0 to 10 times the model size of " +
                       format_number(size));
   }
   if (Dim == 2 && options.symmetry == CageSymmetry::kZ) {
-    throw OptionError("a cage in 2D cannot be symmetric across z");
+    throw OptionError("a 2D cage cannot be symmetric across z");
   }
 }
 

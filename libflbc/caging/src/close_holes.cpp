@@ -107,7 +107,7 @@ void close_holes(CageDraft<3>& draft) {
     for (const auto& corners : filling.triangles()) {
       draft.facets.push_back({corners, -1});
     }
-    draft.changes.push_back("the hole round control points " + describe_list(loop) +
+    draft.changes.push_back("the hole around control points " + describe_list(loop) +
                             " is closed by " + std::to_string(loop.size() - 2) + " new triangles");
   }
 }

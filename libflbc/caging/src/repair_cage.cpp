@@ -30,7 +30,7 @@ void check_numbers_of(const Cage<Dim>& cage) {
   }
   if (cage.facets.size() > 0 &&
       (cage.facets.minCoeff() < 0 || cage.facets.maxCoeff() >= cage.size())) {
-    throw InputError("a facet names a control point that is not there");
+    throw InputError("a facet refers to a control point that does not exist");
   }
 }
 
@@ -54,7 +54,7 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
     if (repaired.new_numbers[v] != v) repaired.keeps_numbers = false;
     if (draft.merged_into[v] != v || is_used[v]) continue;
     draft.changes.push_back(describe_control_point<Dim>(draft.points, v) +
-                            " belongs to no facet and is dropped");
+                            " belongs to no facet and is removed");
   }
   repaired.changes = std::move(draft.changes);
   return repaired;

@@ -81,7 +81,7 @@ void cut_at_flat_triangles(CageDraft<3>& draft) {
     const int middle = middle_corner(draft, corners);
     if (middle < 0) continue;
     draft.changes.push_back(
-        name_of<3>(draft.facets[f]) + " has no area and is dropped; its neighbour gets " +
+        name_of<3>(draft.facets[f]) + " has no area and is removed; its neighbor gets " +
         describe_control_point<3>(draft.points, corners(middle)) + " as a corner");
     cut_neighbour(draft, f, middle);
     is_dropped[f] = draft.facets[f].corners == corners;
@@ -162,7 +162,7 @@ void drop_degenerate_facets(CageDraft<Dim>& draft) {
     is_dropped[f] = has_repeated_corner<Dim>(draft.facets[f].corners);
     if (is_dropped[f]) {
       draft.changes.push_back(name_of<Dim>(draft.facets[f]) +
-                              " has the same corner twice and is dropped");
+                              " has the same corner twice and is removed");
     }
   }
   drop(draft, is_dropped);
@@ -181,7 +181,7 @@ void drop_repeated_facets(CageDraft<Dim>& draft) {
     if (is_new) continue;
     is_dropped[f] = true;
     draft.changes.push_back(name_of<Dim>(draft.facets[f]) + " is the same as " +
-                            name_of<Dim>(draft.facets[entry->second]) + " and is dropped");
+                            name_of<Dim>(draft.facets[entry->second]) + " and is removed");
   }
   drop(draft, is_dropped);
 }
@@ -198,7 +198,7 @@ void drop_flaps(CageDraft<Dim>& draft) {
       is_dropped[f] = patch_of_facet[f] == flap;
       if (is_dropped[f]) {
         draft.changes.push_back(name_of<Dim>(draft.facets[f]) +
-                                " belongs to a flap that hangs on other facets and is dropped");
+                                " belongs to a flap that hangs on other facets and is removed");
       }
     }
     drop(draft, is_dropped);

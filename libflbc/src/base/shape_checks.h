@@ -16,8 +16,8 @@ inline void check_size(Eigen::Index n, Eigen::Index P, Eigen::Index num_control_
                        Eigen::Index num_points) {
   if (n == num_control_points && P == num_points) return;
   throw InputError("weights for " + std::to_string(P) + " points and " + std::to_string(n) +
-                   " control points do not belong to " + std::to_string(num_points) +
-                   " points and " + std::to_string(num_control_points) + " control points");
+                   " control points do not match " + std::to_string(num_points) + " points and " +
+                   std::to_string(num_control_points) + " control points");
 }
 
 inline void check_size(const WeightMatrix& weights, Eigen::Index num_control_points,

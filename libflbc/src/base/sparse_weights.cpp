@@ -61,7 +61,7 @@ SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t>
     if (starts_[p + 1] < starts_[p] || starts_[p + 1] > count) refuse(p, "end before they start");
     for (std::int64_t k = starts_[p]; k < starts_[p + 1]; ++k) {
       if (control_points_[k] >= static_cast<std::uint32_t>(num_control_points)) {
-        refuse(p, "belong to a control point that there is not");
+        refuse(p, "refer to a control point that does not exist");
       }
       if (k > starts_[p] && control_points_[k] <= control_points_[k - 1]) {
         refuse(p, "are not in the order of their control points");

@@ -56,12 +56,12 @@ template <int Dim>
 void check_counts(const Cage<Dim>& cage, DefectList& found) {
   const std::string least = std::to_string(Dim + 1);
   if (cage.size() < Dim + 1) {
-    found.add({"the cage has " + std::to_string(cage.size()) +
-               " control points; it takes at least " + least + " to enclose anything"});
+    found.add({"the cage has " + std::to_string(cage.size()) + " control points; at least " +
+               least + " are needed"});
   }
   if (cage.facets.cols() < Dim + 1) {
     found.add({"the cage has " + std::to_string(cage.facets.cols()) + " " + facet_name<Dim>() +
-               "s; it takes at least " + least + " to enclose anything"});
+               "s; at least " + least + " are needed"});
   }
 }
 
@@ -78,11 +78,11 @@ void check_extent(const Cage<Dim>& cage, DefectList& found) {
   if (cage.size() == 0 || !cage.points.allFinite()) return;
   const double size = bounding_box_diagonal<Dim>(cage.points);
   if (size > 0 && !(size >= kSmallestSize && size <= kLargestSize)) {
-    found.add({"the cage's size of " + format_number(size) + " is out of range; it must be from " +
+    found.add({"the cage size of " + format_number(size) + " is out of range; it must be from " +
                format_number(kSmallestSize) + " to " + format_number(kLargestSize) +
                "; use another unit of length"});
   } else if (cage.points.cwiseAbs().maxCoeff() > kFarthest * size && size > 0) {
-    found.add({"the cage lies too far from the origin for its size of " + format_number(size) +
+    found.add({"the cage is too far from the origin for its size of " + format_number(size) +
                ", with " + describe_control_point<Dim>(cage.points, 0) +
                ": its coordinates have too few digits; move it to the origin"});
   }
@@ -95,8 +95,9 @@ void check_indices(const Cage<Dim>& cage, DefectList& found) {
     for (int k = 0; k < Dim; ++k) {
       const Index vertex = cage.facets(k, facet);
       if (vertex < 0 || vertex >= cage.size()) {
-        found.add({name + " names control point " + std::to_string(vertex) +
-                       ", but the cage's are numbered from 0 to " + std::to_string(cage.size() - 1),
+        found.add({name + " refers to control point " + std::to_string(vertex) +
+                       ", but control points are numbered from 0 to " +
+                       std::to_string(cage.size() - 1),
                    {},
                    {facet}});
         break;
@@ -143,7 +144,7 @@ void check_flatness(const Cage<Dim>& cage, DefectList& found) {
   const PointList<Dim> centred = cage.points.colwise() - cage.points.rowwise().mean().eval();
   const double thickness = dense::least_pivot(centred.transpose()) / std::sqrt(double(cage.size()));
   if (thickness > kRelativeTolerance * bounding_box_diagonal<Dim>(cage.points)) return;
-  found.add({std::string("all control points lie in one ") + (Dim == 2 ? "line" : "plane") +
+  found.add({std::string("all control points are in one ") + (Dim == 2 ? "line" : "plane") +
              ", so the cage encloses nothing"});
 }
 
@@ -173,7 +174,7 @@ void check_measures(const Cage<Dim>& cage, DefectList& found) {
       if (k > 0) text += k + 1 < Dim ? ", " : " and ";
       text += describe_control_point<Dim>(cage.points, corners(k));
     }
-    if (Dim == 3) text += ", lie on one line";
+    if (Dim == 3) text += ", are on one line";
     found.add({text, std::vector<Index>(corners.data(), corners.data() + Dim), {facet}});
   }
 }
@@ -228,10 +229,10 @@ void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
   std::string text;
   if (incidences.size() == 1) {
     text = "the cage is open at the edge between " + place + ": triangle " +
-           std::to_string(triangles[0]) + " has no neighbour there";
+           std::to_string(triangles[0]) + " has no neighbor there";
   } else if (incidences.size() > 2) {
     text = "the edge between " + place + " is non-manifold: triangles " + describe_list(triangles) +
-           " share it, where two must";
+           " share it; exactly two must";
   } else {
     text = "triangles " + describe_list(triangles) +
            " are oriented inconsistently: both run in the same direction along the edge between " +
@@ -270,8 +271,8 @@ void check_fans(const Cage<3>& cage, const EdgeMap& edges, DefectList& found) {
     if (triangles.size() <= 1) continue;
     found.add({"the cage is non-manifold at " + describe_control_point<3>(cage.points, vertex) +
                    ": the triangles there form " + std::to_string(triangles.size()) +
-                   " separate fans (round triangles " + describe_list(triangles) +
-                   "), where they must form one",
+                   " separate fans (around triangles " + describe_list(triangles) +
+                   "); they must form one",
                {vertex},
                triangles});
   }
@@ -288,12 +289,12 @@ void check_connections(const Cage<2>& cage, DefectList& found) {
     const std::string place = describe_control_point<2>(cage.points, vertex);
     if (edges.size() == 1) {
       found.add({"the cage is open at " + place + ": edge " + std::to_string(edges[0]) +
-                     " ends there, where two edges must meet",
+                     " ends there; two edges must meet",
                  {vertex},
                  edges});
     } else if (edges.size() > 2) {
       found.add({"the cage branches at " + place + ": edges " + describe_list(edges) +
-                     " meet there, where two must",
+                     " meet there; exactly two must",
                  {vertex},
                  edges});
     }

@@ -10,12 +10,12 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
-#include "polytope/vertex_linear_program.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
+#include "polytope/vertex_linear_program.h"
 #include "polytope/weight_projection.h"
 
 namespace flbc {
@@ -142,7 +142,7 @@ void check_flux_and_weights(const LbcProblem<Dim>& problem, const CellFieldView<
   const Index n = problem.num_control_points();
   if (flux.n != n || flux.stride < static_cast<std::size_t>(n)) {
     throw InputError("a flux for " + std::to_string(flux.n) +
-                     " control points does not belong to a cage with " + std::to_string(n));
+                     " control points does not match a cage with " + std::to_string(n));
   }
   check_size(weights, n, problem.mesh.num_vertices());
 }
@@ -166,8 +166,8 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
   LoopProgress progress(problem.mesh.num_vertices());
   // In long double, so that the sum over vertices has next to no error.
-  const auto sum = parallel_sum(
-      problem.mesh.num_vertices(), LongRounded{}, [&](Index begin, Index end) {
+  const auto sum =
+      parallel_sum(problem.mesh.num_vertices(), LongRounded{}, [&](Index begin, Index end) {
         VertexLinearProgram<Dim> program(problem.cage.points);
         std::vector<Rounded> sums(flux.n);
         Eigen::VectorXd costs(flux.n), start;

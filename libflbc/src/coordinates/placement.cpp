@@ -128,12 +128,12 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
                        [](const auto& a, const auto& b) { return a.distance < b.distance; });
   throw InputError(
       std::to_string(outside.size()) + " of " + std::to_string(points.cols()) +
-      " points lie outside the cage, the farthest is vertex " + std::to_string(farthest->point) +
+      " vertices are outside the cage; the farthest is vertex " + std::to_string(farthest->point) +
       " at " + format_point(points.col(farthest->point)) + ", " +
       format_number(farthest->distance) + " from it, " +
       format_number(100 * farthest->distance / size) +
-      " % of its size; give them weights by --outside nearest or --outside extend, or make a cage "
-      "round the model with flbc cage");
+      "% of the cage size; choose --outside nearest or --outside extend, or make a cage around the "
+      "model with flbc cage");
 }
 
 // Weights at placed points, one after the other.

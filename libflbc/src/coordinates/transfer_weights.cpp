@@ -20,7 +20,7 @@ template <int Dim>
 void check_input(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
                  const WeightMatrix& weights) {
   check_size(weights, control_points.cols(), from.points.cols());
-  if (from.corners.cols() == 0) throw InputError("the model has nothing to be near to");
+  if (from.corners.cols() == 0) throw InputError("the model that has weights is empty");
   for (Eigen::Index e = 0; e < from.corners.cols(); ++e) {
     for (const Index corner : from.corners.col(e)) {
       if (corner >= 0 && corner < from.points.cols()) continue;

@@ -32,7 +32,7 @@ std::vector<std::vector<Index>> points_in(const std::vector<CagePart<Dim>>& part
         });
     if (found == locators.end()) {
       throw InputError("point " + std::to_string(i) + " at " + format_point(points.col(i)) +
-                       " cannot be embedded: it is in no part of the cage's interior");
+                       " cannot be embedded: it is outside all parts of the cage");
     }
     inside[found - locators.begin()].push_back(i);
   }

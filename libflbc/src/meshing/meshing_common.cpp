@@ -23,13 +23,12 @@ constexpr Index kMostVertices = 50000000;
 template <int Dim>
 void check_options(const MeshingOptions<Dim>& options) {
   if (options.vertices < 0) {
-    throw OptionError(
-        "vertices: " + std::to_string(options.vertices) +
-        " is no number of vertices; it must be positive, or 0 for as few as possible");
+    throw OptionError("vertices: " + std::to_string(options.vertices) +
+                      " is not a number of vertices; give a positive number, or 0 for the minimum");
   }
   if (options.vertices > kMostVertices) {
     throw OptionError("vertices (--vertices): " + std::to_string(options.vertices) +
-                      " are too many; at most " + std::to_string(kMostVertices) + " can be had");
+                      " are too many; at most " + std::to_string(kMostVertices) + " are supported");
   }
   if (!(options.time_limit > 0)) {
     throw OptionError("time_limit: the limit must be a positive number of seconds");
@@ -47,10 +46,9 @@ void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, doubl
   const CageLocator<Dim> locator(cage, tolerance);
   for (Index i = 0; i < embedded.cols(); ++i) {
     const Containment location = locator.locate(embedded.col(i));
-    if (location == Containment::kOutside)
-      refuse_point<Dim>(embedded, i, "it lies outside the cage");
+    if (location == Containment::kOutside) refuse_point<Dim>(embedded, i, "it is outside the cage");
     if (location == Containment::kOnCage) {
-      refuse_point<Dim>(embedded, i, "it lies on the cage, where it must lie strictly inside");
+      refuse_point<Dim>(embedded, i, "it is on the cage, but must be strictly inside");
     }
   }
 }
@@ -62,8 +60,8 @@ void check_thickness(const Cage<3>& cage) {
   if (place.facet < 0 || part > kPointTolerance) return;
   throw InputError(describe_control_point<3>(cage.points, place.control_point) +
                    " is too close to triangle " + std::to_string(place.facet) + ": " +
-                   format_number(part) + " of the cage's size; a mesh in 3D takes at least " +
-                   format_number(kPointTolerance) + ", so move them apart or merge them");
+                   format_number(part) + " of the cage size; a 3D mesh needs at least " +
+                   format_number(kPointTolerance) + "; move them apart or merge them");
 }
 
 template <int Dim>
@@ -101,8 +99,8 @@ void check_vertex_count(Index wanted, Index minimum, double tolerance) {
   if (wanted == 0 || wanted >= (1 - tolerance) * minimum) return;
   throw TooFewVertices(
       "vertices (--vertices): " + std::to_string(wanted) +
-      " vertices were asked for, but cells of good shape that fill this cage take at least about " +
-      std::to_string(minimum) + "; ask for more, or for 0 to get as few as possible");
+      " vertices are too few: well-shaped cells in this cage need at least about " +
+      std::to_string(minimum) + "; ask for more, or for 0 to get the minimum");
 }
 
 std::string describe_failure(const ProcessOutcome& outcome, double time_limit) {

@@ -105,8 +105,8 @@ Cage<3> subdivide_surface(const Cage<3>& cage, double longest, std::size_t most_
   Subdivision subdivision(cage);
   while (subdivision.divide_long_edges(longest)) {
     if (subdivision.num_points() <= most_points) continue;
-    throw InputError("the cage's surface takes more than " + std::to_string(most_points) +
-                     " points in triangles with edges up to " + format_number(longest));
+    throw InputError("the cage surface needs more than " + std::to_string(most_points) +
+                     " points for triangles with edges of at most " + format_number(longest));
   }
   return subdivision.surface();
 }

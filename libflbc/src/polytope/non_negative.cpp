@@ -32,8 +32,9 @@ void check_input(const PointList<Dim>& control_points, const PointList<Dim>& poi
   }
   for (const Index column : columns) {
     if (column < 0 || column >= points.cols()) {
-      throw InputError("column " + std::to_string(column) + " of the weights was asked for, but " +
-                       std::to_string(points.cols()) + " are there");
+      throw InputError("column " + std::to_string(column) +
+                       " of the weights does not exist: there are " +
+                       std::to_string(points.cols()));
     }
     require_finite(points.col(column), "point ", column);
     if (!weights_of(column).allFinite()) {

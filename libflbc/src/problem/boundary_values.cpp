@@ -25,8 +25,7 @@ void check_boundary_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>&
     if (cage_facets.nearest(center).distance <= tolerance) continue;
     throw InputError("the boundary " + std::string(Dim == 2 ? "edge" : "face") + " of cell " +
                      std::to_string(topology.sides(0, f)) + " of the domain mesh at " +
-                     format_point(center) +
-                     " does not lie on the cage; the mesh must fill the cage");
+                     format_point(center) + " is not on the cage; the mesh must fill the cage");
   }
 }
 
@@ -49,9 +48,9 @@ void find_control_vertices(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   }
   for (Index i = 0; i < cage.size(); ++i) {
     if (boundary.control_vertices[i] < 0) {
-      throw InputError(
-          "control point " + std::to_string(i) + " at " + format_point(cage.points.col(i)) +
-          " is no vertex of the domain mesh; the mesh must have been made of this cage");
+      throw InputError("control point " + std::to_string(i) + " at " +
+                       format_point(cage.points.col(i)) +
+                       " is not a vertex of the domain mesh; the mesh must be made from this cage");
     }
   }
 }
@@ -80,8 +79,7 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
     const auto nearest = facets.nearest(point);
     if (!(nearest.distance <= tolerance)) {
       throw InputError("boundary vertex " + std::to_string(boundary.vertices[b]) +
-                       " of the domain mesh at " + format_point(point) +
-                       " does not lie on the cage");
+                       " of the domain mesh at " + format_point(point) + " is not on the cage");
     }
     boundary.control_points.col(b) = cage.facets.col(nearest.facet);
     boundary.values.col(b) = nearest.coordinates;

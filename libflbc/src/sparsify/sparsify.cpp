@@ -146,9 +146,8 @@ template <int Dim>
 void validate(const SparsifyOptions& options) {
   if (options.max_influences < Dim + 1) {
     throw OptionError("at most " + std::to_string(options.max_influences) +
-                      " influences per point are too few: a point inside a cage in " +
-                      std::to_string(Dim) + "D needs " + std::to_string(Dim + 1) +
-                      " control points around it to be reproduced");
+                      " influences per vertex are too few; in " + std::to_string(Dim) +
+                      "D, at least " + std::to_string(Dim + 1) + " are needed to reproduce it");
   }
   if (!(options.threshold >= 0 && options.threshold < 1)) {
     throw OptionError("the threshold must be at least 0 and below 1, not " +

@@ -91,7 +91,7 @@ std::string extensions_of(std::initializer_list<Content> contents) {
 const Format& format_of(const std::string& path, Content content, const char* action) {
   if (holds(path, {content})) return *find(path);
   throw OptionError("cannot " + std::string(action) + " \"" + path +
-                    "\": cannot tell the format; the file must end in " + extensions_of({content}));
+                    "\": unknown file format; the file must end in " + extensions_of({content}));
 }
 
 }  // namespace flbc::io

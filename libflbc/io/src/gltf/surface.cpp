@@ -158,8 +158,8 @@ Surface surface_of_model(const io::Model& model) {
     }
   }
   if (corners.empty()) {
-    throw InputError("there is no triangle among its " + std::to_string(soup.polygons.size()) +
-                     " polygons, but a skin needs a surface");
+    throw InputError("its " + std::to_string(soup.polygons.size()) +
+                     " polygons contain no triangle, but a skin needs a surface");
   }
   if (Dim == 2) turn_counterclockwise(soup, corners);
 

@@ -110,7 +110,7 @@ class GmshReader {
     if (kind == kTetrahedron) return true;
     const auto end = std::end(kKindsOnBoundaries);
     if (std::find(std::begin(kKindsOnBoundaries), end, kind) != end) return false;
-    reader_.fail("elements of Gmsh's type " + std::to_string(kind) +
+    reader_.fail("Gmsh elements of type " + std::to_string(kind) +
                  " are not supported; cells must be tetrahedra with 4 nodes (type 4)");
   }
 

@@ -96,7 +96,7 @@ std::vector<VertexField> read_solution(TextReader& reader, Index num_vertices) {
   for (auto& field : fields) field.values.resize(count);
   for (Index v = 0; v < count; ++v) {
     for (auto& field : fields) {
-      reader.next_word_of("vertices' values", v, count);
+      reader.next_word_of("vertex values", v, count);
       field.values[v] = reader.number();
     }
   }
@@ -120,7 +120,7 @@ DomainMesh<3> read_medit_mesh(const std::string& path) {
       read_vertices(reader, mesh);
       has_vertices = true;
     } else if (keyword == "Tetrahedra") {
-      if (!has_vertices) reader.fail("the section Tetrahedra stands before Vertices");
+      if (!has_vertices) reader.fail("the section Tetrahedra comes before Vertices");
       if (has_cells) reader.fail("a second section Tetrahedra");
       read_tetrahedra(reader, mesh);
       has_cells = true;

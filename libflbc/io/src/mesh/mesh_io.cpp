@@ -19,7 +19,7 @@ DomainMesh<2> from_soup(const std::string& path, const PolygonSoup& soup) {
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     if (soup.points[v][2] != 0) {
       throw InputError(path + ": vertex " + std::to_string(v) + " at " +
-                       format_point(soup.points[v]) + " does not lie in the plane z = 0");
+                       format_point(soup.points[v]) + " is not in the plane z = 0");
     }
     mesh.points.col(v) = soup.points[v].head<2>();
   }
@@ -129,8 +129,8 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
   check_fields(path, fields, mesh.num_vertices());
   if (!fields.empty() && !format.keeps_fields) {
     throw OptionError("cannot write fields with \"" + path +
-                      "\": this format has no place for them, " +
-                      extensions_of({Content::kFields}) + " has");
+                      "\": this format does not support them; choose from " +
+                      extensions_of({Content::kFields}));
   }
   format.write(path, mesh, fields, gmsh_version);
 }

@@ -174,7 +174,7 @@ class VtuReader {
       for (Eigen::Index v = 0; v < all.cols(); ++v) {
         if (all(2, v) == 0) continue;
         throw InputError(path_ + ": vertex " + std::to_string(v) + " at " +
-                         format_point(all.col(v)) + " does not lie in the plane z = 0");
+                         format_point(all.col(v)) + " is not in the plane z = 0");
       }
     }
     return all.template topRows<Dim>();
@@ -185,7 +185,7 @@ class VtuReader {
     const std::int64_t kind = kinds_[cell];
     if (kind == (Dim == 2 ? kTriangle : kTetrahedronType)) return true;
     if (Dim == 2 ? contains(kKindsBelow2D, kind) : contains(kKindsBelow3D, kind)) return false;
-    fail_cell(cell, "cells of VTK's type " + std::to_string(kind) + " are not supported; " +
+    fail_cell(cell, "VTK cells of type " + std::to_string(kind) + " are not supported; " +
                         (Dim == 2 ? "they must be triangles (type 5)"
                                   : "they must be tetrahedra with 4 points (type 10)"));
   }

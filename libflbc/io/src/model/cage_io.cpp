@@ -79,7 +79,7 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
       throw InputError(name + ": vertex " + std::to_string(v) + " at " +
                        format_point(soup.points[v]) +
                        " is not in the plane of vertex 0; a 2D cage, and a shape in it, must have "
-                       "one z throughout");
+                       "the same z everywhere");
     }
     points.col(v) = soup.points[v].template head<Dim>();
   }

@@ -128,7 +128,7 @@ class Losses {
 
   void add_all_attributes() {
     const auto& attributes = model_.attributes;
-    add_if(attributes.colors.cols() > 0, "colours");
+    add_if(attributes.colors.cols() > 0, "colors");
     add_if(attributes.normals.cols() > 0, "normals of vertices");
     add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
   }
@@ -140,7 +140,7 @@ class Losses {
     add_if(!texture, "texture coordinates (they differ between corners of a vertex)");
     add_if(format_.extension == "om" && texture && !are_single(*texture),
            "texture coordinates beyond single precision");
-    add_if(!are_levels(model_.attributes.colors), "colours beyond 256 levels");
+    add_if(!are_levels(model_.attributes.colors), "colors beyond 256 levels");
   }
 
   const Model& model_;

@@ -60,7 +60,7 @@ void keep_colors_in_range(Model& model) {
   auto& colors = model.attributes.colors;
   if ((colors.array() >= 0 && colors.array() <= 1).all()) return;
   colors.resize(3, 0);
-  add_other(model, "colours out of range");
+  add_other(model, "colors out of range");
 }
 
 int level_of(double intensity) {

@@ -121,7 +121,7 @@ class OffReader {
     }
     std::vector<Index>& corners = model_.soup.polygons.emplace_back(num_corners);
     for (Index& corner : corners) corner = reader_.index("vertices", 0, num_points);
-    if (reads_attributes_ && reader_.has_word()) add_other(model_, "colours of polygons");
+    if (reads_attributes_ && reader_.has_word()) add_other(model_, "colors of polygons");
   }
 
   // Whole numbers are levels from 0 to 255, others are from 0 to 1.

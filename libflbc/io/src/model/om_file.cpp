@@ -115,7 +115,7 @@ class OmScanner {
                                : chunk.entity == Entity::kHalfedge ? " of corners"
                                                                    : " of the mesh";
     const char* const type = chunk.type == Type::kStatus    ? "marks"
-                             : chunk.type == Type::kColor   ? "colours"
+                             : chunk.type == Type::kColor   ? "colors"
                              : chunk.type == Type::kTexture ? "texture coordinates"
                              : chunk.type == Type::kNormal  ? "normals"
                                                             : "numbers";

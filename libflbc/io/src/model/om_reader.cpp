@@ -57,13 +57,13 @@ std::string OmReader::take_name() {
 }
 
 void OmReader::read_header() {
-  if (content_.compare(0, 2, "OM") != 0) fail("not a file of OpenMesh's");
+  if (content_.compare(0, 2, "OM") != 0) fail("not an OpenMesh file");
   position_ = 2;
   kind_ = take<char>();
   version_ = take<std::uint8_t>();
   if (version_ > kNewestVersion) {
     fail("version " + std::to_string(version_ >> 5) + "." + std::to_string(version_ & 31) +
-         " of the format is not known here, only those up to 2.2");
+         " of the format is not supported; only versions up to 2.2 are");
   }
   num_vertices_ = take<std::uint32_t>();
   num_faces_ = take<std::uint32_t>();
@@ -97,7 +97,7 @@ bool OmReader::read_chunk() {
   OmChunk chunk;
   chunk.entity = static_cast<Entity>(bits >> 2 & 7);
   if (chunk.entity == Entity::kEnd) {
-    if (position_ < content_.size()) fail("the file goes on after its end mark");
+    if (position_ < content_.size()) fail("the file has data after its end mark");
     return false;
   }
   chunk.type = static_cast<Type>(bits >> 5 & 15);

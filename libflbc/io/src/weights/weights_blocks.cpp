@@ -21,7 +21,7 @@ WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_contro
   const std::int64_t elements = std::int64_t{num_points} * num_controls;
   if (is_absurd(num_points, num_controls)) {
     reader.fail(std::to_string(num_points) + " rows and " + std::to_string(num_controls) +
-                " columns are declared, which are no weights");
+                " columns are declared, which is not a weight matrix");
   }
   if (static_cast<std::size_t>(elements) > (reader.bytes_left() + 1) / 2) {
     reader.fail(std::to_string(num_points) + " rows and " + std::to_string(num_controls) +
@@ -48,7 +48,8 @@ void BinaryBlock::check_size(std::int64_t num_points, std::int64_t num_controls,
                                std::to_string(num_controls) + " control points are declared";
   constexpr std::int64_t kMaxIndex = std::numeric_limits<Index>::max();
   if (num_points < 0 || num_controls < 0) fail(0, declared + "; numbers cannot be negative");
-  if (is_absurd(num_points, num_controls)) fail(offset, declared + ", which are no weights");
+  if (is_absurd(num_points, num_controls))
+    fail(offset, declared + ", which is not a weight matrix");
   if (num_points > kMaxIndex || num_controls > kMaxIndex) {
     fail(0, declared + ", more than this program can handle");
   }
@@ -61,9 +62,9 @@ void BinaryBlock::check_size(std::int64_t num_points, std::int64_t num_controls,
                              " numbers");
   }
   if (count * bytes_each < bytes) {
-    fail(offset + count * bytes_each, declared + ", but the file goes on for " +
+    fail(offset + count * bytes_each, declared + ", but the file has " +
                                           std::to_string(bytes - count * bytes_each) +
-                                          " bytes after the last number");
+                                          " more bytes after the last number");
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 void check_size(const std::string& path, const char* things, Index largest, Index count) {
   if (largest == count - 1) return;
   throw InputError(path + ": has weights for " + std::to_string(largest + 1) + " " + things +
-                   ", but " + std::to_string(count) + " are there");
+                   ", but there are " + std::to_string(count));
 }
 
 TextReader open(const std::string& path) {
@@ -36,7 +36,7 @@ struct TripletSize {
   Index points = 0;
 };
 
-// The size that the largest numbers ask for. A damaged number must not claim all memory.
+// The size that the largest indices imply. A damaged number must not claim all memory.
 TripletSize size_by_numbers(const std::string& path) {
   constexpr Index kMost = std::numeric_limits<Index>::max() - 1;
   TextReader reader = open(path);
@@ -49,7 +49,7 @@ TripletSize size_by_numbers(const std::string& path) {
   if (num_triplets == 0) throw InputError(path + ": has no weights");
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
   if (elements > kHarmlessElements && num_triplets < std::max(size.points, size.controls)) {
-    throw InputError(path + ": the largest numbers ask for " + std::to_string(size.controls) +
+    throw InputError(path + ": the largest indices imply " + std::to_string(size.controls) +
                      " control points and " + std::to_string(size.points) +
                      " points, but there are only " + std::to_string(num_triplets) + " weights");
   }

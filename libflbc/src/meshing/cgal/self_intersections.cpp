@@ -97,7 +97,7 @@ Defect describe_pair(const Cage<2>& cage, const FacetPair& pair) {
   const std::string touched = std::to_string(is_of_e ? f : e),
                     own = std::to_string(is_of_e ? e : f);
   return {describe_control_point<2>(cage.points, vertex) + ", an end of edge " + own +
-              ", lies on edge " + touched + ": the cage touches itself there",
+              ", is on edge " + touched + ": the cage touches itself there",
           {vertex},
           {e, f}};
 }
@@ -118,7 +118,7 @@ std::vector<FacetPair> find_pairs(const Cage<3>& cage) {
         surface.add_face(vertices[corners(0)], vertices[corners(1)], vertices[corners(2)]);
     if (face == Surface::null_face()) {
       throw InputError("triangle " + std::to_string(triangle) +
-                       " of the cage does not fit its neighbours: the surface is not manifold");
+                       " of the cage does not fit its neighbors: the surface is not manifold");
     }
   }
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> faces;

@@ -131,9 +131,10 @@ DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, doub
   const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(options.vertices));
   while (mesher.try_one_step_refine_mesh()) {
     if (triangulation.number_of_vertices() > limit) {
-      throw InputError("triangles of good shape that fill this cage take more than " +
+      throw InputError("well-shaped triangles in this cage need more than " +
                        std::to_string(limit) +
-                       " vertices: somewhere it is extremely thin, or points come extremely close");
+                       " vertices; the cage is extremely thin somewhere, or points are extremely "
+                       "close");
     }
     seconds += watch.lap();
     if (seconds > options.time_limit) {

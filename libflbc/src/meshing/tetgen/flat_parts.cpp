@@ -174,7 +174,7 @@ std::vector<Simplex> bare_faces(const DomainMesh<3>& mesh, const std::set<Index>
 
 [[noreturn]] void refuse_flat_cell(const Vector<3>& place) {
   throw InputError("TetGen left a cell without volume near " + format_point(place) +
-                   "; points or facets come extremely close to each other there");
+                   "; points or facets are extremely close to each other there");
 }
 
 // Flat cells inside would leave a slit.

@@ -88,7 +88,7 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
   if (outcome.end == ProcessEnd::kTimedOut) {
     throw InputError("TetGen " + failure +
                      "; raise the limit, ask for fewer vertices, or check the cage for facets that "
-                     "intersect or come extremely close");
+                     "intersect or are extremely close");
   }
   if (!failure.empty()) fail(failure);
 }

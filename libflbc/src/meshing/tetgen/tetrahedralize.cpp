@@ -169,7 +169,7 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     const std::string switches = quality_switches(coplanar, ratio, largest_volume, most_points);
     DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
     if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
-      throw InputError("cells of good shape would take more than " + std::to_string(most_points) +
+      throw InputError("well-shaped cells would need more than " + std::to_string(most_points) +
                        " vertices in this cage");
     }
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);

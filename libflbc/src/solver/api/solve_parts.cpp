@@ -27,7 +27,7 @@ template <int Dim>
   throw InputError(std::string("the domain mesh has several parts, and ") +
                    (Dim == 2 ? "edge " : "triangle ") + std::to_string(facet) +
                    " of the cage, at " + format_point(cage.points.col(cage.facets(0, facet))) +
-                   ", runs from one to another");
+                   ", connects two of them");
 }
 
 // Gives each part the control points that are its vertices, and the facets between them.

@@ -167,7 +167,7 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
 
 void validate(const Budget& budget) {
   if (budget.iterations < 0) {
-    throw OptionError("iterations must be at least 1, or 0 for no limit of the budget's own, not " +
+    throw OptionError("iterations must be at least 1, or 0 for no separate limit, not " +
                       std::to_string(budget.iterations));
   }
   if (!(budget.seconds >= 0)) {
@@ -216,7 +216,7 @@ void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
     if (signed_measure(after, s) > kLeast * enlargement * signed_measure(before, s)) continue;
     throw InputError("cell " + std::to_string(s) + " of the domain mesh, at " +
                      format_point(centroid(before.points, before.cells, s)) +
-                     ", would turn over; move the control points less far, or mesh the cage anew");
+                     ", would be inverted; move the control points less, or mesh the cage again");
   }
 }
 

@@ -19,10 +19,11 @@ void validate_gap(const SolverOptions& options, bool iterative) {
   const double gap = options.gap.value_or(0);
   require(std::isfinite(gap) && gap >= 0, "gap", gap, "positive, or 0 for none");
   if (gap == 0) return;
-  if (!iterative) throw OptionError("gap needs a method that minimises, which this one does not");
+  if (!iterative)
+    throw OptionError("gap needs a method that minimizes the objective; choose another method");
   if (resolve(options).non_negative == NonNegative::kOff) {
     throw OptionError(
-        "gap (--gap) proves nothing of weights that may be negative; choose "
+        "gap (--gap) does not apply to weights that may be negative; choose "
         "non_negative (--non-negative) constraint or project");
   }
 }
@@ -52,12 +53,13 @@ void validate(const SolverOptions& options) {
                          options.method == Method::kLbc2014;
   if (options.non_negative == NonNegative::kConstraint && !splitting) {
     throw OptionError(
-        "non_negative cannot be a constraint of this method's iteration; project the weights, or "
-        "choose another method");
+        "this method cannot use non_negative as a constraint; project the weights, or choose "
+        "another "
+        "method");
   }
   const bool iterative = plan::minimizes(options.method);
   if (options.certify && !iterative) {
-    throw OptionError("certify needs a method that minimises, which this one does not");
+    throw OptionError("certify needs a method that minimizes the objective; choose another method");
   }
   validate_gap(options, iterative);
   const bool gradients = options.method == Method::kGradient || options.method == Method::kPaper;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The domain of a solve from a mesh of OpenMesh, or a TetMesh. Vertices, cells, and facets keep the
-//! numbers of their handles.
+//! The domain of a solve from a mesh of OpenMesh, or a TetMesh. Vertices, cells, and facets keep
+//! the numbers of their handles.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ namespace internal {
 
 [[noreturn]] inline void refuse_deleted(const char* kind, int index) {
   throw InputError("the mesh has deleted elements, the first is " + std::string(kind) + " " +
-                   std::to_string(index) + "; call garbage_collection() before");
+                   std::to_string(index) + "; call garbage_collection() first");
 }
 
 template <class Mesh>

@@ -60,7 +60,7 @@ SolveReport solve(
   } else {
     constexpr bool kIsSurface = Dim == 3;
     static_assert(!kIsSurface,
-                  "this is a surface; use bind: a solve needs a mesh of the cage's interior");
+                  "this is a surface; use bind: a solve needs a mesh of the cage interior");
     static_assert(kIsSurface || Mesh::IsTriMesh,
                   "a domain in the plane has triangles: use a TriMesh");
     if constexpr (!kIsSurface && Mesh::IsTriMesh) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A mesh with its weights as a skin for engines and viewers, in which every control point is a joint.
+//! A mesh with its weights as a skin for engines and viewers, in which every control point is a
+//! joint.
 #pragma once
 
 #include <string>
@@ -86,7 +87,7 @@ void write_skin(const std::string& path, const Mesh& mesh, const std::vector<Poi
   internal::require_rest_cage(cage, options.weights);
   if (cage.rows() != Dim) {
     throw InputError("the cage of the weights '" + options.weights + "' has " +
-                     std::to_string(cage.rows()) + " dimensions, the poses have " +
+                     std::to_string(cage.rows()) + " dimensions, but the poses have " +
                      std::to_string(Dim));
   }
   internal::write_skin_file<Dim>(path,

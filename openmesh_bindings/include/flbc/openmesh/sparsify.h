@@ -79,7 +79,7 @@ Quality sparsify(Mesh& mesh, Index most, const ReductionOptions& options = {}) {
     if (cage.rows() == 3) return sparsify(mesh, PointList<3>(cage), most, options);
   }
   throw InputError("the cage of the weights '" + options.weights + "' has " +
-                   std::to_string(cage.rows()) + " dimensions, the mesh has other ones");
+                   std::to_string(cage.rows()) + " dimensions, but the mesh does not");
 }
 
 }  // namespace flbc::openmesh
