@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/commands.h"
@@ -25,6 +26,30 @@ bool has_command(const CLI::App& app, const std::string& name) {
               .empty();
 }
 
+// Names that options had before: scripts may still use them, but --help does not show them.
+struct OldName {
+  const char *command, *old_name, *name;
+};
+constexpr OldName kOldNames[] = {{"run", "--deformed", "--pose"},
+                                 {"deform", "--cage", "--pose"},
+                                 {"export", "--cages", "--pose"}};
+
+// The arguments with the names that options have now, in reverse order, as CLI11 wants them.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::string command = arguments.empty() ? "" : arguments.front();
+  for (auto& argument : arguments) {
+    if (argument == "--") break;
+    const auto end = std::min(argument.find('='), argument.size());
+    for (const auto& [of, old_name, name] : kOldNames) {
+      if (command != of || argument.compare(0, end, old_name) != 0) continue;
+      argument.replace(0, end, name);
+      break;
+    }
+  }
+  return {arguments.rbegin(), arguments.rend()};
+}
+
 // An empty name, as of an unset variable in a script, must not pass for an option left out.
 void refuse_empty_values(CLI::App& app) {
   for (auto* command : app.get_subcommands([](CLI::App*) { return true; })) {
@@ -40,13 +65,13 @@ void refuse_empty_values(CLI::App& app) {
 std::string version() {
   std::string text = "flbc " FLBC_VERSION "\nwith";
 #ifdef FLBC_WITH_CGAL
-  text += " CGAL (meshes in 2D, cages of models)";
+  text += " CGAL (2D meshes, cages of models)";
 #endif
 #ifdef FLBC_WITH_TETGEN
-  text += " TetGen (meshes in 3D)";
+  text += " TetGen (3D meshes)";
 #endif
 #ifdef FLBC_WITH_NETGEN
-  text += " Netgen (meshes in 3D where TetGen fails)";
+  text += " Netgen (3D meshes where TetGen fails)";
 #endif
 #ifdef FLBC_WITH_OPENMESH
   text += " OpenMesh (.om files)";
@@ -87,10 +112,23 @@ std::string suggestion(const CLI::App& app, const std::string& name) {
   return nearest.empty() ? "; " : "; did you mean " + nearest + "? Otherwise ";
 }
 
+// Where CLI11 is brief or unclear.
+std::string in_our_words(std::string message) {
+  constexpr std::pair<const char*, const char*> kPhrases[] = {
+      {" excludes ", " cannot be combined with "},
+      {"The following argument was not expected: ", "unexpected argument: "},
+      {"The following arguments were not expected: ", "unexpected arguments: "}};
+  for (const auto& [theirs, ours] : kPhrases) {
+    const auto at = message.find(theirs);
+    if (at != std::string::npos) message.replace(at, std::string(theirs).size(), ours);
+  }
+  return message;
+}
+
 std::string describe_usage_error(const CLI::App* app, const CLI::Error& error) {
   std::string command = "flbc";
   for (const auto* chosen : app->get_subcommands()) command += " " + chosen->get_name();
-  return command + ": " + error.what() + "; see " + command + " --help\n";
+  return command + ": " + in_our_words(error.what()) + "; see " + command + " --help\n";
 }
 
 // Results that were meant for standard output and are lost must not pass for done.
@@ -103,7 +141,8 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Local barycentric coordinates of cages in 2D and 3D.\n"
       "Exit status: 0 done, 1 wrong usage, 2 bad input, 3 not converged, 4 I/O failure, "
-      "5 out of memory."};
+      "5 out of memory.",
+      "flbc"};
   app.formatter(help_formatter());
   app.set_help_flag("-h,--help", "print this help and exit");
   app.set_version_flag("--version", version(), "print version and components and exit");
@@ -117,13 +156,17 @@ int run(int argc, char** argv) {
         add_completion_command, add_man_command}) {
     add(app, exit_status);
   }
+  for (auto* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command->group("Commands");
+    add_help_all(*command);
+  }
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-    throw flbc::OptionError("there is no command '" + std::string(argv[1]) + "'" +
+    throw flbc::OptionError("unknown command '" + std::string(argv[1]) + "'" +
                             suggestion(app, argv[1]) + "see flbc --help");
   }
   try {
-    app.parse(argc, argv);
+    app.parse(arguments_of(argc, argv));
   } catch (const CLI::Success& request) {  // --help and --version
     const int status = app.exit(request);
     require_output();

@@ -13,7 +13,7 @@ flbc=build/release/flbc
 # run DIM NAME OPTIONS
 run() {
   "$flbc" run meshes/"$1"/"$2"_cage.obj meshes/"$1"/"$2"_model.obj \
-    --deformed meshes/"$1"/"$2"_cage_pose.obj -k 8 -o out/"$2" "${@:3}"
+    --pose meshes/"$1"/"$2"_cage_pose.obj -k 8 -o out/"$2" "${@:3}"
 }
 run 2d figure --control-point 32
 run 3d limb --control-point 20 --vertices 4000

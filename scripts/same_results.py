@@ -47,14 +47,14 @@ def cases(models, quick):
         if model is None or not model.exists():
             continue
         pose = cage.with_name(cage.stem + "_pose.obj")
-        poses = ["--deformed", pose] if pose.exists() else ["--deformed", cage]
+        poses = ["--pose", pose] if pose.exists() else ["--deformed", cage]
         yield f"{name} run", [
             ["run", cage, model, *poses, "-k", "8", "-o", "OUT/run", *limits],
             ["check", cage, "--model", model, "--weights", "OUT/run/weights.npy", "--json",
              "OUT/check.json"],
             ["sparsify", "OUT/run/weights.npy", "--cage", cage, "--points", model, "-k", "4",
              "--method", "poisson", "-o", "OUT/poisson.mtx", "--report", "OUT/sparse.json"],
-            ["deform", model, "--weights", "OUT/poisson.mtx", "--cage", poses[1], "-o",
+            ["deform", model, "--weights", "OUT/poisson.mtx", "--pose", poses[1], "-o",
              "OUT/posed.obj"],
             ["export", model, "--weights", "OUT/run/weights.npy", "--cage", cage, "-o",
              "OUT/m.glb"]]

@@ -85,7 +85,7 @@ void repair_file(const CageArguments& arguments) {
   auto soup = io::read_polygons(arguments.defective);
   if (!soup.polygons.empty() && !soup.polylines.empty()) {
     changes.push_back(std::to_string(soup.polylines.size()) +
-                      " polylines next to the surface were dropped");
+                      " polylines next to the surface were removed");
     soup.polylines.clear();
   }
   const auto cage = io::to_cage(soup, arguments.defective);
@@ -104,36 +104,34 @@ void check_arguments(const CageArguments& arguments) {
 void add_cage_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<CageArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("cage", "Make a cage around a model, or repair a cage");
+  auto* command = app.add_subcommand("cage", "make a cage around a model, or repair a cage");
   command->footer(
-      "The cage is closed, does not intersect itself, and strictly encloses every vertex, edge, "
-      "and\n"
-      "face of the model, even if the model has defects. A model whose vertices all have the same "
-      "z\n"
-      "gets a 2D cage. --repair keeps the numbers of control points where possible. Otherwise it\n"
-      "writes a line \"OLD NEW\" for each of them to a file next to the result.");
+      "The cage is closed, does not intersect itself, and strictly encloses every vertex,\n"
+      "edge, and face of the model, even if the model has defects. If all vertices of the\n"
+      "model have the same z, the cage is 2D. --repair keeps the numbers of control points\n"
+      "where possible. Otherwise it writes a line \"OLD NEW\" for each control point to a file\n"
+      "next to the result.");
   auto* model = command->add_option(
       "MODEL", a.model, "model to enclose: .obj .off .ply .stl .om, or a .png with a silhouette");
-  command->add_option("-o,--output", a.output, "the cage: .obj, in 3D also .off and .ply")
-      ->required();
+  command->add_option("-o,--output", a.output, "cage: .obj; in 3D also .off and .ply")->required();
   auto* count = command->add_option(
       "--control-points", a.options.control_points,
-      "maximum number of control points (default: by shape, 50 to 150 in 3D, 12 to 60 "
-      "in 2D)");
+      "maximum number of control points (default: depends on the shape, 12 to 60 in 2D, 50 to 150 "
+      "in 3D)");
   count->check(refuse_vertex_count)->needs(model);
   auto* offset = command->add_option(
       "--offset", a.options.offset,
-      "distance from the model, in its units (default: by the number of control points)");
+      "distance from the model, in its units (default: depends on the number of control points)");
   offset->needs(model);
   add_choice(
       *command, "--symmetric", {"none", "x", "y", "z", "auto"},
       [&a](const std::string& word) { a.options.symmetry = kSymmetries.at(word); },
-      "make the cage symmetric across the center of the model (default: auto, where the model is)")
+      "make the cage symmetric across this axis (default: auto, if the model is symmetric)")
       ->needs(model);
   command->add_option(
       "--repair", a.defective,
-      "defective cage to repair: weld, orient, and fill holes, and list every change; "
-      "as a last resort, wrap it");
+      "repair this defective cage: weld, orient, and fill holes, and list every change; wrap it as "
+      "a last resort");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

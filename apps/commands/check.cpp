@@ -99,17 +99,17 @@ void add_check_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<CheckArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("check", "Find defects of a cage, a model inside it, and weights");
+      app.add_subcommand("check", "find defects of a cage, of a model inside it, and of weights");
   command->footer(
-      "Exit status: 2 for a defective cage, or weights that are not coordinates of the cage. "
-      "Negative\n"
-      "weights, local extrema, and a model outside the cage are reported only; the status is 0.");
+      "Exit status: 2 for a defective cage, or for weights that are not coordinates of the cage.\n"
+      "Negative weights, local extrema, and a model outside the cage are only reported.");
   command->add_option("CAGE", a.cage, "closed polylines (2D) or surface (3D)")->required();
   command->add_option("--model", a.model, "model that should be inside the cage");
-  auto* weights = command->add_option("--weights", a.weights,
-                                      "weights at the vertices of --domain, or else of --model");
+  auto* weights = command->add_option(
+      "--weights", a.weights, "weights at the vertices of --domain if given, else of --model");
   command->add_option("--domain", a.domain, "mesh of the cage interior")->needs(weights);
-  command->add_option("--json", a.json, "write the findings to this file as JSON; - prints them");
+  command->add_option("--json", a.json,
+                      "write the findings to this .json file, or to standard output (-)");
   command->callback([arguments, &exit_status] {
     check_arguments(*arguments);
     const auto soup = io::read_polygons(arguments->cage);

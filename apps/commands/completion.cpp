@@ -10,11 +10,11 @@ namespace flbc::app {
 
 void add_completion_command(CLI::App& app, int&) {
   auto shell = std::make_shared<std::string>();
-  auto* command = app.add_subcommand("completion", "Print a shell completion script");
+  auto* command = app.add_subcommand("completion", "print a shell completion script");
   command->footer(
-      "To use it in this session: source <(flbc completion bash). The installed program has it as\n"
+      "For this session: source <(flbc completion bash). An installation contains the scripts as\n"
       "share/bash-completion/completions/flbc and share/zsh/site-functions/_flbc.");
-  command->add_option("SHELL", *shell, "bash or zsh")
+  command->add_option("SHELL", *shell, "shell: bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));
   command->callback([&app, shell] {

@@ -27,7 +27,7 @@ void check_weight_arguments(const WeightConversion& files) {
 
 void check_mesh_arguments(const WeightConversion& files) {
   if (!io::holds(files.input, kMeshFiles)) {
-    throw OptionError(files.input + ": cannot tell the format; weights end in " +
+    throw OptionError(files.input + ": unknown file format; weights end in " +
                       io::extensions_of(kWeightFiles) + ", meshes in " +
                       io::extensions_of(kMeshFiles));
   }
@@ -53,7 +53,7 @@ void check_arguments(const ConvertArguments& arguments) {
   for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
 }
 
-// Losses of the new format are told.
+// Reports what the new format loses.
 void convert_mesh(const std::string& input, const std::string& output, bool quiet) {
   const auto convert = [&](const auto& any) {
     {
@@ -73,7 +73,7 @@ void add_convert_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ConvertArguments>();
   auto& a = arguments->files;
   auto* command =
-      app.add_subcommand("convert", "Convert weights, a mesh, or a model to another format");
+      app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
       "Weights: .mtx, .dmat, .npy, and .txt with \"CONTROL_POINT POINT WEIGHT\" on every line,\n"
       "numbered from 0. Conversions between them are lossless.\n"
@@ -81,11 +81,14 @@ void add_convert_command(CLI::App& app, int&) {
       ".msh, .vtu. The program reports attributes that the new format does not support. A .ply or\n"
       ".stl result is a text file if the input is.");
   command->add_option("IN", a.input, "file to convert")->required();
-  command->add_option("-o,--output", a.output, "result, a file of the same kind")->required();
-  command->add_option("--cage", a.cage, "cage of the weights, to check their number");
-  command->add_option("--points", a.points, "model or mesh of the weights, to check their number");
+  command->add_option("-o,--output", a.output, "converted file, of the same kind as IN")
+      ->required();
+  command->add_option("--cage", a.cage,
+                      "cage of the weights, to check the number of control points");
+  command->add_option("--points", a.points,
+                      "model or mesh of the weights, to check the number of vertices");
   command->add_flag("--transpose", a.transpose,
-                    "IN has control points as rows (in .txt: POINT CONTROL_POINT WEIGHT)");
+                    "read control points as rows (in .txt: POINT CONTROL_POINT WEIGHT)");
   command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -31,10 +31,11 @@ struct DeformArguments {
 
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.cages.empty() && arguments.keyframes.empty()) {
-    throw OptionError("no pose given; add --cage or --keyframes");
+    throw OptionError("no pose given; add --pose or --keyframes");
   }
   if (arguments.rest.empty() && !arguments.keyframes.empty()) {
-    throw OptionError("--keyframes needs --rest, because keyframes are displacements of that cage");
+    throw OptionError(
+        "--keyframes needs --rest, because keyframes are displacements of the rest cage");
   }
   if (arguments.rest.empty() && !arguments.displacement.empty()) {
     throw OptionError("--displacement needs --rest, from which displacements are measured");
@@ -115,7 +116,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
                    const Displacement& displacement, double seconds,
                    const DeformArguments& arguments) {
   const auto& [input, output, shows_displacement, is_anew] = arguments.file;
-  std::cerr << output << ": " << model.points().cols() << " points, " << poses.size()
+  std::cerr << output << ": " << model.points().cols() << " vertices, " << poses.size()
             << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
   if (!arguments.rest.empty()) std::cerr << "; largest displacement " << displacement.largest;
   if (displacement.largest > 0) {
@@ -160,40 +161,37 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
 void add_deform_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DeformArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("deform", "Deform a model or a domain mesh with its cage");
+  auto* command = app.add_subcommand("deform", "deform a model or a domain mesh with its cage");
   command->footer(
-      "If MODEL and the result have the same format, only the coordinates and normals change; in "
-      "2D\n"
-      "z does not change. Another format receives the polygons, colors, normals, and texture\n"
-      "coordinates that it supports; the program reports those that are lost.\n"
-      "The results of a sequence have the numbers of --cage pose_%d.obj, or count from 0.\n"
-      "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the "
-      "displacement\n"
-      "of a control point from rest, in the order of the control points.");
+      "If MODEL and the result have the same format, only coordinates and normals change. In\n"
+      "2D, z does not change. Another format receives the polygons, colors, normals, and\n"
+      "texture coordinates that it supports. The program reports those that are lost.\n"
+      "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
+      "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
+      "displacement of a control point from rest, in the order of the control points.");
   command
       ->add_option("MODEL", a.file.model,
                    "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
                    ".msh)")
       ->required();
   command
-      ->add_option("--weights", a.weights,
-                   "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy")
-      ->required();
-  auto* cage = command->add_option(
-      "--cage", a.cages, "deformed cage; several files, or a pattern such as pose_%d.obj");
-  command->add_option("--keyframes", a.keyframes, "poses as displacements of the cage at rest")
-      ->excludes(cage);
-  command->add_option("--rest", a.rest, "cage at rest, to check that the weights belong to MODEL");
-  command
       ->add_option(
-          "-o,--output", a.file.output,
-          "result, a model or mesh like MODEL; for several poses with %d or %03d in its name")
+          "--weights", a.weights,
+          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->required();
+  auto* pose = command->add_option(
+      "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
+  command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
+      ->excludes(pose);
+  command->add_option("--rest", a.rest, "rest cage, to check that the weights belong to MODEL");
+  command
+      ->add_option("-o,--output", a.file.output,
+                   "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")
       ->required();
   command->add_option("--displacement", a.displacement,
-                      "write the lengths of displacements, a column per pose: .npy, .dmat, .mtx");
-  command->add_flag(
-      "--show-displacement", a.file.shows_displacement,
-      "show the lengths of displacements as vertex colors; in .vtu and .mesh as a field");
+                      "write displacement lengths, one column per pose: .npy, .dmat, .mtx");
+  command->add_flag("--show-displacement", a.file.shows_displacement,
+                    "write displacement lengths as vertex colors, or as a field in .vtu and .mesh");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -51,7 +51,7 @@ void check_arguments(DrawArguments& arguments) {
     throw OptionError("give either DOMAIN or --model");
   }
   if (arguments.color == kDisplacement && arguments.pose.empty()) {
-    throw OptionError("--color displacement needs --pose, in which the model has moved");
+    throw OptionError("--color displacement needs --pose, the deformed cage");
   }
 }
 
@@ -184,16 +184,17 @@ void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
 
 void add_options(CLI::App& command, DrawArguments& a) {
   auto* domain = command.add_option("DOMAIN", a.domain,
-                                    "mesh of the cage interior, from flbc solve --save-domain");
+                                    "domain mesh, for example from flbc solve --save-domain");
   auto* model = command.add_option("--model", a.model,
-                                   "draw this model instead, or the boundary of this mesh");
+                                   "draw this model, or the boundary of this domain mesh");
   model->excludes(domain);
   command.add_option("--weights", a.weights, "weights at the vertices")->required();
   command.add_option("--cage", a.cage, "cage of the weights")->required();
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
-  auto* point = command.add_option("--control-point", a.control_point,
-                                   "control point whose function is drawn (default: 0)");
+  auto* point =
+      command.add_option("--control-point", a.control_point,
+                         "control point whose function is drawn, counted from 0 (default: 0)");
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
       ->needs(model);
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
@@ -201,7 +202,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
       ->needs(model);
   command
       .add_option("--view", a.view,
-                  "direction from which a 3D model is seen, a name or angles in degrees (default: "
+                  "view direction of a 3D model, as a name or as angles in degrees (default: "
                   "three-quarter)")
       ->needs(model)
       ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
@@ -217,7 +218,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
 
 void add_draw_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DrawArguments>();
-  auto* command = app.add_subcommand("draw", "Draw a coordinate function, or a model and its pose");
+  auto* command = app.add_subcommand("draw", "draw a coordinate function, or a model and its pose");
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);

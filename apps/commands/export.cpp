@@ -53,8 +53,7 @@ void check_arguments(ExportArguments& arguments) {
   if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {
     throw OptionError(arguments.output +
                       ": vertex groups have no quantized weights and no poses; leave out "
-                      "--quantize, --cages, and "
-                      "--keyframes");
+                      "--quantize, --pose, and --keyframes");
   }
 }
 
@@ -103,8 +102,8 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
   const bool are_reduced = skin.given_influences > skin.influences;
   if (are_reduced) std::cerr << " (before " << skin.given_influences << ')';
   if (skin.influences > kOneSet) {
-    std::cerr << ", of which readers of one set, as three.js, see the largest " << kOneSet
-              << " (-k 4 suits all)";
+    std::cerr << "; readers of one set, such as three.js, use the largest " << kOneSet
+              << " (-k 4 suits all readers)";
   }
   if (!animation.poses.empty()) {
     std::cerr << ", " << animation.poses.size() << " poses in " << animation.times.back()
@@ -115,8 +114,8 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
     const auto& error = skin.deformation_error;
     std::cerr << "; deformation error over "
               << (animation.poses.empty() ? "random smooth poses " : "these poses ")
-              << 100 * error.rms / size << " % of the size rms, " << 100 * error.max / size
-              << " % max";
+              << 100 * error.rms / size << "% of the size rms, " << 100 * error.max / size
+              << "% max";
   }
   std::cerr << '\n';
 }
@@ -147,15 +146,15 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
   for (const auto& phrase : skin.left_out) {
-    std::cerr << "flbc: " << arguments.output << " has not all of " << arguments.model << ": "
-              << phrase << '\n';
+    std::cerr << "flbc: " << arguments.output << " does not contain all of " << arguments.model
+              << ": " << phrase << '\n';
   }
   const double change = skin.position_change / size;
   if (change > kWorthATell) {
     const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;
     std::cerr << "flbc: " << arguments.output << ": single precision, which "
-              << (is_usd ? "USD" : "glTF") << " has, moves vertices by up to " << change
-              << " of the model's size; move cage and model closer to the origin\n";
+              << (is_usd ? "USD" : "glTF") << " uses, moves vertices by up to " << change
+              << " of the model size; move the cage and the model closer to the origin\n";
   }
 }
 
@@ -165,36 +164,37 @@ void add_export_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ExportArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("export", "Export a model as a glTF skin that its cage deforms");
+      app.add_subcommand("export", "export a model as a glTF skin that the cage deforms");
   command->footer(
       "Each control point becomes a joint (control_point_0 and so on) that only translates.\n"
       "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
       "maps them to the vertices of MODEL. Normals do not deform.");
   command
       ->add_option("MODEL", a.model,
-                   "model (.obj, .off, .ply, .stl, .om) or domain mesh (.vtu; 3D: .mesh .node "
-                   ".ele .msh), whose boundary is exported")
+                   "model (.obj .off .ply .stl .om), or domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh) whose boundary is exported")
       ->required();
   command
-      ->add_option("--weights", a.weights,
-                   "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy")
+      ->add_option(
+          "--weights", a.weights,
+          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  auto* cages = command->add_option("--cages", a.poses,
-                                    "animation: deformed cages, or a pattern such as pose_%d.obj");
+  auto* poses = command->add_option(
+      "--pose", a.poses, "animation: one or more deformed cages, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
                    "animation: displacements of the cage, with times in seconds")
-      ->excludes(cages);
-  command->add_option("--fps", a.frames_per_second, "poses of --cages per second (default: 24)")
+      ->excludes(poses);
+  command->add_option("--fps", a.frames_per_second, "poses of --pose per second (default: 24)")
       ->check(in_range(1e-3, 1e6))
-      ->needs(cages);
+      ->needs(poses);
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   add_choice(
       *command, "--quantize", {"8", "16"},
       [&a](const std::string& bits) { a.bits = std::stoi(bits); },
-      "store weights with 8 or 16 bits (default: as float)");
+      "store weights with 8 or 16 bits (default: 32-bit floating point)");
   command
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")

@@ -9,6 +9,7 @@
 #include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
+#include "flbc/quality.h"
 
 namespace flbc::app {
 namespace {
@@ -24,10 +25,10 @@ void print_weights(const std::string& path) {
   std::cout << path << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";
   if (weights.size() == 0) return;
-  const auto influences = (weights.array().abs() > 1e-4).count();
+  const auto influences = (weights.array().abs() > kInfluenceThreshold).count();
   std::cout << "  minimum " << weights.minCoeff() << ", maximum " << weights.maxCoeff()
             << "\n  largest |sum - 1| " << (weights.colwise().sum().array() - 1).abs().maxCoeff()
-            << "\n  influences above 1e-4 per point "
+            << "\n  influences above 1e-4 per vertex "
             << static_cast<double>(influences) / static_cast<double>(weights.cols()) << '\n';
 }
 
@@ -82,8 +83,8 @@ void print_info(const std::string& path) {
 void add_info_command(CLI::App& app, int&) {
   auto path = std::make_shared<std::string>();
   auto* command =
-      app.add_subcommand("info", "Show what a cage, mesh, model, or weight file contains");
-  command->add_option("FILE", *path, "the file")->required();
+      app.add_subcommand("info", "show what a cage, mesh, model, or weight file contains");
+  command->add_option("FILE", *path, "file to show")->required();
   command->callback([path] { print_info(*path); });
 }
 

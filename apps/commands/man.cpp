@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// flbc man: manual pages.
+// flbc man: manual pages, and the same as Markdown.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -17,7 +17,7 @@ std::string page_of(const CommandTable& table, const std::string& name) {
   for (const auto& command : table.commands) {
     if (command.name == name) return manual_of_command(command);
   }
-  throw OptionError("there is no command '" + name + "'; see flbc --help");
+  throw OptionError("unknown command '" + name + "'; see flbc --help");
 }
 
 // Under the names by which they are installed.
@@ -29,8 +29,10 @@ void write_all(const CommandTable& table, const std::string& folder) {
     io::write_file(folder + "/" + name, [&](std::ostream& file) { file << text; });
   };
   put("flbc.1", manual_of_program(table));
+  put("index.md", markdown_of_program(table));
   for (const auto& command : table.commands) {
     put("flbc-" + command.name + ".1", manual_of_command(command));
+    put(command.name + ".md", markdown_of_command(command));
   }
   put("flbc.bash", bash_completion(table));
   put("_flbc", zsh_completion(table));
@@ -45,15 +47,17 @@ struct ManArguments {
 
 void add_man_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ManArguments>();
-  auto* command = app.add_subcommand("man", "Print a manual page");
+  auto* command = app.add_subcommand("man", "print a manual page");
   command->footer("Example: flbc man solve | man -l -");
-  auto* name = command
-                   ->add_option("COMMAND", arguments->command,
-                                "command whose page is printed (default: the program)")
-                   ->type_name("COMMAND");
+  auto* name =
+      command
+          ->add_option("COMMAND", arguments->command, "command to describe (default: the program)")
+          ->type_name("COMMAND");
   command
-      ->add_option("--folder", arguments->folder,
-                   "write all pages to this folder, and the completion scripts for bash and zsh")
+      ->add_option(
+          "--folder", arguments->folder,
+          "write all pages, as manual pages and as Markdown, and the completion scripts to this "
+          "folder")
       ->excludes(name);
   command->callback([&app, arguments] {
     const auto table = read_table(app);

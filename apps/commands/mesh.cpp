@@ -49,9 +49,10 @@ void mesh(const Cage<Dim>& cage, const MeshArguments& arguments) {
 
 void add_mesh_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<MeshArguments>();
-  auto* command = app.add_subcommand("mesh", "Mesh the interior of a cage");
+  auto* command = app.add_subcommand("mesh", "mesh the interior of a cage");
   command->add_option("CAGE", arguments->cage, "closed polylines (2D) or surface (3D)")->required();
-  command->add_option("-o,--output", arguments->output, "the mesh: " + mesh_formats())->required();
+  command->add_option("-o,--output", arguments->output, "domain mesh: " + mesh_formats())
+      ->required();
   command->add_option("--vertices", arguments->vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_mesher_options(*command, arguments->meshing);

@@ -101,7 +101,7 @@ void add_plot_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<PlotArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("plot", "Plot error, residual, objective, and gap of one or more solves");
+      app.add_subcommand("plot", "plot error, residual, objective, and gap of one or more solves");
   command->add_option("REPORTS", a.reports, "reports of flbc solve or flbc run with --history")
       ->required();
   command->add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)

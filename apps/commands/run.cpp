@@ -84,9 +84,9 @@ void print_summary(const Run<Dim>& run) {
   const auto& after = run.report["sparsify"]["after"];
   const auto& error = run.report["sparsify"]["deformation_error"];
   Facts facts;
-  facts << run.shape().points.cols() << " points, at most " << after["max_influences"]
-        << " influences, deformation error " << 100 * error["rms"].template get<double>()
-        << " % rms, reproduction error " << after["max_reproduction_error"].template get<double>()
+  facts << run.shape().points.cols() << " vertices, at most " << after["max_influences"]
+        << " influences per vertex, deformation error " << 100 * error["rms"].template get<double>()
+        << "% rms, reproduction error " << after["max_reproduction_error"].template get<double>()
         << ", " << run.report["seconds"]["total"].template get<double>() << " s";
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
@@ -147,8 +147,8 @@ void require_model_to_embed(const SolveSettings& settings) {
   throw OptionError("--embed requires MODEL");
 }
 
-// The first file of the command line is the model, round which a cage is made. A picture is none
-// that could move: with it the mesh of the interior does.
+// The first file of the command line is the model around which a cage is made. A picture cannot
+// move; in its place the mesh of the interior does.
 int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
@@ -208,22 +208,22 @@ CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
   command.option_defaults()->group("Cage and poses");
   return command
       .add_option("--auto-cage",
-                  "make a cage around the first file, with at most N control points (default: by "
-                  "shape)")
+                  "make a cage around the first file, with at most N control points (default: "
+                  "depends on the shape)")
       ->expected(0, 1)
       ->type_name("[N]");
 }
 
-void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* deformed) {
+void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
   command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
   add_choice(command, "--sparsify", {kPoisson, kQuadratic}, a.reduction,
-             "how to reduce influences (default: poisson). poisson: without seams between "
-             "neighbors. quadratic: each vertex separately, faster");
+             "method that reduces influences (default: poisson). poisson: avoid seams between "
+             "neighbors. quadratic: treat each vertex separately, which is faster");
   command
       .add_option("--fps", a.frames_per_second,
-                  "poses of --deformed per second in model.glb (default: 24, or 1 for one pose)")
+                  "poses of --pose per second in model.glb (default: 24, or 1 for one pose)")
       ->check(in_range(1e-3, 1e6))
-      ->needs(deformed);
+      ->needs(poses);
   add_choice(command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
              "format of the pictures (default: png)");
 }
@@ -234,20 +234,19 @@ void add_run_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
   auto& a = *arguments;
   auto* command = app.add_subcommand(
-      "run", "Mesh, solve, check, sparsify, deform, export and draw, all at once");
-  add_help_all(*command);
+      "run", "mesh, solve, check, sparsify, deform, export, and draw in one step");
   command->footer(
       "OUTDIR receives the mesh of the cage interior, dense and sparse weights, the model in each\n"
       "pose, model.glb (an animated skin), pictures, model.html (a page for moving the cage), and\n"
       "report.json. A run replaces the files of an earlier run in OUTDIR. Model and skin use the\n"
       "sparse weights. If a step fails, the results of earlier steps remain.");
   auto* auto_cage = add_shapes(*command, a.settings);
-  auto* deformed = command->add_option(
-      "--deformed", a.deformed, "deformed cage; several files, or a pattern such as pose_%d.obj");
+  auto* poses = command->add_option(
+      "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
                    "poses as displacements of the cage, with times in seconds")
-      ->excludes(deformed);
+      ->excludes(poses);
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()
@@ -255,15 +254,14 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_option("-k,--max-influences", a.max_influences,
                       "maximum influences per vertex (default: 8)");
   command->add_option("--control-point", a.control_point,
-                      "control point whose function is drawn, counted from 0 (default: the one "
-                      "that moves most)");
-  command->add_flag("--force", a.force, "replace files in OUTDIR that no earlier run has made");
+                      "control point to draw, counted from 0 (default: the one that moves most)");
+  command->add_flag("--force", a.force, "replace files in OUTDIR that are not from an earlier run");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->option_defaults()->group("Solver");
   command->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_solver_options(*command, a.settings);
-  add_rare_options(*command, a, deformed);
+  add_rare_options(*command, a, poses);
   command->callback([arguments, command, auto_cage, &exit_status] {
     exit_status = run_as_told(*command, *auto_cage, *arguments);
   });

@@ -46,7 +46,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
             << "; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
   if (is_certified(report)) {
-    std::cerr << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
+    std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
   std::cerr << describe(solver.placement(), bounding_box_diagonal(solver.cage().points)) << '\n';
 }
@@ -82,15 +82,16 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<SolveArguments>();
   auto& a = *arguments;
   auto& settings = a.settings;
-  auto* command = app.add_subcommand("solve", "Compute the coordinates of a cage");
-  add_help_all(*command);
+  auto* command = app.add_subcommand("solve", "compute the coordinates of a cage");
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");
   command
-      ->add_option("-o,--output", a.output,
-                   "weights, a row per point and a column per control point: .mtx, .dmat, .npy")
+      ->add_option(
+          "-o,--output", a.output,
+          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
       ->required();
-  command->add_option("--report", a.report, "write facts about the solve to this .json file");
+  command->add_option("--report", a.report,
+                      "write a report of the solve to this .json file, or to standard output (-)");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->option_defaults()->group("Domain and model");
   auto* vertices =
@@ -101,8 +102,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
                                      "use this mesh of the cage interior instead of a new one");
   command->add_option("--save-domain", a.save_domain,
                       "write the mesh of the cage interior: " + mesh_formats());
-  auto* model = command->add_option("--model", settings.model,
-                                    "compute weights at the vertices of this model");
+  auto* model = command->add_option(
+      "--model", settings.model,
+      "compute weights at the vertices of this model (default: of the domain mesh)");
   add_solver_options(*command, settings);
   auto* embed =
       command->add_flag("--embed", settings.embed, "use the model vertices as vertices of the mesh")

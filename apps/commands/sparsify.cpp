@@ -162,36 +162,39 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
 void add_sparsify_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<SparsifyArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("sparsify", "Reduce weights to a few influences per point");
+  auto* command = app.add_subcommand("sparsify", "reduce weights to a few influences per vertex");
   command->footer(
-      "The resulting weights are >= 0, sum to 1, and reproduce the points, even if the input does "
+      "The result has weights >= 0 that sum to 1 and reproduce the vertices, even if WEIGHTS do "
       "not.");
   command
-      ->add_option("WEIGHTS", a.weights,
-                   ".mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
+      ->add_option(
+          "WEIGHTS", a.weights,
+          "weights: .mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
       ->required();
   auto* count = command->add_option("-k,--max-influences", a.options.max_influences,
-                                    "maximum influences per point, at least 3 in 2D and 4 in 3D");
+                                    "maximum influences per vertex, at least 3 in 2D and 4 in 3D");
   auto* threshold = command->add_option(
       "--threshold", a.options.threshold,
-      "first drop weights below this value where the others can reproduce the point");
+      "first drop weights below this value where the others can reproduce the vertex");
   add_choice(*command, "--method", {kQuadratic, kPoisson}, a.method,
-             "how to reduce influences (default: quadratic). quadratic: each vertex separately. "
-             "poisson: without seams between neighbors");
-  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat or .npy")->required();
+             "method that reduces influences (default: quadratic). quadratic: treat each vertex "
+             "separately. poisson: avoid seams between neighbors");
+  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy")->required();
   command
       ->add_option(
           "--pose", a.poses,
-          "measure the error in this pose of the cage; poisson also minimizes it (repeatable)")
+          "deformed cage in which to measure the error; poisson also minimizes it (repeatable)")
       ->allow_extra_args(false);
-  command->add_option("--report", a.report, "write facts about the reduction to this .json file");
+  command->add_option(
+      "--report", a.report,
+      "write a report of the reduction to this .json file, or to standard output (-)");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments, count, threshold] {
     if (count->count() + threshold->count() == 0) {
-      throw OptionError("give -k (maximum influences per point), --threshold, or both");
+      throw OptionError("give -k (maximum influences per vertex), --threshold, or both");
     }
     check_files(*arguments);
     std::visit([&](const auto& cage) { sparsify_weights(cage, *arguments); },

@@ -74,7 +74,7 @@ Transferred<Dim> from_model(const Cage<Dim>& cage, const WeightMatrix& weights,
     return transfer_weights(cage.points, from, weights, to, arguments.limit * size, &distances);
   });
   std::ostringstream facts;
-  facts << "; at most " << 100 * distances.maxCoeff() / size << " % of the size away from "
+  facts << "; at most " << 100 * distances.maxCoeff() / size << "% of the size away from "
         << arguments.from;
   return {std::move(transferred), std::move(to), facts.str()};
 }
@@ -90,7 +90,7 @@ void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
   }
   if (arguments.quiet) return;
   const auto quality = measure_quality(cage.points, result.points, result.weights);
-  std::cerr << arguments.output << ": " << result.weights.cols() << " points; minimum weight "
+  std::cerr << arguments.output << ": " << result.weights.cols() << " vertices; minimum weight "
             << quality.min_weight << ", reproduction error " << quality.max_reproduction_error
             << result.facts << '\n';
 }
@@ -100,27 +100,27 @@ void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
 void add_transfer_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<TransferArguments>();
   auto& a = *arguments;
-  auto* command = app.add_subcommand("transfer", "Transfer weights to another version of a model");
+  auto* command = app.add_subcommand("transfer", "transfer weights to another version of a model");
   command->footer(
-      "With --domain, WEIGHTS belong to the mesh of the cage interior (domain_weights.npy of flbc\n"
-      "run). The result is what flbc solve computes for the model. With --from, WEIGHTS belong to\n"
-      "another model. Each vertex gets the weights of the nearest point on it, with the smallest\n"
+      "With --domain, WEIGHTS belong to the domain mesh (domain_weights.npy of flbc run), and the\n"
+      "result is what flbc solve computes for the model. With --from, WEIGHTS belong to another\n"
+      "model. Each vertex gets the weights of the nearest point on that model, with the smallest\n"
       "change that makes them >= 0 and reproduces the vertex.");
   command->add_option("WEIGHTS", a.weights, "existing weights: .mtx, .dmat, .npy")->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* from = command->add_option("--from", a.from, "model that has these weights");
-  auto* domain = command->add_option("--domain", a.domain, "mesh that has these weights");
+  auto* domain = command->add_option("--domain", a.domain, "domain mesh that has these weights");
   domain->excludes(from);
   command->add_option("--to", a.to, "model that needs weights")->required();
   command
       ->add_option("--limit", a.limit,
-                   "largest distance between the models, relative to their size (default: 0.02)")
+                   "maximum distance between the models, relative to their size (default: 0.02)")
       ->check(in_range(0, 1))
       ->needs(from);
   add_choice(*command, "--outside", a.outside,
-             "how to handle vertices outside the cage, as in flbc solve (default: fail)")
+             "method for vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);
-  command->add_option("-o,--output", a.output, "weights: .mtx, .dmat or .npy")->required();
+  command->add_option("-o,--output", a.output, "new weights: .mtx, .dmat, .npy")->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -47,7 +47,7 @@ std::string media_type_of(const std::string& path) {
   const auto extension = io::extension_of(path);
   if (extension == "png") return "image/png";
   if (extension == "jpg" || extension == "jpeg") return "image/jpeg";
-  throw OptionError(path + ": cannot tell the format; a picture must end in .png or .jpg");
+  throw OptionError(path + ": unknown file format; a picture must end in .png or .jpg");
 }
 
 void check_arguments(const ViewArguments& arguments) {
@@ -115,9 +115,9 @@ std::string describe_reduction(const view::PageContent<Dim>& content, const Weig
   const double size = bounding_box_diagonal<Dim>(content.points);
   std::ostringstream text;
   text.precision(3);
-  text << "at most " << after << " influences per point (before " << before
+  text << "at most " << after << " influences per vertex (before " << before
        << "); deformation error over random smooth poses " << 100 * error.rms / size
-       << " % of the size rms, " << 100 * error.max / size << " % max";
+       << "% of the size rms, " << 100 * error.max / size << "% max";
   return text.str();
 }
 
@@ -136,7 +136,7 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   write_text(arguments.output, page);
   const auto bytes = static_cast<double>(page.size());
   if (!arguments.quiet) {
-    std::cerr << arguments.output << ": " << content.points.cols() << " points, "
+    std::cerr << arguments.output << ": " << content.points.cols() << " vertices, "
               << content.surface.triangles.cols() << " triangles, " << content.poses.size()
               << " poses, " << describe_reduction(content, given) << "; " << bytes / 1e6
               << " MB; open it in a browser\n";
@@ -144,7 +144,7 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   if (bytes > kLargePage) {
     std::cerr
         << "flbc: " << arguments.output << ": " << bytes / 1e6
-        << " MB open slowly; for a smaller page reduce influences per point, for example -k 4\n";
+        << " MB open slowly; for a smaller page, reduce influences per vertex, for example -k 4\n";
   }
 }
 
@@ -157,14 +157,14 @@ void serve(const ViewArguments& arguments) {
 void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
   auto* serve = command.add_option(
       "--serve", a.served,
-      "compute weights, and serve a page on this machine in which you can also reshape the cage at "
-      "rest (default for MODEL: the mesh of the cage interior)");
+      "compute weights, and serve a page on this machine in which you can also reshape the rest "
+      "cage (default for MODEL: the domain mesh)");
   serve->expected(1, 2)->type_name("CAGE [MODEL]")->excludes(output);
   command
-      .add_option("--vertices", a.vertices, "with --serve: number of mesh vertices (default: 2000)")
+      .add_option("--vertices", a.vertices, "number of mesh vertices for --serve (default: 2000)")
       ->check(refuse_vertex_count)
       ->needs(serve);
-  command.add_option("--port", a.port, "with --serve: port (default: any free port)")
+  command.add_option("--port", a.port, "port for --serve (default: any free port)")
       ->check(CLI::Range(0, 65535))
       ->needs(serve);
 }
@@ -175,20 +175,18 @@ void add_view_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ViewArguments>();
   auto& a = *arguments;
   auto* command =
-      app.add_subcommand("view", "Make a page in which you move the cage with the mouse");
+      app.add_subcommand("view", "make a page in which you move the cage with the mouse");
   command->footer(
-      "The page is one file that any browser opens without a network. It deforms the model like "
-      "flbc\n"
-      "deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
-  command->add_option(
-      "MODEL", a.model,
-      "model (.obj .off .ply .stl .om), or mesh of the cage interior, whose boundary is shown");
+      "The page is one file that any browser opens without a network. It deforms the model like\n"
+      "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
+  command->add_option("MODEL", a.model,
+                      "model (.obj .off .ply .stl .om), or domain mesh whose boundary is shown");
   command->add_option(
       "--weights", a.weights,
-      "weights, a row per vertex and a column per control point: .mtx, .dmat, .npy");
+      "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy");
   command->add_option("--cage", a.cage, "cage of the weights");
   auto* poses = command->add_option(
-      "--pose", a.poses, "deformed cage; several files, or a pattern such as pose_%d.obj");
+      "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
                    "poses as displacements of the cage, with times in seconds")
@@ -199,7 +197,7 @@ void add_view_command(CLI::App& app, int&) {
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
   command->add_option("-k,--max-influences", a.max_influences,
-                      "maximum influences per point, up to 16 (default: 16)");
+                      "maximum influences per vertex, up to 16 (default: 16)");
   command->add_option("--texture", a.picture,
                       "texture for a model with texture coordinates: .png, .jpg");
   auto* output = command->add_option("-o,--output", a.output, "page: .html");

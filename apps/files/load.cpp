@@ -49,7 +49,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 [[noreturn]] void fail_extension(const std::string& path, const std::string& extensions) {
-  throw OptionError(path + ": cannot tell the format; the file must end in " + extensions);
+  throw OptionError(path + ": unknown file format; the file must end in " + extensions);
 }
 
 }  // namespace

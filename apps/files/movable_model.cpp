@@ -61,7 +61,7 @@ void save(const std::string& path, const io::Model& model) {
 
 void require_mesh_readable(const std::string& path) {
   if (holds(path, kMeshFiles)) return;
-  throw OptionError(path + ": cannot tell the format; a model or mesh must end in " +
+  throw OptionError(path + ": unknown file format; a model or mesh must end in " +
                     io::extensions_of(kMeshFiles));
 }
 
@@ -75,9 +75,9 @@ void require_formats(const MovedFile& file) {
   require_writable(file.output, kMeshFiles);
   if (file.shows_displacement && !holds(file.output, kShowing)) {
     throw OptionError(file.output +
-                      ": cannot show displacements, for this format has neither colours nor "
-                      "fields; " +
-                      io::extensions_of(kShowing) + " has");
+                      ": cannot show displacements, because this format has neither colors nor "
+                      "fields; choose from " +
+                      io::extensions_of(kShowing));
   }
 }
 
@@ -96,7 +96,7 @@ void require_formats_of(const MovedFile& file) {
                                                         : " holds polygons";
   throw OptionError(
       output + ": " + model + (Dim == 2 && !is_model ? " holds triangles" : held) +
-      ", so that the result must end in " +
+      "; the result must end in " +
       (is_model ? io::extensions_of({Content::kModel}) : io::extensions_of({io::kMesh<Dim>})) +
       (is_mesh && is_model ? ", or in .vtu" : ""));
 }
@@ -134,7 +134,7 @@ void MovableModel<Dim>::find_losses(io::Model model) {
   if (replaces_colors) model.attributes.colors.resize(3, 0);
   const auto lost = io::losses(model, file_.output);
   losses_.insert(losses_.end(), lost.begin(), lost.end());
-  if (replaces_colors) losses_.emplace_back("colours (they show the displacement)");
+  if (replaces_colors) losses_.emplace_back("colors (they show the displacement)");
 }
 
 template <int Dim>

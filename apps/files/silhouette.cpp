@@ -103,7 +103,8 @@ ModelFacets<2> load_silhouette(const std::string& path) {
   const auto seen = std::count(mask.pixels.begin(), mask.pixels.end(), true);
   if (seen == 0) throw InputError(path + ": all pixels are transparent");
   if (seen == static_cast<std::ptrdiff_t>(mask.pixels.size())) {
-    throw InputError(path + ": no pixel is transparent, so that there is no silhouette");
+    throw InputError(path +
+                     ": no pixel is transparent; a silhouette needs a transparent background");
   }
   std::map<std::pair<Index, Index>, Index> number_of;
   std::vector<std::pair<Index, Index>> corners;
@@ -117,8 +118,8 @@ ModelFacets<2> load_silhouette(const std::string& path) {
   for (Index y = 0; y <= mask.height; ++y) {
     if (edges.size() > kMostEdges) {
       throw InputError(path +
-                       ": more than 4,000,000 edges of pixels are between what is seen "
-                       "and what is not; noise has no silhouette");
+                       ": the silhouette has more than 4,000,000 pixel edges; remove noise "
+                       "from the transparency");
     }
     for (Index x = 0; x <= mask.width; ++x) {
       const bool own = mask.at(x, y);

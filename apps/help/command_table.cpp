@@ -2,6 +2,7 @@
 #include "help/command_table.h"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <sstream>
 #include <utility>
 
@@ -31,6 +32,7 @@ std::string value_name(const std::string& type) {
 void read_options(const CLI::App& app, std::vector<OptionEntry>& positionals,
                   std::vector<OptionEntry>& options) {
   for (const auto* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
     (option->nonpositional() ? options : positionals).push_back(read_option(*option));
   }
 }
@@ -49,10 +51,17 @@ OptionEntry read_option(const CLI::Option& option) {
   }
   entry.choices = choices_of(entry.value);
   entry.help = option.get_description();
+  entry.group = option.get_group();
   entry.required = option.get_required();
   entry.optional_value = !entry.value.empty() && option.get_expected_min() == 0;
   entry.repeated = option.get_expected_max() > 1;
   return entry;
+}
+
+std::string as_sentence(std::string phrase) {
+  if (phrase.empty()) return phrase;
+  phrase[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(phrase[0])));
+  return phrase.back() == '.' ? phrase : phrase + ".";
 }
 
 CommandTable read_table(const CLI::App& app) {

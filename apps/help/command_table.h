@@ -20,6 +20,7 @@ struct OptionEntry {
   std::string value{};                 //!< name of the value, as "FILE"; empty for a flag
   std::vector<std::string> choices{};  //!< if the value is one of these
   std::string help{};
+  std::string group{};  //!< under which --help shows it
   bool required = false;
   bool optional_value = false;  //!< whether the option may come without it
   bool repeated = false;        //!< whether it may have several values
@@ -44,7 +45,10 @@ struct CommandTable {
 //! Reads an option of the parser.
 OptionEntry read_option(const CLI::Option& option);
 
-//! Reads the parser.
+//! A phrase such as "compute the coordinates of a cage" with a capital letter and a period.
+std::string as_sentence(std::string phrase);
+
+//! Reads the parser. Hidden options are left out.
 CommandTable read_table(const CLI::App& app);
 
 // Scripts by which shells complete commands, options, and their values.
@@ -56,5 +60,9 @@ std::string manual_of_program(const CommandTable& table);
 
 //! flbc-COMMAND(1), for man.
 std::string manual_of_command(const CommandEntry& command);
+
+// The same in Markdown, for the site.
+std::string markdown_of_program(const CommandTable& table);
+std::string markdown_of_command(const CommandEntry& command);
 
 }  // namespace flbc::app

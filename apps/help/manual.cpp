@@ -43,17 +43,16 @@ std::string header(const std::string& name) {
   return ".TH \"" + escaped(upper) + "\" 1 \"\" \"flbc " FLBC_VERSION "\" \"libflbc\"\n";
 }
 
-// "Compute the coordinates" as the second half of a NAME.
+// The first sentence as the second half of a NAME.
 std::string after_name(std::string help) {
-  if (help.size() > 1 && std::islower(static_cast<unsigned char>(help[1])) != 0) {
-    help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
-  }
+  if (help.empty()) return help;
+  help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
   help = help.substr(0, help.find('\n'));
-  if (!help.empty() && help.back() == '.') help.pop_back();
+  if (help.back() == '.') help.pop_back();
   return help;
 }
 
-// The values of an option as they stand behind it.
+// The value of an option, as it follows the name.
 std::string value_of(const OptionEntry& option) {
   if (option.value.empty()) return "";
   std::string text = option.choices.empty() ? italic(option.value) : bold(option.value);
@@ -84,8 +83,8 @@ void add_exit_status(std::ostream& page) {
   constexpr std::pair<const char*, const char*> kStatus[] = {
       {"0", "done"},
       {"1", "wrong usage"},
-      {"2", "bad input; the message names file, element and place"},
-      {"3", "not converged within the limits; results are written nevertheless"},
+      {"2", "bad input; the message names the file, the element, and its position"},
+      {"3", "not converged within the limits; the results are written"},
       {"4", "a file cannot be read or written"},
       {"5", "out of memory"}};
   page << ".SH EXIT STATUS\n";
@@ -106,7 +105,7 @@ std::string manual_of_program(const CommandTable& table) {
        << bold("--help") << ".\n"
        << ".SH COMMANDS\n";
   for (const auto& command : table.commands) {
-    add_entry(page, bold(command.name), command.help + ".");
+    add_entry(page, bold(command.name), as_sentence(command.help));
   }
   add_options(page, table.options);
   add_exit_status(page);
@@ -130,7 +129,7 @@ std::string manual_of_command(const CommandEntry& command) {
     page << (positional.required ? text : "[" + text + "]") << '\n';
   }
   for (const auto& option : command.options) page << in_synopsis(option) << '\n';
-  page << ".ad b\n.hy\n.SH DESCRIPTION\n" << escaped(command.help) << ".\n";
+  page << ".ad b\n.hy\n.SH DESCRIPTION\n" << escaped(as_sentence(command.help)) << '\n';
   if (!command.footer.empty()) page << ".PP\n" << escaped(command.footer) << '\n';
   if (!command.positionals.empty()) page << ".SH ARGUMENTS\n";
   for (const auto& positional : command.positionals) {

@@ -28,6 +28,10 @@ class HelpFormatter : public CLI::Formatter {
     return text;
   }
 
+  std::string make_description(const CLI::App* app) const override {
+    return as_sentence(app->get_description()) + "\n";
+  }
+
   std::string make_group(std::string group, bool is_positional,
                          std::vector<const CLI::Option*> options) const override {
     if (group == kMore && !shows_all_) return "";
@@ -49,7 +53,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 
   std::string make_footer(const CLI::App* app) const override {
-    const bool leaves_out = app->get_help_all_ptr() != nullptr && !shows_all_;
+    const auto* all = app->get_help_all_ptr();
+    const bool leaves_out = all != nullptr && !all->get_group().empty() && !shows_all_;
     return (leaves_out ? "All options: flbc " + app->get_name() + " --help-all\n" : "") +
            CLI::Formatter::make_footer(app);
   }
@@ -65,7 +70,10 @@ std::shared_ptr<CLI::Formatter> help_formatter() {
 }
 
 void add_help_all(CLI::App& command) {
-  command.set_help_all_flag("--help-all", "print all options and exit");
+  const auto groups = command.get_groups();
+  const bool has_more = std::find(groups.begin(), groups.end(), kMore) != groups.end();
+  command.set_help_all_flag("--help-all", "print all options and exit")
+      ->group(has_more ? "Options" : "");
 }
 
 CLI::Option* add_choice(CLI::App& command, const std::string& name,

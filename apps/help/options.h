@@ -19,7 +19,8 @@ constexpr const char* kMore = "More options";
 //! Formats --help: few options, in groups, with lines that fit a terminal.
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-//! Adds --help-all to a command that has options in the group kMore.
+//! Adds --help-all to a command that has all its options. Only where some are in the group kMore
+//! does --help show it.
 void add_help_all(CLI::App& command);
 
 //! Adds an option whose value is one of a few words. \param take  stores the word

@@ -13,7 +13,7 @@ namespace {
 // Files of cages in their poses.
 template <int Dim>
 void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs<Dim>& inputs) {
-  const auto files = find_cages(arguments.deformed);
+  const auto files = find_cages(arguments.poses);
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
   if (files.paths.empty()) return;
   const double rate = frame_rate(files.paths.size(), arguments.frames_per_second);
@@ -37,7 +37,7 @@ template <int Dim>
 Shape<Dim> load_shape(const std::string& path) {
   const std::filesystem::path file(path);
   if (!io::holds(path, {io::Content::kModel})) {
-    throw OptionError(path + ": cannot tell the format; a model must end in " +
+    throw OptionError(path + ": unknown file format; a model must end in " +
                       io::extensions_of({io::Content::kModel}));
   }
   Shape<Dim> shape{file.stem().string(), file.extension().string()};

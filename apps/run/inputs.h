@@ -37,13 +37,13 @@ constexpr const char* kReport = "report.json";
 
 //! Arguments of flbc run.
 struct RunArguments {
-  SolveSettings settings;             //!< cage and model among them, but no domain
-  bool makes_cage = false;            //!< whether to make a cage around the model
-  std::string picture;                //!< or round this picture's silhouette; empty for none
-  Index cage_control_points = 0;      //!< at most so many; 0 = by the model's shape
-  std::vector<std::string> deformed;  //!< cage files or a pattern of them
-  std::string keyframes;              //!< file of poses instead
-  std::string output;                 //!< folder
+  SolveSettings settings;          //!< cage and model among them, but no domain
+  bool makes_cage = false;         //!< whether to make a cage around the model
+  std::string picture;             //!< or round this picture's silhouette; empty for none
+  Index cage_control_points = 0;   //!< at most so many; 0 = by the model's shape
+  std::vector<std::string> poses;  //!< cage files or a pattern of them
+  std::string keyframes;           //!< file of poses instead
+  std::string output;              //!< folder
   Index max_influences = 8;
   std::string reduction = kPoisson;
   double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose

@@ -65,11 +65,11 @@ void compute_weights(Run<Dim>& run) {
   if (report.iterations > 0) facts << ", " << describe_iterations(report);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
   facts << "; " << delivered.mean_influences
-        << " influences above 0.0001 per point, smallest weight " << delivered.min_weight
+        << " influences above 1e-4 per vertex, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;
   facts << describe(solver.placement(), bounding_box_diagonal(run.cage.points));
   if (is_certified(report)) {
-    facts << ", within " << 100 * report.certificate.relative_gap << " % of the optimum";
+    facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
   run.folder.add(kWeights, facts.text(),
                  [&](const std::string& path) { io::write_weights(path, run.dense); });

@@ -24,7 +24,7 @@ PointList<Dim> points_in(const Json& request, Index count) {
   try {
     numbers = request.at("points").get<std::vector<double>>();
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(std::string("this is no shape: ") + error.what());
+    throw InputError(std::string("invalid shape: ") + error.what());
   }
   if (numbers.size() != static_cast<std::size_t>(Dim) * count) {
     throw InputError("this shape has " + std::to_string(numbers.size()) + " coordinates, not " +

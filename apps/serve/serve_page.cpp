@@ -91,14 +91,13 @@ void serve_cage(const Cage<Dim>& cage, const ServeArguments& arguments) {
     content.weights = reshaping.weights();
     return view::make_page(content);
   });
-  server.set_answer("reshape", [&](const std::string& request) {
-    return reshaping.answer(request);
-  });
+  server.set_answer("reshape",
+                    [&](const std::string& request) { return reshaping.answer(request); });
   const InterruptsNoticed noticed;
   std::cout << server.address() << std::endl;
   if (!arguments.quiet) {
-    std::cerr << "Open this address in a browser on this machine; Ctrl-C, or closing the page, "
-                 "ends.\n";
+    std::cerr << "Open this address in a browser on this machine; press Ctrl-C, or "
+                 "close the page, to stop.\n";
   }
   server.serve([] { return interrupted != 0; });
 }

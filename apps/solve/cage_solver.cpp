@@ -98,7 +98,7 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     : cage_(cage), model_(model), settings_(settings) {
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
     throw OptionError(
-        "--outside: vertices of the mesh must be inside the cage; leave out --embed or --outside");
+        "--outside: --embed needs all vertices inside the cage; leave out --embed or --outside");
   }
   if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points)) {
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
@@ -132,7 +132,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   }
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
-  const ProgressBar bar(quiet, "finding the model's vertices in the mesh");
+  const ProgressBar bar(quiet, "locating the model vertices in the mesh");
   placement_ = naming(settings_.model,
                       [&] { return place_points(cage_, domain_, model_, settings_.outside); });
 }
@@ -191,11 +191,12 @@ std::string describe(const Placement<Dim>& placement, double size) {
   text.precision(3);
   if (!placement.on_cage.empty()) {
     text << "; " << placement.on_cage.size() << " vertices within "
-         << farthest(placement.on_cage).distance / size << " of the cage's size were snapped to it";
+         << farthest(placement.on_cage).distance / size
+         << " of the cage size were snapped to the cage";
   }
   if (!placement.outside.empty()) {
     text << "; " << placement.outside.size() << " vertices outside the cage, by up to "
-         << 100 * farthest(placement.outside).distance / size << " % of its size, "
+         << 100 * farthest(placement.outside).distance / size << "% of its size, "
          << (placement.policy == OutsidePoints::kNearest ? "follow its nearest point"
                                                          : "are extrapolated");
   }

@@ -34,7 +34,7 @@ std::string describe(const ModelCage<Dim>& made) {
   Facts facts;
   facts << made.cage.size() << " control points, " << made.cage.facets.cols()
         << (Dim == 2 ? " edges" : " triangles") << ", mean distance from the model "
-        << 100 * made.mean_distance / size << " % of the cage's size";
+        << 100 * made.mean_distance / size << "% of the cage size";
   if (made.symmetry_axis >= 0) {
     facts << ", symmetric across "
           << "xyz"[made.symmetry_axis] << " = " << made.symmetry_place;

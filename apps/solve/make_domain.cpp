@@ -42,14 +42,14 @@ void require_mesher(Mesher asked_for) {
   const bool is_one_for_3d = asked_for == Mesher::kTetgen || asked_for == Mesher::kNetgen;
   if (asked_for != Mesher::kAuto && is_one_for_3d != (Dim == 3)) {
     throw OptionError(std::string("--mesher ") + name_of(asked_for) +
-                      ": this mesher makes no meshes in " + std::to_string(Dim) + "D");
+                      ": this mesher does not support " + std::to_string(Dim) + "D");
   }
   if (!meshers_for<Dim>(asked_for).empty()) return;
   const std::string wanted = asked_for != Mesher::kAuto ? name_of(asked_for)
                              : Dim == 2                 ? "CGAL"
                                                         : "TetGen or Netgen";
-  throw OptionError("this flbc was built without " + wanted + " and cannot mesh in " +
-                    std::to_string(Dim) + "D; give a mesh with --domain");
+  throw OptionError("this flbc was built without " + wanted + " and cannot mesh " +
+                    std::to_string(Dim) + "D cages; give a mesh with --domain");
 }
 
 DomainMesh<2> fill(Mesher, [[maybe_unused]] const Cage<2>& cage,

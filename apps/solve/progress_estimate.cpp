@@ -28,7 +28,7 @@ std::string bar(double done, double seconds) {
   constexpr int kWidth = 20;
   const int filled = std::min(kWidth, static_cast<int>(done * kWidth));
   std::string text = "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] " +
-                     std::to_string(static_cast<int>(100 * done)) + " %";
+                     std::to_string(static_cast<int>(100 * done)) + "%";
   constexpr double kEnough = 0.03;
   if (done > kEnough && seconds > 0) text += ", " + duration(seconds / done * (1 - done)) + " left";
   return text;

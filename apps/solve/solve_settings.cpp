@@ -13,8 +13,8 @@ void add_mesher_options(CLI::App& command, MesherSettings& settings) {
     }
   };
   add_choice(command, "--mesher", {"auto", "cgal", "tetgen", "netgen"}, take,
-             "which mesher to use (default: auto, which is CGAL in 2D, and in 3D TetGen, then "
-             "Netgen if TetGen fails)");
+             "mesher (default: auto, which is CGAL in 2D and TetGen in 3D, then Netgen if TetGen "
+             "fails)");
   command
       .add_option("--mesh-timeout", settings.timeout,
                   "time limit of a mesher run in seconds (default: 60)")
@@ -41,7 +41,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
     refuse("--coarse-to-fine", name + " does not use it");
   }
   if (!gradients) refuse("--recovery", name + " does not use it");
-  if (settings.model.empty()) refuse("--outside", "there is no model");
+  if (settings.model.empty()) refuse("--outside", "no model is given");
   if (!settings.domain.empty()) {
     refuse("--mesher", "--domain gives the mesh");
     refuse("--mesh-timeout", "--domain gives the mesh");
@@ -52,23 +52,24 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
   command.option_defaults()->group("Solver");
   add_choice(command, "--method", options.method,
-             "how to solve (default: auto, which is value, the weight-splitting ADMM)");
+             "solver method (default: auto, which is value, the weight-splitting ADMM)");
   command.add_option("--tolerance", options.tolerance,
                      "target for the estimated error of the weights (default: 1e-6 for gradient, "
                      "1e-7 for other methods)");
-  command.add_flag("--certify", options.certify, "prove how close to the optimum the weights are");
+  command.add_flag("--certify", options.certify,
+                   "bound the distance of the weights from the optimum");
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");
   command.option_defaults()->group(kMore);
   add_choice(command, "--outside", settings.outside,
-             "how to handle model vertices outside the cage (default: fail). nearest: use the "
-             "weights of the nearest point on the cage. extend: reproduce the vertex; weights may "
-             "be negative");
+             "method for model vertices outside the cage (default: fail). nearest: use the weights "
+             "of the nearest point on the cage. extend: reproduce the vertex, possibly with "
+             "negative weights");
   add_choice(command, "--non-negative", options.non_negative,
-             "how to keep weights from being negative (default: by method)");
+             "method that keeps weights non-negative (default: depends on --method)");
   add_choice(command, "--coarse-to-fine", options.coarse_to_fine,
-             "start from coarser meshes of the cage (default: auto, where it saves time)");
+             "use a multilevel start from coarser meshes (default: auto, where it saves time)");
   add_choice(command, "--phi", options.phi,
-             "growth of the distance weights with distance (default: square)");
+             "growth of the variation weighting with distance (default: square)");
   add_choice(command, "--active", options.active_set,
              "store and update only weights that may be positive (default: auto, which is on in "
              "3D from 80 control points, unless --certify is given)");
@@ -76,12 +77,12 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "compute distances on the mesh, or interpolate them from a coarser one (default: "
              "auto)");
   add_choice(command, "--linear-solver", options.linear_solver,
-             "how to solve global linear systems. none: avoid them, for gradient and paper "
-             "(default: auto)");
+             "solver of global linear systems (default: auto). none: avoid them, for gradient and "
+             "paper");
   add_choice(command, "--recovery", options.gradient.recovery,
-             "how to compute weights from gradients (default: auto)");
+             "method that computes weights from gradients (default: auto)");
   add_choice(command, "--precision", options.precision,
-             "precision of the iteration (default: auto)");
+             "floating-point precision of the iteration (default: auto)");
   command.add_option("--gap", options.gap,
                      "certified relative gap at which to stop early, 0 for never (default: 1e-3, "
                      "or 0 if --tolerance is given)");
@@ -89,9 +90,9 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "maximum number of iterations (default: 20000)");
   command.add_option("--penalty", settings.penalty,
                      "penalty parameter for a domain scaled to radius 250, as published (default: "
-                     "by method)");
+                     "depends on --method)");
   command.add_option("--relaxation", options.relaxation,
-                     "over-relaxation factor in (0, 2) (default: by method)");
+                     "over-relaxation factor in (0, 2) (default: depends on --method)");
   add_mesher_options(command, settings.meshing);
   command.add_flag("--history", settings.history,
                    "record error, residuals, and objective by iteration in the report, for flbc "

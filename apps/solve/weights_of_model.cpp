@@ -57,8 +57,8 @@ void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest
   text << files.weights << ": the weights do not belong to this model: with " << files.cage
        << " they put vertex " << worst << " of " << files.model << " at "
        << moved.col(worst).transpose().format(row) << ", not at "
-       << points.col(worst).transpose().format(row) << "; that is " << error
-       << " of the cage's size, more than " << kReproduction;
+       << points.col(worst).transpose().format(row) << "; the distance is " << error
+       << " of the cage size, but at most " << kReproduction << " is allowed";
   throw InputError(text.str());
 }
 

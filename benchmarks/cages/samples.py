@@ -9,7 +9,7 @@ def samples(context):
     folder = context.out / "samples"
     solid, plane = context.meshes / "3d", context.meshes / "2d"
     commands = [
-        ("run", solid / "limb_cage.obj", solid / "limb_model.obj", "--deformed",
+        ("run", solid / "limb_cage.obj", solid / "limb_model.obj", "--pose",
          solid / "limb_cage_pose.obj", "-k", 8, "-o", folder / "limb", "--vertices", 4000, "-q"),
         ("run", plane / "figure_cage.obj", plane / "figure_model.obj", "-o", folder / "figure", "-q"),
         ("draw", folder / "figure" / "domain.obj", "--weights", folder / "figure" / "domain_weights.npy",

@@ -56,7 +56,7 @@ const std::vector<Row> kUsage{
      "$F solve model.obj --model square.obj -o x.npy",
      2,
      {"$F solve square.obj --model model.obj $V -o x.npy"}},
-    {"so move them apart or merge them",
+    {"; move them apart or merge them",
      "$F mesh thin.obj -o x.mesh",
      2,
      {"sed s/1e-9/0.1/ thin.obj >c.obj && $F mesh c.obj $V -o x.mesh"}},
@@ -80,8 +80,8 @@ const std::vector<Row> kOutside{
      0,
      {"$F solve square.obj --model outside.obj $V --outside nearest -o x.npy",
       "$F cage outside.obj -o c.obj && $F check c.obj --model outside.obj"}},
-    {"give them weights by --outside nearest or --outside extend, or make a cage round the model "
-     "with flbc cage",
+    {"choose --outside nearest or --outside extend, or make a cage around the model with "
+     "flbc cage",
      "$F solve square.obj --model outside.obj $V -o x.npy",
      2,
      {"$F solve square.obj --model outside.obj $V --outside nearest -o x.npy",
@@ -97,7 +97,7 @@ const std::vector<Row> kOutside{
      1,
      {"$F run square.obj outside.obj $V --outside nearest -o out",
       "$F solve square.obj --model outside.obj $V --outside extend -o x.npy && "
-      "$F deform outside.obj --weights x.npy --cage square.obj -o y.obj"}}};
+      "$F deform outside.obj --weights x.npy --pose square.obj -o y.obj"}}};
 
 const std::vector<Row> kRuns{
     {"give MODEL only",
@@ -107,7 +107,7 @@ const std::vector<Row> kRuns{
     {"save a pose there, and apply it with flbc deform",
      "$F run square.obj model.obj $V -o out",
      0,
-     {"$F deform model.obj --weights out/weights.npy --cage pose.obj -o y.obj"}},
+     {"$F deform model.obj --weights out/weights.npy --pose pose.obj -o y.obj"}},
     {"wait for it, or use another folder",
      "mkdir out && flock out $F run square.obj $V -o out",
      4,
@@ -156,10 +156,10 @@ const std::vector<Row> kFiles{
      1,
      {"$F check square.obj --weights w.npy --model model.obj",
       "$F check square.obj --weights dw.npy --domain d.obj"}},
-    {"add --cage or --keyframes",
+    {"add --pose or --keyframes",
      "$F deform model.obj --weights w.npy -o y.obj",
      1,
-     {"$F deform model.obj --weights w.npy --cage pose.obj -o y.obj",
+     {"$F deform model.obj --weights w.npy --pose pose.obj -o y.obj",
       "$F deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o y_%d.obj"}},
     {"--keyframes needs --rest",
      "$F deform model.obj --weights w.npy --keyframes keys.txt -o y_%d.obj",
@@ -171,18 +171,18 @@ const std::vector<Row> kFiles{
      {"$F deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o "
       "out_%03d.obj"}},
     {"--displacement needs --rest",
-     "$F deform model.obj --weights w.npy --cage pose.obj --displacement x.npy -o y.obj",
+     "$F deform model.obj --weights w.npy --pose pose.obj --displacement x.npy -o y.obj",
      1,
-     {"$F deform model.obj --weights w.npy --cage pose.obj --rest square.obj --displacement x.npy "
+     {"$F deform model.obj --weights w.npy --pose pose.obj --rest square.obj --displacement x.npy "
       "-o "
       "y.obj"}},
     {"--show-displacement needs --rest",
-     "$F deform model.obj --weights w.npy --cage pose.obj --show-displacement -o y.ply",
+     "$F deform model.obj --weights w.npy --pose pose.obj --show-displacement -o y.ply",
      1,
-     {"$F deform model.obj --weights w.npy --cage pose.obj --rest square.obj --show-displacement "
+     {"$F deform model.obj --weights w.npy --pose pose.obj --rest square.obj --show-displacement "
       "-o "
       "y.ply"}},
-    {"give -k (maximum influences per point), --threshold, or both",
+    {"give -k (maximum influences per vertex), --threshold, or both",
      "$F sparsify w.npy --cage square.obj --points model.obj -o x.npy",
      1,
      {"$F sparsify w.npy --cage square.obj --points model.obj -k 3 -o x.npy",
@@ -223,14 +223,14 @@ const std::vector<Row> kFiles{
      1,
      {"$F view model.obj --weights w.npy --cage square.obj -o p.html",
       "timeout 5 $F view --serve square.obj model.obj $V; [ $? = 124 ]"}},
-    {"for a smaller page reduce influences per point, for example -k 4",
+    {"for a smaller page, reduce influences per vertex, for example -k 4",
      "grid >grid.obj && $F cage grid.obj --control-points 12 -o c.obj && $F solve c.obj --model "
      "grid.obj --method harmonic $V -o x.npy && $F view grid.obj --weights x.npy --cage c.obj -k "
      "12 "
      "-o p.html",
      0,
      {"$F view grid.obj --weights x.npy --cage c.obj -k 4 -o p.html"}},
-    {"move cage and model closer to the origin",
+    {"move the cage and the model closer to the origin",
      "away square.obj >x.obj; away model.obj >y.obj; $F solve x.obj --model y.obj $V -o x.npy && "
      "$F export y.obj --weights x.npy --cage x.obj -o y.usda",
      0,
@@ -253,7 +253,7 @@ const std::vector<Row> kSolver{
      "$F solve square.obj --domain d.obj --mesh-timeout 10 -o x.npy",
      1,
      {"$F solve square.obj --domain d.obj -o x.npy"}},
-    {"gap (--gap) proves nothing of weights that may be negative; choose non_negative "
+    {"gap (--gap) does not apply to weights that may be negative; choose non_negative "
      "(--non-negative) constraint or project",
      "$F solve square.obj $V --gap 1e-3 --non-negative off -o x.npy",
      1,

@@ -104,7 +104,8 @@ TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
   }
   const auto noise = path("noise.png");
   ASSERT_NE(png_image_write_to_file(&image, noise.c_str(), 0, bytes.data(), 0, nullptr), 0);
-  expect("cage " + noise + " -o " + path("none.obj"), 2, "noise.png: more than 4,000,000 edges");
+  expect("cage " + noise + " -o " + path("none.obj"), 2,
+         "noise.png: the silhouette has more than 4,000,000 pixel edges");
 }
 
 TEST_F(CageCommand, RefusesWithReason) {
@@ -117,7 +118,7 @@ TEST_F(CageCommand, RefusesWithReason) {
   expect("cage " + square() + " -o " + path("out.ply"), 1, ".obj");
   expect("cage " + sample("3d/limb_model.obj") + " -o " + path("out.stl"), 1,
          "must end in .obj, .off or .ply");
-  expect("cage " + file("dot.obj", "v 1 1 1\n") + out, 2, "dot.obj: the model's size is 0");
+  expect("cage " + file("dot.obj", "v 1 1 1\n") + out, 2, "dot.obj: the model size of 0 is out");
   expect("cage " + path("none.obj") + out, 4, "none.obj");
   EXPECT_EQ(slurp(path("out.obj")), "");
 }

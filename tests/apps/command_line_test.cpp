@@ -130,8 +130,8 @@ TEST_F(CommandLine, TooFewVerticesBecomeMore) {
 TEST_F(CommandLine, ALostOutputIsAFailure) {
   for (const std::string& arguments : {"info " + sample("3d/limb_cage.obj"), std::string("--help"),
                                        std::string("--version"), std::string("solve --help")}) {
-    const std::string command = std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>" +
-                                path("errors.txt");
+    const std::string command =
+        std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>" + path("errors.txt");
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
     EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos) << arguments;
   }
@@ -160,7 +160,8 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("slove " + cage, 1, "did you mean solve?");
   expect_failure("solve " + cage, 1, "flbc solve: --output is required");
   expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
-  expect_failure("solve " + cage + o + " --method magic", 1, "invalid value 'magic'; choose from auto|");
+  expect_failure("solve " + cage + o + " --method magic", 1,
+                 "invalid value 'magic'; choose from auto|");
   expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
   expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");
   expect_failure("solve " + cage + o + " --threads -1", 1, "threads must be in");
@@ -185,8 +186,8 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
-          "--precision single", "--max-iterations 9", "--distances exact",
-          "--coarse-to-fine off", "--linear-solver direct", "--active off"}) {
+          "--precision single", "--max-iterations 9", "--distances exact", "--coarse-to-fine off",
+          "--linear-solver direct", "--active off"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_failure(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");
@@ -199,7 +200,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     }
   }
   expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
-  expect_failure(solve + "--outside nearest", 1, "--outside: there is no model");
+  expect_failure(solve + "--outside nearest", 1, "--outside: no model is given");
   expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,
                  "--tolerance: the method harmonic");
   expect("mesh " + cage + " --vertices 300 -q -o " + path("d.obj"));
@@ -276,7 +277,7 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
   const auto solve = "solve " + model_path("defective/half_outside_cage.obj") + " -o " +
                      path("w.npy") + " --vertices 500 --model " +
                      model_path("defective/half_outside_model.obj");
-  expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 points lie outside the cage");
+  expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 vertices are outside the cage");
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
 }
 

@@ -186,10 +186,10 @@ TEST_F(ConvertCommand, ModelsKeepPolygonsAndColours) {
             "1 1 0.1 0 0 255 255 0 0.5\n0 1 0 51 102 153 255 0 0.5\n4 0 1 2 3\n");
   expect_converted(model + " -o " + path("b.stl"),
                    "the order of the vertices, coordinates beyond single precision, polygons (they "
-                   "are cut into triangles), colours, texture coordinates\n");
+                   "are cut into triangles), colors, texture coordinates\n");
   // As a mesh of the interior.
   const auto flat = file("flat.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n# a\n");
-  expect_converted(flat + " -o " + path("b.vtu"), "flat.obj; lost: comments, colours\n");
+  expect_converted(flat + " -o " + path("b.vtu"), "flat.obj; lost: comments, colors\n");
   EXPECT_EQ(io::read_domain<2>(path("b.vtu")).num_cells(), 1);
 }
 
@@ -201,12 +201,12 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto to = [&](const std::string& name) { return " -o " + path(name); };
   expect_refused(path("a.npy") + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused(path("a.xls") + to("b.npy"), 1, "a.xls: cannot tell the format");
-  expect_refused(path("a.npy") + to("b.xls"), 1, "b.xls: cannot tell the format");
-  expect_refused(model + to("b.xls"), 1, "b.xls: cannot tell the format");
+  expect_refused(path("a.xls") + to("b.npy"), 1, "a.xls: unknown file format");
+  expect_refused(path("a.npy") + to("b.xls"), 1, "b.xls: unknown file format");
+  expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
   expect_refused(tetrahedra + to("b.obj"), 1, "b.obj: " + tetrahedra + " holds tetrahedra");
-  expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) does not lie in the plane z = 0");
+  expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
   expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this input file");
   expect_refused(path("a.npy") + to("absent/b.npy"), 4, "absent");

@@ -44,8 +44,8 @@ class DeformCommand : public CommandLineTest {
     const auto model = sample(name + "_model.obj");
     const auto pose = sample(name + "_cage_pose.obj");
     const auto rest = points_of<Dim>(model);
-    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --cage ";
-    const auto size = std::to_string(rest.cols()) + " points, 1 pose, ";
+    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --pose ";
+    const auto size = std::to_string(rest.cols()) + " vertices, 1 pose, ";
 
     expect_deform(command + cage + " -o " + path("same.obj"), 0, size);
     EXPECT_LT((points_of<Dim>(path("same.obj")) - rest).cwiseAbs().maxCoeff(), 1e-12);
@@ -74,7 +74,7 @@ class DeformCommand : public CommandLineTest {
     EXPECT_LT((points_of<Dim>(path("o.obj")) - expected).cwiseAbs().maxCoeff(), 1e-12);
 
     const auto output = path("moved_" + domain_file);
-    expect_deform(path(domain_file) + " --weights " + path("v.npy") + " --cage " + pose + " -o " +
+    expect_deform(path(domain_file) + " --weights " + path("v.npy") + " --pose " + pose + " -o " +
                       output + " -q",
                   0, "");
     const auto domain = io::read_domain<Dim>(path(domain_file));
@@ -118,7 +118,7 @@ PointList<3> model_points() {
 TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
   const auto model = file("model.obj", kModel);
   const auto command = model + " --weights " + linear_weights(model_points()) + " -o " +
-                       path("o.obj") + " -q --cage ";
+                       path("o.obj") + " -q --pose ";
   // Turned about the x axis by a right angle, and moved by 2 along it: y becomes z, z becomes -y.
   expect_deform(command + tetrahedron("v 2 0 0\nv 3 0 0\nv 2 0 1\nv 2 -1 0\n"), 0, "");
   std::string expected = kModel;
@@ -143,7 +143,7 @@ TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
 }
 
 TEST_F(DeformCommand, LinesThatContinueOthers) {
-  const auto command = " --weights " + linear_weights(model_points().leftCols(1)) + " --cage " +
+  const auto command = " --weights " + linear_weights(model_points().leftCols(1)) + " --pose " +
                        tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o " +
                        path("o.obj");
   expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command, 0, "");
@@ -155,7 +155,7 @@ TEST_F(DeformCommand, LinesThatContinueOthers) {
 
 TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {
   const auto model = file("model.obj", std::string(kModel) + "\nvn 1 2 3\n");
-  expect_deform(model + " --weights " + linear_weights(model_points()) + " --cage " +
+  expect_deform(model + " --weights " + linear_weights(model_points()) + " --pose " +
                     tetrahedron("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n") + " -o " + path("o.obj"),
                 0, "1 normals belong to no face");
   EXPECT_NE(slurp(path("o.obj")).find("\nvn 1 2 3\n"), std::string::npos);
@@ -168,7 +168,7 @@ TEST_F(DeformCommand, ColoursOfOffStay) {
   const auto coloured = file("model.off",
                              "COFF 4 1 0\n# red\n0.25 0.25 0.5 255 0 0 255\n0.5 0.25 0.5 9 9 9 9\n"
                              "0.5 0.5 0.5 8 8 8 8\n0.25 0.5 0.5 7 7 7 7\n4 0 1 2 3 1 0 0\n");
-  expect_deform(coloured + " -q --weights " + weights + " --cage " + cage + " -o " + path("o.off"),
+  expect_deform(coloured + " -q --weights " + weights + " --pose " + cage + " -o " + path("o.off"),
                 0, "");
   EXPECT_EQ(slurp(path("o.off")),
             "COFF 4 1 0\n# red\n-0.25 0.25 0.5 255 0 0 255\n-0.25 0.5 0.5 9 9 9 9\n"
@@ -184,9 +184,9 @@ TEST_F(DeformCommand, In2DZStays) {
       0.25, 0.25, 0.5;
   io::write_weights(path("w.npy"), weights);
   const auto pose = file("pose.obj", "v 10 0 3\nv 14 0 3\nv 10 -4 3\nl 1 2 3 1\n");
-  expect_deform(model + " --weights " + path("w.npy") + " --rest " + cage + " --cage " + pose +
+  expect_deform(model + " --weights " + path("w.npy") + " --rest " + cage + " --pose " + pose +
                     " -o " + path("o.obj"),
-                0, "3 points, 1 pose");
+                0, "3 vertices, 1 pose");
   EXPECT_EQ(slurp(path("o.obj")),
             "v 11 -1 7\nvn 0 0 1\nv 12 -1 7\nv 11 -2 7.000\nf 1//1 2//1 3//1");
 }
@@ -201,10 +201,10 @@ TEST_F(DeformCommand, Sequences) {
   }
   const auto model = file("model.obj", kModel);
   const auto command = model + " --weights " + linear_weights(model_points()) + " -o ";
-  const auto pattern = " --cage " + path("pose_%02d.obj");
+  const auto pattern = " --pose " + path("pose_%02d.obj");
   expect_deform(
       command + path("o_%d.obj") + pattern + " --rest " + rest + " --displacement " + path("d.npy"),
-      0, "4 points, 3 poses");
+      0, "4 vertices, 3 poses");
   for (int k = 1; k <= 3; ++k) {
     const auto output = path("o_" + std::to_string(k) + ".obj");
     ASSERT_TRUE(std::filesystem::exists(output));
@@ -216,7 +216,7 @@ TEST_F(DeformCommand, Sequences) {
   ASSERT_EQ(lengths.rows(), 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(lengths.row(k).sum(), 4 * (k + 1));
 
-  expect_deform(command + path("s%03d.obj") + " -q --cage " + path("pose_03.obj") + " --cage " +
+  expect_deform(command + path("s%03d.obj") + " -q --pose " + path("pose_03.obj") + " --pose " +
                     path("pose_01.obj"),
                 0, "");
   EXPECT_EQ(points_of<3>(path("s000.obj"))(0, 0), 3.25);
@@ -224,7 +224,7 @@ TEST_F(DeformCommand, Sequences) {
 
   expect_deform(command + path("o.obj") + pattern, 1, "there are 3 poses");
   expect_deform(command + path("o%d_%d.obj") + pattern, 1, "one %d");
-  expect_deform(command + path("o_%d.obj") + " --cage " + path("absent_%d.obj"), 4, "absent_0.obj");
+  expect_deform(command + path("o_%d.obj") + " --pose " + path("absent_%d.obj"), 4, "absent_0.obj");
   expect_deform(command + path("pose_%02d.obj") + pattern, 1, "would replace this input file");
 }
 
@@ -241,7 +241,7 @@ TEST_F(DeformCommand, Keyframes) {
   EXPECT_EQ(points_of<3>(path("o_1.obj")), 2 * model_points());
 
   const auto output = " -o " + path("k_%d.obj");
-  expect_deform(command + keys + " --cage " + rest + output, 1, "--cage");
+  expect_deform(command + keys + " --pose " + rest + output, 1, "--pose");
   const auto few = file("few.txt", "k 0\nc 0 0 0 0\n");
   expect_deform(command + few + " --rest " + rest + output, 2,
                 "few.txt: the keyframes are for 1 control points, but the rest cage has 4");
@@ -249,8 +249,7 @@ TEST_F(DeformCommand, Keyframes) {
   expect_deform(command + uneven + " --rest " + rest + output, 2,
                 "keyframe 1 has 1 control points, keyframe 0 has 4");
   const auto none = file("none.txt", "k 0\nk 1\n" + zeros);
-  expect_deform(command + none + " --rest " + rest + output, 2,
-                "keyframe 1 has no displacements");
+  expect_deform(command + none + " --rest " + rest + output, 2, "keyframe 1 has no displacements");
   const auto back = file("back.txt", "k 1.5\n" + zeros + "# then\nk 0.5\nc 1 0 0 0\n");
   expect_deform(command + back + " --rest " + rest + output, 2,
                 "back.txt:7: keyframe 1 at 0.5 comes before keyframe 0 at 1.5");
@@ -264,7 +263,7 @@ TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
   const auto model = file("model.obj", kModel);
   PointList<3> points = model_points();
   points(1, 2) += 1e-3;
-  const auto command = model + " --weights " + linear_weights(points) + " --cage " + rest + " -o " +
+  const auto command = model + " --weights " + linear_weights(points) + " --pose " + rest + " -o " +
                        path("o.obj") + " -q";
   expect_deform(command + " --rest " + rest, 2,
                 "w.npy: the weights do not belong to this model: with " + rest +
@@ -283,31 +282,32 @@ TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
     expect_deform(arguments, status, words);
     EXPECT_FALSE(std::filesystem::exists(path("o.obj")));
   };
-  refused(model + weights + " --cage " + sample("3d/limb_cage.obj") + output, 2,
+  refused(model + weights + " --pose " + sample("3d/limb_cage.obj") + output, 2,
           "w.npy: has weights for 4 control points, but " + sample("3d/limb_cage.obj") + " has 54");
-  refused(cage + weights + " --cage " + cage + " --cage " + sample("3d/limb_cage.obj") + " -o " +
+  refused(cage + weights + " --pose " + cage + " --pose " + sample("3d/limb_cage.obj") + " -o " +
               path("o_%d.obj"),
           2, "limb_cage.obj has 54");
   EXPECT_FALSE(std::filesystem::exists(path("o_0.obj")));
-  refused(sample("3d/limb_model.obj") + weights + " --cage " + cage + output, 2,
+  refused(sample("3d/limb_model.obj") + weights + " --pose " + cage + output, 2,
           "w.npy: has weights of 4 points, but " + sample("3d/limb_model.obj") + " has 3352");
-  refused(model + weights + " --cage " + cage + " -o " + model, 1, "would replace this input file");
-  refused(model + weights + " --cage " + cage + " -o " + path("o.vtu"), 1,
-          "o.vtu: " + model + " holds polygons, so that the result must end in .obj, .off, .ply");
-  refused(path("model.vtk") + weights + " --cage " + cage + output, 1,
-          "model.vtk: cannot tell the format");
-  refused(model + weights + " --cage " + cage + " -o " + path("o.vtk"), 1, "o.vtk: cannot tell");
-  refused(file("model.ply", "ply\n") + weights + " --cage " + cage + " -o " + path("o.ply"), 2,
+  refused(model + weights + " --pose " + cage + " -o " + model, 1, "would replace this input file");
+  refused(model + weights + " --pose " + cage + " -o " + path("o.vtu"), 1,
+          "o.vtu: " + model + " holds polygons; the result must end in .obj, .off, .ply");
+  refused(path("model.vtk") + weights + " --pose " + cage + output, 1,
+          "model.vtk: unknown file format");
+  refused(model + weights + " --pose " + cage + " -o " + path("o.vtk"), 1,
+          "o.vtk: unknown file format");
+  refused(file("model.ply", "ply\n") + weights + " --pose " + cage + " -o " + path("o.ply"), 2,
           "model.ply:2: the header of the PLY file has no end");
-  refused(path("missing.obj") + weights + " --cage " + cage + output, 4, "missing.obj");
-  refused(model + weights + " --cage " + cage + " -o " + path("absent/o.obj"), 4, "absent");
+  refused(path("missing.obj") + weights + " --pose " + cage + output, 4, "missing.obj");
+  refused(model + weights + " --pose " + cage + " -o " + path("absent/o.obj"), 4, "absent");
   refused(file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//2\n") + weights +
-              " --cage " + cage + output,
+              " --pose " + cage + output,
           2, "bad.obj:5: the index 2 is out of range; normals are numbered 1 to 1");
   // The .ele file would come to lie over the one that is read.
   const auto node = file("mesh.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
   const auto ele = file("mesh.ele", "1 4 0\n0 0 1 2 3\n");
-  refused(node + weights + " --cage " + cage + " -o " + ele, 1, "would replace this input file");
+  refused(node + weights + " --pose " + cage + " -o " + ele, 1, "would replace this input file");
 }
 
 }  // namespace

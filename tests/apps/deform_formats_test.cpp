@@ -95,13 +95,13 @@ void DeformFormats::expect_formats_move() const {
     const auto before = read_by_openmesh(model, attributes_of(name));
     const auto command = model + " --weights " + weights_of<Dim>(model) + " --rest " + rest;
     const auto same = path("same." + io::extension_of(name));
-    EXPECT_EQ(deform(command + " --cage " + rest + " -q -o " + same).errors, "");
+    EXPECT_EQ(deform(command + " --pose " + rest + " -q -o " + same).errors, "");
     EXPECT_EQ(slurp(same), slurp(model));
 
     for (const std::string extension : {"obj", "off", "ply", "om"}) {
       SCOPED_TRACE(extension);
       const auto output = path("moved." + extension);
-      deform(command + " --cage " + pose + " -o " + output);
+      deform(command + " --pose " + pose + " -o " + output);
       const auto wanted = io::extension_of(name) == "stl" ? Options() : attributes_of(name);
       const auto after = read_by_openmesh(output, wanted);
       PointList<3> expected = points_of(before);
@@ -117,7 +117,7 @@ void DeformFormats::expect_formats_move() const {
       }
     }
     const auto output = path("moved.stl");
-    deform(command + " --cage " + pose + " -o " + output);
+    deform(command + " --pose " + pose + " -o " + output);
     EXPECT_EQ(read_by_openmesh(output, Options()).n_vertices(), before.n_vertices());
   }
 }
@@ -135,7 +135,7 @@ TEST_F(DeformFormats, WhatIsLostIsToldOnce) {
                           "v 0.25 0.5 0.25\nvn 0 0 1\nf 1//1 2//1 3//1\n");
   const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto command =
-      model + " --weights " + weights_of<3>(model) + " --cage " + rest + " --cage " + rest + " -o ";
+      model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + rest + " -o ";
   const auto errors = deform(command + path("o%d.ply")).errors;
   const auto told = "flbc: " + path("o%d.ply") + " does not keep all of " + model +
                     "; lost: lines with \"mtllib\", comments\n";
@@ -160,7 +160,7 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
   simplex<3>("pose_2.obj", 2 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto model = write(mesh, "a.ply");
   const auto command = model + " --weights " + weights_of<3>(model) + " --rest " + rest +
-                       " --cage " + path("pose_%d.obj") + " --show-displacement --displacement " +
+                       " --pose " + path("pose_%d.obj") + " --show-displacement --displacement " +
                        path("d.npy") + " -o ";
   const PointList<3> points = points_of(mesh);
   Eigen::Index farthest = 0;
@@ -172,7 +172,7 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
     std::ostringstream value;
     value << "; shown from 0 (near white) to " << largest << " (dark red)\n";
     EXPECT_NE(errors.find(value.str()), std::string::npos) << errors;
-    EXPECT_NE(errors.find("colours (they show the displacement)"), std::string::npos) << errors;
+    EXPECT_NE(errors.find("colors (they show the displacement)"), std::string::npos) << errors;
     std::vector<OpenMeshModel> shown;
     for (int k = 0; k < 3; ++k) {
       shown.push_back(read_by_openmesh(path("o_" + std::to_string(k) + "." + extension)));
@@ -208,7 +208,7 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
 TEST_F(DeformFormats, NothingMovesNothingIsShown) {
   const auto rest = simplex<2>("rest.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());
   const auto model = file("a.obj", "v 0.25 0.25 1\nv 0.5 0.25 1\nv 0.25 0.5 1\nf 1 2 3\n");
-  deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --cage " + rest +
+  deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --pose " + rest +
          " --show-displacement -o " + path("o.off"));
   const auto shown = read_by_openmesh(path("o.off"), Options(Options::VertexColor));
   for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(247, 248, 250));
@@ -244,7 +244,7 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
     io::write_domain(path(names[0]), mesh, {{"displacement", other}, {"other", other}});
     for (const auto& name : names) {
       const auto output = path("o_" + name);
-      deform(path(names[0]) + " --weights " + path("w.npy") + " --rest " + rest + " --cage " +
+      deform(path(names[0]) + " --weights " + path("w.npy") + " --rest " + rest + " --pose " +
              pose + " --show-displacement -o " + output);
       expect_fields<Dim>(output, 2 * mesh.points.colwise().norm().transpose(), other);
     }
@@ -253,7 +253,7 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
   check(std::integral_constant<int, 3>(), {"m.mesh", "n.vtu"});
   const auto refused =
       deform(path("m.mesh") + " --weights " + path("w.npy") + " --rest " + path("rest.obj") +
-                 " --cage " + path("pose.obj") + " --show-displacement -o " + path("o.msh"),
+                 " --pose " + path("pose.obj") + " --show-displacement -o " + path("o.msh"),
              1);
   EXPECT_NE(refused.errors.find("o.msh: cannot show displacements"), std::string::npos);
   // A 2D mesh becomes a coloured model as well; its fields have no place there.
@@ -265,7 +265,7 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
   weights << 1 - mesh.points.colwise().sum().array(), mesh.points;
   io::write_weights(path("w.npy"), weights);
   const auto result = deform(path("p.vtu") + " --weights " + path("w.npy") + " --rest " + rest +
-                             " --cage " + pose + " --show-displacement -o " + path("p.ply"));
+                             " --pose " + pose + " --show-displacement -o " + path("p.ply"));
   EXPECT_NE(result.errors.find("field \"other\""), std::string::npos) << result.errors;
   const auto shown = read_by_openmesh(path("p.ply"), Options(Options::VertexColor));
   for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(118, 18, 36));
@@ -280,7 +280,7 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
     expect("convert " + sample(name + "_model.obj") + " -o " + model);
     expect("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
            " --model " + model);
-    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --cage " +
+    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --pose " +
                          sample(name + "_cage_pose.obj") + " -q -o ";
     EXPECT_EQ(deform(command + path("o.stl")).errors, "");
     EXPECT_EQ(deform(command + path("o.ply")).errors, "");
@@ -298,7 +298,7 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
   io::write_weights(path("w.npy"), weights);
   const auto cage = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   EXPECT_EQ(
-      deform(odd + " --weights " + path("w.npy") + " --cage " + cage + " -q -o " + path("p.stl"))
+      deform(odd + " --weights " + path("w.npy") + " --pose " + cage + " -q -o " + path("p.stl"))
           .errors,
       "");
   EXPECT_EQ(run("info " + odd).output.find(odd + ": 5 vertices"), 0U);
@@ -311,7 +311,7 @@ TEST_F(DeformFormats, NothingIsHalfWritten) {
   const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto far = simplex<3>("far.obj", 1e300 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto command =
-      model + " --weights " + weights_of<3>(model) + " --cage " + rest + " --cage " + far + " -o ";
+      model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + far + " -o ";
   const auto result = deform(command + path("o_%d.ply"), 2);
   EXPECT_NE(result.errors.find("o_1.ply: coordinate x of vertex 0 would be too large"),
             std::string::npos)
@@ -324,7 +324,7 @@ TEST_F(DeformFormats, NothingIsHalfWritten) {
                         "v 0.25 0.25 0\nv 0.25 0.25 0.25\nv 0.5 0.25 0.25\nv 0.25 0.5 0.25\n"
                         "v 0 0.25 0.25\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
   const auto fans = fan + " --weights " + weights_of<3>(write(box_with_attributes(), "a.obj")) +
-                    " --cage " + rest;
+                    " --pose " + rest;
   WeightMatrix weights(4, 5);
   weights.setConstant(0.25);
   io::write_weights(path("w.npy"), weights);

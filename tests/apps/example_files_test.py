@@ -46,7 +46,7 @@ def moved_by_program(flbc, cage, pose, model, out):
     """The model as `flbc deform` moves it."""
     weights, moved = out / "judge.npy", out / "judge.off"
     run(flbc, "solve", cage, "--model", model, "--vertices", 2000, "-o", weights)
-    run(flbc, "deform", model, "--weights", weights, "--cage", pose, "-o", moved)
+    run(flbc, "deform", model, "--weights", weights, "--pose", pose, "-o", moved)
     return [row[:3] for row in read_off(moved)[0]]
 
 

@@ -137,8 +137,9 @@ TEST(SurfaceOfModel, WhatNobodySeesIsLeftOut) {
   EXPECT_EQ(surface.triangles.cols(), 12);
   soup.polygons = {{1, 1, 2}};
   expect_error<InputError>([&] { gltf::surface_of_model<3>({soup}); },
-                           {"no triangle among its 1 polygons"});
-  expect_error<InputError>([&] { gltf::surface_of_model<2>({}); }, {"among its 0 polygons"});
+                           {"its 1 polygons contain no triangle"});
+  expect_error<InputError>([&] { gltf::surface_of_model<2>({}); },
+                           {"its 0 polygons contain no triangle"});
 }
 
 TEST(SurfaceOfModel, TrianglesWithoutAreaHaveANormalToo) {

@@ -33,20 +33,47 @@ class HelpCommands : public CommandLineTest {
   // By the program's own help.
   Words commands() const {
     const auto help = run("--help").output;
-    auto words = found_in(help.substr(help.find("Subcommands:")), R"(\n  ([a-z]+) +[A-Z])");
+    auto words = found_in(help.substr(help.find("Commands:")), R"(\n  ([a-z]+) +[a-z])");
     EXPECT_GE(words.size(), 16U) << help;
     return words;
   }
   Words options_of(const std::string& command) const {
-    // Of commands that have more options than --help shows.
-    const auto all = run(command + " --help-all");
-    const auto help = all.status == 0 ? all.output : run(command + " --help").output;
+    const auto help = run(command + " --help-all").output;
     // Lines of options begin with their names: "  -o,--output FILE"
     auto words = found_in(help, R"(\n  (?:-[a-zA-Z],)?(--[a-z-]+))");
     const auto shorts = found_in(help, R"(\n  (-[a-zA-Z]),)");
     words.insert(shorts.begin(), shorts.end());
     EXPECT_GE(words.size(), 2U) << help;
     return words;
+  }
+
+  std::string expect_help(const std::string& arguments) const {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 0) << arguments << result.errors;
+    return result.output;
+  }
+
+  // What --help says of options and arguments, wrapped lines joined.
+  static std::vector<std::string> texts_of(const std::string& help) {
+    const std::regex entry(R"(  \S.*?  +(\S.*))"), name_only(R"(  -\S.*)"), more(R"( {30}(\S.*))");
+    std::vector<std::string> texts;
+    std::istringstream lines(help);
+    bool is_open = false, is_new = false;
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch match;
+      if (std::regex_match(line, match, more) && is_open) {
+        if (is_new) texts.emplace_back(match[1]);
+        if (!is_new) texts.back() += " " + match[1].str();
+        is_new = false;
+      } else if (std::regex_match(line, match, entry)) {
+        texts.emplace_back(match[1]);
+        is_open = true;
+        is_new = false;
+      } else {
+        is_open = is_new = std::regex_match(line, name_only);
+      }
+    }
+    return texts;
   }
 
   // The completions by bash of the last of these words.
@@ -95,6 +122,84 @@ TEST_F(HelpCommands, FewOptionsAreShownUnlessAllAreAskedFor) {
     }
   }
   expect("solve cage.obj --precision half -o w.npy", 1);
+}
+
+// docs/contributing/style.md: short lines, and none of the phrases that readers stumble over.
+TEST_F(HelpCommands, TextsFitAndReadPlainly) {
+  const std::regex habit(
+      R"(\b(beside|by itself|by themselves|tells?|told|stands?|whoever|what becomes|mend(s|ed)?)\b)"
+      R"(|to the bit|same bits|by a hair|\bround (a|an|the|its)\b|\bis none\b|as it takes|\d %)"
+      R"(|Excludes|Needs:|colour|neighbour)",
+      std::regex::icase);
+  auto arguments = commands();
+  ASSERT_GE(arguments.size(), 16U);
+  arguments.insert("");
+  for (const auto& command : arguments) {
+    for (const std::string option : {" --help", " --help-all"}) {
+      if (command.empty() && option == " --help-all") continue;
+      const auto help = expect_help(command + option);
+      std::istringstream lines(help);
+      std::size_t count = 0;
+      for (std::string line; std::getline(lines, line); ++count) {
+        EXPECT_LE(line.size(), 100U) << command << option << ": " << line;
+        EXPECT_FALSE(std::regex_search(line, habit)) << command << option << ": " << line;
+      }
+      if (command.empty()) EXPECT_LT(count, 40U) << "does not fit on a screen";
+      EXPECT_EQ(help.find(FLBC_PROGRAM), std::string::npos) << "the path of the program";
+      // Texts of options and arguments are phrases: lower case, no period at the end.
+      for (const auto& text : texts_of(help)) {
+        EXPECT_TRUE(text[0] < 'A' || text[0] > 'Z') << command << option << ": " << text;
+        EXPECT_NE(text.back(), '.') << command << option << ": " << text;
+      }
+    }
+  }
+}
+
+// Names that options had before still work, and --help does not show them.
+TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
+  const std::pair<std::string, std::string> uses[] = {
+      {"run c.obj --keyframes k.txt -o out", "--deformed"},
+      {"deform m.obj --weights w.npy --rest c.obj --keyframes k.txt -o o.obj", "--cage"},
+      {"export m.obj --weights w.npy --cage c.obj --keyframes k.txt -o o.glb", "--cages"}};
+  for (const auto& [use, old_name] : uses) {
+    const auto options = options_of(use.substr(0, use.find(' ')));
+    EXPECT_EQ(options.count("--pose"), 1U) << use;
+    EXPECT_EQ(options.count(old_name), 0U) << use;
+    for (const auto& pose : {" --pose x.obj", " --pose=x.obj"}) {
+      const auto renamed = std::regex_replace(std::string(pose), std::regex("--pose"), old_name);
+      const auto refused = expect(use + renamed, 1, "cannot be combined with");
+      EXPECT_EQ(refused.errors, run(use + pose).errors);
+    }
+  }
+  const auto cage = tetrahedron();
+  const auto model = file("model.obj", "v 0.25 0.25 0.25\n");
+  const auto deform = "deform " + model + " --weights " +
+                      linear_weights(PointList<3>::Constant(3, 1, 0.25)) + " -q -o ";
+  expect(deform + path("new.obj") + " --pose " + cage);
+  expect(deform + path("old.obj") + " --cage " + cage);
+  expect(deform + path("equal.obj") + " --cage=" + cage);
+  EXPECT_NE(slurp(path("new.obj")), "");
+  EXPECT_EQ(slurp(path("old.obj")), slurp(path("new.obj")));
+  EXPECT_EQ(slurp(path("equal.obj")), slurp(path("new.obj")));
+}
+
+// The pages of the site have a table of commands, and of each its arguments and options.
+TEST_F(HelpCommands, PagesInMarkdown) {
+  expect("man --folder " + path("help"));
+  const auto index = slurp(path("help/index.md"));
+  EXPECT_EQ(index.find("# "), 0U) << index;
+  for (const auto& command : commands()) {
+    EXPECT_NE(index.find("](" + command + ".md)"), std::string::npos) << command;
+    const auto page = slurp(path("help/" + command + ".md"));
+    EXPECT_EQ(page.find("# flbc " + command + "\n\n"), 0U) << page;
+    EXPECT_NE(page.find("\n```\nflbc " + command + " "), std::string::npos) << page;
+    EXPECT_NE(page.find("](../exit_status.md)"), std::string::npos) << page;
+    for (const auto& option : options_of(command)) {
+      EXPECT_TRUE(std::regex_search(page, std::regex("\n\\| .*`" + option + "[` ].* \\| .* \\|\n")))
+          << command << ' ' << option;
+    }
+  }
+  EXPECT_NE(slurp(path("help/solve.md")).find("\n## More options\n\n| "), std::string::npos);
 }
 
 TEST_F(HelpCommands, PagesAreWithoutWarnings) {

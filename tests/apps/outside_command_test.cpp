@@ -17,8 +17,8 @@ class OutsideCommand : public CommandLineTest {
   }
   // A triangle, two of whose corners are outside by so much.
   std::string model(const std::string& distance) const {
-    return file("model.obj", "v 0.5 0.5 0\nv 0.3 -" + distance + " 0\nv -" + distance +
-                                 " 0.6 0\nf 1 2 3\n");
+    return file("model.obj",
+                "v 0.5 0.5 0\nv 0.3 -" + distance + " 0\nv -" + distance + " 0.6 0\nf 1 2 3\n");
   }
   std::string solve(const std::string& options) const {
     return "solve " + square() + " --vertices 300 --model " + path("model.obj") + " -o " +
@@ -47,11 +47,11 @@ TEST_F(OutsideCommand, AHairHasOneAnswer) {
     EXPECT_EQ(report("out/report.json")["solve"]["outside"]["on_cage"]["count"], 2);
   }
   const auto of = model("0.00001");
-  EXPECT_NE(run("check " + square() + " --model " + of).output.find("2 of 3 points lie outside"),
+  EXPECT_NE(run("check " + square() + " --model " + of).output.find("2 of 3 vertices are outside"),
             std::string::npos);
   for (const auto& command :
        {solve(""), "run " + square() + ' ' + of + " --vertices 300 -q -o " + path("none")}) {
-    const auto refused = expect(command, 2, "2 of 3 points lie outside the cage");
+    const auto refused = expect(command, 2, "2 of 3 vertices are outside the cage");
     EXPECT_NE(refused.errors.find("--outside nearest"), std::string::npos);
   }
 }
@@ -74,7 +74,7 @@ TEST_F(OutsideCommand, EmbeddingTakesModelsAsTheyAre) {
   EXPECT_NE(domain.find("v 0.5 0.5"), std::string::npos);
   EXPECT_NE(domain.find("v 0.25 0.75"), std::string::npos);
   model("0.01");
-  expect(solve("--embed"), 2, "2 of 3 points lie outside the cage, the farthest is vertex");
+  expect(solve("--embed"), 2, "2 of 3 vertices are outside the cage; the farthest is vertex");
 }
 
 TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
@@ -91,9 +91,9 @@ TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
   expect(solve("--outside extend"));
   const auto extended = io::read_weights(path("w.npy"));
   EXPECT_NEAR(extended.col(1).sum(), 1, 1e-12);
-  EXPECT_NEAR(extended(1, 1) + extended(2, 1), 0.3, 1e-12);   // x
+  EXPECT_NEAR(extended(1, 1) + extended(2, 1), 0.3, 1e-12);    // x
   EXPECT_NEAR(extended(2, 1) + extended(3, 1), -0.25, 1e-12);  // y
-  expect("deform " + of + " --weights " + path("w.npy") + " --cage " + square() + " --rest " +
+  expect("deform " + of + " --weights " + path("w.npy") + " --pose " + square() + " --rest " +
          square() + " -q -o " + path("moved.obj"));
   const auto to = " --vertices 300 -q -o " + path("out");
   expect("run " + square() + ' ' + of + " --outside nearest" + to);

@@ -67,7 +67,7 @@ TYPED_TEST_SUITE(PartsCommand, Dimensions);
 TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
   constexpr int n = 1 << TypeParam::value;
   const auto cage = this->both();
-  EXPECT_NE(this->expect("check " + cage, 0).output.find("each part is solved by itself"),
+  EXPECT_NE(this->expect("check " + cage, 0).output.find("each part is solved on its own"),
             std::string::npos);
   this->expect("solve " + cage + this->vertices() + "--certify --save-domain " + this->domain() +
                    " -o " + this->path("w.npy") + " --report " + this->path("report.json"),
@@ -123,14 +123,14 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   const auto pose = this->file("pose.obj", text_of(moved));
   const auto out = this->path("out");
   this->expect(
-      "run " + cage + ' ' + of + this->vertices() + "--certify --deformed " + pose + " -o " + out,
-      0, ", 2 parts");
+      "run " + cage + ' ' + of + this->vertices() + "--certify --pose " + pose + " -o " + out, 0,
+      ", 2 parts");
   const auto report = this->report("out/report.json");
   EXPECT_TRUE(report["check"]["fine"]);
   EXPECT_EQ(report["solve"]["parts"].size(), 2u);
   // The small part stays where it is, the large one moves by 1.
   const auto weights = out + "/weights.npy";
-  this->expect("deform " + of + " --weights " + weights + " --cage " + pose + " --rest " + cage +
+  this->expect("deform " + of + " --weights " + weights + " --pose " + pose + " --rest " + cage +
                    " -o " + this->path("moved.obj"),
                0);
   std::istringstream before(slurp(of)), after(slurp(this->path("moved.obj")));
@@ -183,7 +183,7 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
   };
   this->expect(
       solve("fail"), 2,
-      std::to_string(n / 2) + " of " + std::to_string(2 * n) + " points lie outside the cage");
+      std::to_string(n / 2) + " of " + std::to_string(2 * n) + " vertices are outside the cage");
   for (const std::string policy : {"nearest", "extend"}) {
     this->expect(solve(policy), 0, "vertices outside the cage");
     const auto weights = io::read_weights(this->path("w.npy"));

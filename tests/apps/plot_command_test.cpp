@@ -83,7 +83,7 @@ TEST_F(PlotCommand, RefusesWhatIsNoHistory) {
   };
   expect(plot(path("plain.json")), 2, "plain.json: has no history");
   expect(plot(path("absent.json")), 4, "absent.json");
-  expect(plot(file("text.json", "no json")), 2, "text.json: is no report");
+  expect(plot(file("text.json", "no json")), 2, "text.json: not a report");
   expect(plot(file("list.json", "[1, 2]")), 2, "list.json: has no history");
   const std::string damaged = "{\"history\": {\"iterations\": [1, 2], \"finer_levels\": [0]}}";
   expect(plot(file("bad.json", damaged)), 2, "bad.json: the history is damaged");

@@ -33,7 +33,7 @@ TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
       }
       EXPECT_GT(done, level == 0 ? 0.99 : 0.02);
     }
-    EXPECT_NE(estimate.line("", seconds).find("100 %"), std::string::npos);
+    EXPECT_NE(estimate.line("", seconds).find("100%"), std::string::npos);
     // Nothing tells of what comes after the iteration.
     EXPECT_EQ(estimate.line("", seconds + 1000).substr(0, 9), "finishing");
   }
@@ -44,13 +44,13 @@ TEST(ProgressEstimate, StagesTellTheTimeThatIsLeft) {
   estimate.update_stage("measuring distances", 0, 10);
   estimate.update_stage("measuring distances", 0.25, 13);
   EXPECT_EQ(estimate.line("setting up", 13),
-            "measuring distances [#####...............] 25 %, 9 s left");
+            "measuring distances [#####...............] 25%, 9 s left");
   estimate.update_stage("measuring distances", 0.2, 14);  // nothing is taken back
-  EXPECT_NE(estimate.line("setting up", 14).find("25 %"), std::string::npos);
+  EXPECT_NE(estimate.line("setting up", 14).find("25%"), std::string::npos);
   estimate.update({1, 100, 0, 0, {}}, 20);
   EXPECT_EQ(estimate.line("", 20).substr(0, 7), "solving");
   estimate.update_stage("proving the gap", 0.5, 30);
-  EXPECT_EQ(estimate.line("", 32), "proving the gap [##########..........] 50 %, 2 s left");
+  EXPECT_EQ(estimate.line("", 32), "proving the gap [##########..........] 50%, 2 s left");
 }
 
 TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
@@ -59,7 +59,7 @@ TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
     estimate.update({10 * k + 1, std::pow(10.0, 10 - k / 10.0), 0, 0, {}}, 5.0 + k);
   }
   // Half of the way of the logarithm took 50 s.
-  EXPECT_NE(estimate.line("", 55).find("50 %, 50 s left"), std::string::npos)
+  EXPECT_NE(estimate.line("", 55).find("50%, 50 s left"), std::string::npos)
       << estimate.line("", 55);
 }
 

@@ -21,7 +21,7 @@ cd "$work"
 "$flbc" solve meshes/3d/limb_cage.obj --method harmonic --vertices 800 -q -o limb/weights.npy \
   --model meshes/3d/limb_model.obj
 "$flbc" deform meshes/3d/limb_model.obj --weights limb/weights.npy -q -o deformed.obj \
-  --cage meshes/3d/limb_cage_pose.obj
+  --pose meshes/3d/limb_cage_pose.obj
 {
   awk '/^```python$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$repository/README.md"
   echo 'rows = [line.split()[1:4] for line in open("deformed.obj") if line.startswith("v ")]'

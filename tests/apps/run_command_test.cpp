@@ -74,12 +74,13 @@ class RunCommand : public CommandLineTest {
     const auto pose = sample(name + "_cage_pose.obj");
     const std::string solver = " --tolerance 1e-4";
     const auto result = run_into(
-        "out", cage + " " + model + " --deformed " + pose + " -k 6" + solver + " --vertices 1500");
+        "out", cage + " " + model + " --pose " + pose + " -k 6" + solver + " --vertices 1500");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
-    const Names expected{domain,         "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                         "deformed.obj", "model.glb",   "model_8.glb",        "function.png",
-                         "deformation.png", "model.html", "report.json"};
+    const Names expected{
+        domain,       "weights.npy", "domain_weights.npy", "sparse_weights.mtx", "deformed.obj",
+        "model.glb",  "model_8.glb", "function.png",       "deformation.png",    "model.html",
+        "report.json"};
     EXPECT_EQ(names_in("out"), expected);
     for (const auto& file : expected) {
       EXPECT_NE(result.errors.find("  " + file + ' '), std::string::npos) << file;
@@ -95,13 +96,13 @@ class RunCommand : public CommandLineTest {
     expect_same("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
                     " -k 6 --method poisson --pose " + pose,
                 "s.mtx", "out/sparse_weights.mtx", " --report " + path("sparsify.json"));
-    expect_same("deform " + model + " --weights " + path("s.mtx") + " --cage " + pose, "m.obj",
+    expect_same("deform " + model + " --weights " + path("s.mtx") + " --pose " + pose, "m.obj",
                 "out/deformed.obj");
     expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
-                    " --fps 1 --cages " + cage + " " + pose,
+                    " --fps 1 --pose " + cage + " " + pose,
                 "m.glb", "out/model_8.glb");
     expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
-                    " -k 4 --fps 1 --cages " + cage + " " + pose,
+                    " -k 4 --fps 1 --pose " + cage + " " + pose,
                 "m4.glb", "out/model.glb");
     expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
                     " --control-point " + json["pictures"]["control_point"].dump(),
@@ -110,7 +111,7 @@ class RunCommand : public CommandLineTest {
     // All reports are in one.
     EXPECT_EQ(json["sparsify"]["error"],
               nlohmann::json::parse(slurp(path("sparsify.json")))["error"]);
-    EXPECT_EQ(json["sparsify"]["after"]["max_influences"], 6);
+    EXPECT_EQ(json["sparsify"]["after"]["max_nonzeros"], 6);
     const auto solved = nlohmann::json::parse(slurp(path("solve.json")));
     EXPECT_EQ(json["solve"]["objective"], solved["objective"]);
     EXPECT_EQ(json["solve"]["converged"], true);
@@ -125,7 +126,8 @@ class RunCommand : public CommandLineTest {
     EXPECT_EQ(json["export"]["bytes"], fs::file_size(path("out/model.glb")));
     EXPECT_LE(json["export"]["max_influences"], 4);
     EXPECT_EQ(json["export"]["full"]["bytes"], fs::file_size(path("out/model_8.glb")));
-    for (const char* step : {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures", "page"})
+    for (const char* step :
+         {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures", "page"})
       EXPECT_GE(json["seconds"][step], 0) << step;
   }
 };
@@ -161,7 +163,7 @@ TEST_F(RunCommand, EveryModelIsReadOnce) {
     fs::copy_file(sample(name + "_model.obj"), model, fs::copy_options::overwrite_existing);
     const OpenCounter of_cage(cage), of_model(model);
     expect_run("once" + std::to_string(name[0]),
-               cage + " " + model + " --method harmonic " + "--vertices 1500 -q --deformed " +
+               cage + " " + model + " --method harmonic " + "--vertices 1500 -q --pose " +
                    sample(name + "_cage_pose.obj"),
                0, "");
     EXPECT_EQ(of_cage.count(), 1);
@@ -183,14 +185,15 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
     const auto pose = sample(name + "_cage_pose.obj");
     expect_run("out",
                sample(name + "_cage.obj") +
-                   " --vertices 1000 --method harmonic --non-negative project --deformed " + pose,
+                   " --vertices 1000 --method harmonic --non-negative project --pose " + pose,
                0, "of which");
     const auto domain = path("out/domain" + extension);
-    EXPECT_EQ(names_in("out"), (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
-                                      "deformed" + extension, "model.glb", "model_8.glb", "function.png",
-                                      "deformation.png", "model.html", "report.json"}));
+    EXPECT_EQ(names_in("out"),
+              (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
+                     "deformed" + extension, "model.glb", "model_8.glb", "function.png",
+                     "deformation.png", "model.html", "report.json"}));
     expect_same(
-        "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --cage " + pose,
+        "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --pose " + pose,
         "m" + extension, "out/deformed" + extension);
     fs::remove_all(path("out"));
   }
@@ -205,7 +208,7 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   file("out/deformed_009.obj", "mine, too");
   const auto common = cage + " " + sample("2d/figure_model.obj") + " --method harmonic " +
                       "--vertices 500 --sparsify quadratic";
-  expect_run("out", common + " --deformed " + path("pose_%d.obj"), 0, "3 poses; largest");
+  expect_run("out", common + " --pose " + path("pose_%d.obj"), 0, "3 poses; largest");
   auto names = names_in("out");
   for (const char* name : {"deformed_001.obj", "deformed_002.obj", "deformed_003.obj", "notes.txt",
                            "deformed_009.obj"}) {
@@ -215,7 +218,7 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   EXPECT_EQ(report("out")["deform"].size(), 3U);
 
   // The next run leaves nothing of this one, but what is not of this program.
-  expect_run("out", common + " --deformed " + path("pose_1.obj") + " " + path("pose_2.obj"), 0,
+  expect_run("out", common + " --pose " + path("pose_1.obj") + " " + path("pose_2.obj"), 0,
              "2 poses");
   names = names_in("out");
   EXPECT_EQ(names.count("deformed_000.obj"), 1U);
@@ -223,14 +226,14 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   // Nor does it remove what it reads itself.
   fs::copy_file(path("pose_2.obj"), path("out/deformed_001.obj"),
                 fs::copy_options::overwrite_existing);
-  expect_run("out", common + " --deformed " + path("out/deformed_001.obj"), 0, "largest");
+  expect_run("out", common + " --pose " + path("out/deformed_001.obj"), 0, "largest");
   EXPECT_EQ(slurp(path("out/deformed_001.obj")), pose);
   fs::remove(path("out/deformed_001.obj"));
-  expect_run("out", common, 0, "points");
+  expect_run("out", common, 0, "influences per vertex");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "model_8.glb", "function.png", "model.png", "model.html", "report.json",
-                   "notes.txt", "deformed_009.obj"}));
+                   "model.glb", "model_8.glb", "function.png", "model.png", "model.html",
+                   "report.json", "notes.txt", "deformed_009.obj"}));
   EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
 }
 
@@ -254,7 +257,7 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
         R"({"command": "run", "files": ["../precious.txt", "..", "", 7, "below.txt"]})",
         R"({"command": "run", "files": ["../precious.txt", "..", ".", "", "/", "report.json"]})"}) {
     file("out/report.json", report);
-    expect_run("out", common + " --force", 0, "points");
+    expect_run("out", common + " --force", 0, "influences per vertex");
     EXPECT_TRUE(fs::exists(path("precious.txt")));
     EXPECT_TRUE(fs::exists(path("out/below.txt")));
   }
@@ -299,14 +302,13 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
 
 TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   const auto cage = sample("2d/figure_cage.obj");
-  expect_run("out", cage + " -k 2", 1, "needs 3 control points");
+  expect_run("out", cage + " -k 2", 1, "at least 3 are needed");
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
-  expect_run("out", cage + " --fps 0.5", 1, "--fps requires --deformed");
+  expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
   expect_run("out", cage + " --sparsify best", 1, "invalid value 'best'");
-  expect_run("out", cage + " --deformed " + sample("2d/letter_cage.obj"), 2,
-             "has 24 vertices, but");
-  expect_run("out", cage + " --deformed " + path("no_%d.obj"), 4, "there is neither");
+  expect_run("out", cage + " --pose " + sample("2d/letter_cage.obj"), 2, "has 24 vertices, but");
+  expect_run("out", cage + " --pose " + path("no_%d.obj"), 4, "there is neither");
   expect_run("out", cage + " " + path("absent.obj"), 4, "absent.obj");
   file("file", "");
   EXPECT_FALSE(fs::exists(path("out")));

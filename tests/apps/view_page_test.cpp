@@ -216,7 +216,7 @@ TEST_F(ViewCommand, WritesAPageOfASample) {
     const auto arguments = sample_arguments(name);
     expect("view " + arguments + " --pose " + sample(name + "_cage_pose.obj") + " -k 4 -o " +
                path("p.html"),
-           0, "at most 4 influences per point (before ");
+           0, "at most 4 influences per vertex (before ");
     const auto content = content_of(testing::slurp(path("p.html")));
     EXPECT_EQ(content["poses"].size(), 1u);
     EXPECT_EQ(content["poses"][0]["time"], 1);

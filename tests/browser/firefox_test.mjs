@@ -105,7 +105,7 @@ async function testDrag(dim, name) {
   assert.notEqual(await page.picture(`${name}_moved.png`), before);
   const pose = join(work, `${name}_pose.obj`), posed = join(work, `${name}_posed.obj`);
   writeFileSync(pose, await page.ask("pose"));
-  execFileSync(program, ["deform", model, "--weights", join(work, `${name}.mtx`), "--cage", pose,
+  execFileSync(program, ["deform", model, "--weights", join(work, `${name}.mtx`), "--pose", pose,
                          "-q", "-o", posed]);
   assert.ok(largestDifference(moved, vertices(posed, dim)) <= 1e-6 * size,
             "flbc deform puts the model elsewhere");

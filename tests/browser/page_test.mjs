@@ -125,7 +125,7 @@ function countDifferent(a, b) {
 // What flbc deform makes of the model in a pose.
 function deformed(model, weights, pose, dim) {
   const output = join(work, "deformed.obj");
-  execFileSync(program, ["deform", model, "--weights", weights, "--cage", pose, "-q", "-o", output]);
+  execFileSync(program, ["deform", model, "--weights", weights, "--pose", pose, "-q", "-o", output]);
   return vertices(output, dim);
 }
 

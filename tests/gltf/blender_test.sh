@@ -23,7 +23,7 @@ for name in 2d/figure 3d/limb; do
   model=$meshes/${name}_model.obj
   "$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o weights.npy --model "$model"
   "$flbc" sparsify weights.npy --cage "$cage" --points "$model" -k 4 -q -o few.mtx
-  "$flbc" deform "$model" --weights few.mtx --cage "$pose" -q -o moved.obj
+  "$flbc" deform "$model" --weights few.mtx --pose "$pose" -q -o moved.obj
   "$flbc" export "$model" --weights few.mtx --cage "$cage" -k 4 -q -o skin.glb
   blender --background --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
     skin.glb "$cage" "$pose" moved.obj

@@ -80,7 +80,7 @@ keyframes() { # CAGE POSE
 # The weights of a model, and the poses in which flbc deform puts it with at most K of them.
 prepare() { # NAME MODEL CAGE POSE K
   "$flbc" sparsify "$1.npy" --cage "$3" --points "$2" -k "$5" -q -o "$1.$5.mtx"
-  "$flbc" deform "$2" --weights "$1.$5.mtx" --rest "$3" --cage "$4" -q -o "$1.$5.posed.${2##*.}"
+  "$flbc" deform "$2" --weights "$1.$5.mtx" --rest "$3" --pose "$4" -q -o "$1.$5.posed.${2##*.}"
 }
 
 export_skin() { # NAME MODEL CAGE OUTPUT [OPTIONS]
@@ -94,7 +94,7 @@ check_model() { # NAME MODEL CAGE POSE JOINTS [OPTIONS OF CHECK]
   local name=$1 model=$2 cage=$3 pose=$4 joints=$5 k
   for k in 4 8; do
     prepare "$name" "$model" "$cage" "$pose" $k
-    export_skin "$name" "$model" "$cage" "$name.$k.glb" -k $k --cages "$cage" "$pose" --fps 2
+    export_skin "$name" "$model" "$cage" "$name.$k.glb" -k $k --pose "$cage" "$pose" --fps 2
     local moved=$name.$k.posed.${model##*.}
     check "$name.$k.glb" --model "$model" --pose 0 "$model" --pose 0.5 "$moved" --slots $k \
       --joints "$joints" "${@:6}"
@@ -120,7 +120,7 @@ check keyframes.glb --model "$model" --pose 0.5 "$model" --pose 2 limb.8.posed.o
 for case in "16 1.2e-4" "8 3e-2"; do
   read -r bits tolerance <<<"$case"
   export_skin limb "$model" "$cage" "limb.$bits-bit.glb" --quantize "$bits" \
-    --cages "$cage" "$pose" --fps 1
+    --pose "$cage" "$pose" --fps 1
   check "limb.$bits-bit.glb" --model "$model" --pose 0 "$model" --pose 1 limb.8.posed.obj \
     --tolerance "$tolerance"
 done
@@ -128,7 +128,7 @@ done
 # ---- 3D: the boundary of a mesh, where most vertices have few influences -------------------------
 "$flbc" solve "$cage" --method harmonic --domain limb.node -q -o domain3.npy
 prepare domain3 limb.node "$cage" "$pose" 4
-export_skin domain3 limb.node "$cage" domain3.glb -k 4 --cages "$cage" "$pose" --fps 1
+export_skin domain3 limb.node "$cage" domain3.glb -k 4 --pose "$cage" "$pose" --fps 1
 check domain3.glb --model limb.node --pose 0 limb.node --pose 1 domain3.4.posed.node
 
 # ---- 3D: quadrangles with colours and a seam -----------------------------------------------------
@@ -147,7 +147,7 @@ printf 'newmtl green\nKd 0 1 0\nd 0.5\nnewmtl dot\nmap_Kd dot.png\n' >look.mtl
   grep '^f' globe.obj | awk 'NR == 1 { print "usemtl green" } NR == 60 { print "usemtl dot" } { print }'
 } >painted.obj
 # With eight slots: outside browsers three.js, which checks those of four, decodes no pictures.
-export_skin globe painted.obj cube.obj painted.glb -k 8 --cages cube.obj cube_pose.obj --fps 2
+export_skin globe painted.obj cube.obj painted.glb -k 8 --pose cube.obj cube_pose.obj --fps 2
 check painted.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture
 
 # ---- 2D: a sample, a mesh, and more joints than a byte can count ---------------------------------

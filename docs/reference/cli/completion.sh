@@ -1,0 +1,1 @@
+flbc completion bash >out/flbc.bash

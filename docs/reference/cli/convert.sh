@@ -1,0 +1,1 @@
+flbc convert out/weights.npy -o out/weights.mtx

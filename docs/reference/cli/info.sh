@@ -1,0 +1,1 @@
+flbc info out/weights.npy

@@ -1,0 +1,1 @@
+flbc man solve >out/flbc-solve.1

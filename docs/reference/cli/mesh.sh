@@ -1,0 +1,1 @@
+flbc mesh meshes/3d/limb_cage.obj --vertices 3000 -o out/domain.vtu

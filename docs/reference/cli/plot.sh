@@ -1,0 +1,1 @@
+flbc plot out/solve.json -o out/solve.svg
