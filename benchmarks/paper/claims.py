@@ -153,7 +153,8 @@ CLAIMS = [
      "zero", "conjecture1", lambda rows: extrema_at_optima(rows)[:1]),
     ("docs/results.md", "the one maximum is {} high", "conjecture1",
      lambda rows: extrema_at_optima(rows)[1:]),
-    ("docs/method.md", "`paper` stops with {} times the published error on logo, {} times on woody and {} "
+    ("docs/explanation/method/differences_from_papers.md",
+     "`paper` stops with {} times the published error on logo, {} times on woody and {} "
      "times on cactus", "paper_details", stops_at_published_scale),
     ("docs/results.md", "so the worst, {}, is a fitted figure", "tolerance", worst_promise),
 ]
