@@ -24,8 +24,8 @@ struct Certificate {
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
 //! Valid whatever the arguments are, with the rounding of the flux, of all sums and of the programs
 //! counted in; not that of the hat gradients and measures, some 1e-16 to 1e-15 relative
-//! (docs/method.md). Good if the flux is the dual of a solver that has nearly
-//! converged.
+//! (docs/explanation/method/certificate.md). Good if the flux is the dual of a solver that has
+//! nearly converged.
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, a vector per cell and control point, shortened to phi A where it is longer;
 //! vectors that are not finite count as 0

@@ -16,7 +16,9 @@ enum class Method {
   kAuto,      //!< the method recommended for most uses, at present kValue
   kValue,     //!< splitting on the weights in the metric of the continuous problem: the fastest
   kGradient,  //!< the paper's gradient ADMM, started from harmonic coordinates, over-relaxed
-  kPaper,  //!< the paper's gradient ADMM with its parameters (docs/method.md: what it leaves open)
+  //! The paper's gradient ADMM with its parameters. What the paper leaves open is in
+  //! docs/explanation/method/differences_from_papers.md.
+  kPaper,
   kLbc2014,   //!< the original solver (section 3 of the paper; Zhang et al. 2014)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison

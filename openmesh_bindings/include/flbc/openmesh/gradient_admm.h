@@ -38,11 +38,11 @@ struct GradientAdmmOptions {
 //!     G-step   g = mean of x + u, y + u, z + u, projected on (8)  cells (11)
 //!
 //! Each step updates its dual lambda relative to the extrapolated gradient e = 2 g - (g before)
-//! (docs/method.md, section 7). Then the dual is a tangential vector per facet or a vector of
-//! length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be stored. The
-//! gradients are those of the paper, iterate by iterate; tests/support/textbook_admm.h is the
-//! version with all copies. If the boundary has several components, each one after the first adds a
-//! period constraint (section 8).
+//! (docs/explanation/method/gradient_admm.md). Then the dual is a tangential vector per facet or a
+//! vector of length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be
+//! stored. The gradients are those of the paper, iterate by iterate;
+//! tests/support/textbook_admm.h is the version with all copies. If the boundary has several
+//! components, each one after the first adds a period constraint.
 //!
 //! The state is in the properties named below, in the units of the mesh. A new object on a mesh
 //! that has them resumes. A state for another cage with as many control points, or another penalty,
@@ -115,7 +115,8 @@ class GradientAdmm {
     if (!std::isfinite(change.dual + change.gradient)) {
       throw SolverError("GradientAdmm: the state on the mesh is not finite; call restart()");
     }
-    // The duals here lead those of the paper by a part that the G-step removes (method.md, 7).
+    // The duals here lead those of the paper by a part that the G-step removes
+    // (docs/explanation/method/gradient_admm.md).
     const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
     return {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
   }

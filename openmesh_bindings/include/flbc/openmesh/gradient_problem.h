@@ -15,7 +15,7 @@ template <int Dim>
 using VectorRows = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::RowMajor>;
 
 //! If the boundary has several components, (8)-(10) leave one constant per control point and
-//! further component open (docs/method.md, section 8). One condition each fixes it:
+//! further component open (docs/explanation/method/gradient_admm.md). One condition each fixes it:
 //! sum_s field_s . g_i(s) = values_i.
 template <int Dim>
 struct PeriodConstraint {

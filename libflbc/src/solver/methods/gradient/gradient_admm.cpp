@@ -184,7 +184,8 @@ double GradientAdmm<Scalar, Dim>::noted_change() const {
 template <class Scalar, int Dim>
 Residuals GradientAdmm<Scalar, Dim>::residuals(const Change& change) const {
   // The paper's duals, stepped with the new G, differ from the ones kept here by G_before - G, and
-  // that difference is orthogonal to what the G-step leaves (docs/method.md): Pythagoras.
+  // that difference is orthogonal to what the G-step leaves: Pythagoras
+  // (docs/explanation/method/gradient_admm.md).
   const double primal = relaxation_ == 1 ? change.dual - M_ * change.lead : change.dual;
   return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
 }

@@ -33,8 +33,8 @@ struct Residuals {
 //! Without over-relaxation the gradients here are the paper's G, iterate by iterate. But projecting
 //! on a constraint changes a vector only along the constrained direction, so writing the dual steps
 //! relative to the extrapolated gradients 2 G - G_before leaves one number per tangent direction of
-//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. docs/method.md
-//! derives it.
+//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows.
+//! docs/explanation/method/gradient_admm.md derives it.
 //!
 //! On domains with holes it has the period constraints besides, which the paper lacks.
 template <class Scalar, int Dim>
