@@ -80,7 +80,7 @@ def machine(context):
             processor = line.split(":", 1)[1].strip()
             break
     version = context.run([context.flbc, "--version"]).output.split("\n")[0]
-    return f"{processor}, {os.cpu_count()} cores; {context.threads} threads; {version}; single runs"
+    return f"{processor}, {os.cpu_count()} cores; {context.threads} threads; {version}"
 
 
 def comments(context, about):

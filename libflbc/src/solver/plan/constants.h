@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Every constant that a solve chooses by itself, with the measurement behind it. docs/results.md
+//! Every constant that a solve chooses by itself, with the measurement behind it. docs/benchmarks
 //! and docs/lab_book.md have the tables.
 #pragma once
 
