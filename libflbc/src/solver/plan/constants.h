@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Every constant that a solve chooses by itself, with the measurement behind it. docs/benchmarks
-//! and docs/lab_book.md have the tables.
+//! Every constant that a solve chooses on its own, with the measurement behind it. docs/benchmarks
+//! and docs/contributing/lab_book.md have the tables.
 #pragma once
 
 #include <cstddef>
