@@ -54,7 +54,7 @@ std::string version() {
   return text;
 }
 
-// Number of letters to change, insert, drop or swap with their neighbors.
+// Number of letters to change, insert, drop or swap with their neighbours.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)
 
 # An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that the
-# components with copyleft licenses may be in packages of their own.
+# components with copyleft licences may be in packages of their own.
 function(flbc_install_component component package)
   foreach(target IN LISTS ARGN)
     if(NOT TARGET ${target})

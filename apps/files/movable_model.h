@@ -24,7 +24,7 @@ constexpr std::initializer_list<io::Content> kMeshFiles = {
 struct MovedFile {
   std::string model;                //!< that is read
   std::string output;               //!< that is written, maybe with a place for a number
-  bool shows_displacement = false;  //!< as colors, or as a field in .vtu and .mesh
+  bool shows_displacement = false;  //!< as colours, or as a field in .vtu and .mesh
   bool is_anew = false;             //!< even into the format it has
 };
 
@@ -43,7 +43,7 @@ void require_formats_of(const MovedFile& file);
 std::vector<std::string> files_of_model(const std::string& path);
 
 //! A model or a mesh of the interior. Models are rewritten in place if the result has the same
-//! format and no new colors: then nothing is lost. All else is written anew.
+//! format and no new colours: then nothing is lost. All else is written anew.
 template <int Dim>
 class MovableModel {
  public:
@@ -73,7 +73,7 @@ class MovableModel {
   void print_losses() const;
 
   //! Writes it with other points (Dim x P). \param lengths  of the displacements (P) \param largest
-  //! length of all, which is shown in the last color; both of no interest unless they are shown
+  //! length of all, which is shown in the last colour; both of no interest unless they are shown
   //! \throws IoError, InputError
   void write(const std::string& path, const PointList<Dim>& points, const Eigen::VectorXd& lengths,
              double largest) const;

@@ -84,7 +84,7 @@ std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
       weights.row(control_point), control_point, options_of(run));
 }
 
-// The shape at rest and in the pose, colored by how far it moves; slices through the mesh of the
+// The shape at rest and in the pose, coloured by how far it moves; slices through the mesh of the
 // interior in place of one without triangles.
 std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
   const auto& shape = run.shape();

@@ -32,7 +32,7 @@ std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
   return points;
 }
 
-// Without neighbors there are no seams between them.
+// Without neighbours there are no seams between them.
 template <int Dim>
 bool uses_poisson(const Run<Dim>& run) {
   return run.arguments.reduction == kPoisson && !run.shape().edges.ends.empty();

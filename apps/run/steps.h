@@ -68,7 +68,7 @@ void export_shape(Run<Dim>& run);
 
 //! function.png: one coordinate function on the mesh, in 3D on slices. With poses also
 //! deformation.png: what the cage moves at rest and in the pose where it moves farthest; without
-//! them model.png: what it will move, colored by that function.
+//! them model.png: what it will move, coloured by that function.
 template <int Dim>
 void draw_pictures(Run<Dim>& run);
 

@@ -80,7 +80,7 @@ Json pack_weights(const SparseWeights& weights) {
           {"values", pack<float>(weights.values())}};
 }
 
-// From linear colors to the sRGB of pages.
+// From linear colours to the sRGB of pages.
 double to_srgb(double color) {
   constexpr double kGamma = 2.4;
   return color <= 0.0031308 ? 12.92 * color : 1.055 * std::pow(color, 1 / kGamma) - 0.055;
@@ -139,7 +139,7 @@ Json pack_cage(const ShownCage<Dim>& cage) {
           {"text", cage.text}};
 }
 
-// The colors of weights from 0 to 1, as in the pictures.
+// The colours of weights from 0 to 1, as in the pictures.
 std::string pack_palette() {
   constexpr int kColors = 256;
   std::vector<std::uint8_t> bytes;

@@ -7,7 +7,7 @@
 // reduce) or, with --frames, deform() by the property with deform() of SparseWeights on arrays, and
 // prints seconds or milliseconds of the last pair and the median of the pairs' ratios. With
 // --frames as many threads as there are cores spin at the end while deform() is timed again. A 3D
-// cage and model, as .obj. flbc_bench_bind_debug is the same without optimization, linked to the
+// cage and model, as .obj. flbc_bench_bind_debug is the same without optimisation, linked to the
 // same library: what a user's debug build sees.
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times how long it takes to find the edges, faces and neighbors of a tetrahedral mesh: cubes of a
+// Times how long it takes to find the edges, faces and neighbours of a tetrahedral mesh: cubes of a
 // grid cut into six tetrahedra, about 0.1, 0.3 and 1 million. Prints the best of the repetitions as
 // comma-separated values.
 //

@@ -41,7 +41,7 @@ double largest_difference(const std::vector<Eigen::VectorXd>& a,
   return largest;
 }
 
-// gradient and paper minimize without the constraint and project their rows onto it.
+// gradient and paper minimise without the constraint and project their rows onto it.
 NonNegative constraint_of(Method method) {
   const bool splits = method == Method::kValue || method == Method::kLbc2014;
   return splits ? NonNegative::kConstraint : NonNegative::kProject;

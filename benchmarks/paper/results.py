@@ -4,7 +4,7 @@
 import csv
 import math
 
-# Methods in the order of the tables: name in the files, name for readers, color, marker.
+# Methods in the order of the tables: name in the files, name for readers, colour, marker.
 METHODS = [
     ("lbc2014", "LBC 2014, penalty 10", "#9a9a9a", "s"),
     ("lbc2014-tuned", "LBC 2014, tuned penalty", "#3b3b3b", "D"),

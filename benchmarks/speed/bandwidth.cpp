@@ -75,7 +75,7 @@ std::string measure_deform(const ResultTable& table, double copy, Index num_poin
   WeightMatrix weights = WeightMatrix::Zero(kControlPoints, num_points);
   for (Index p = 0; p < num_points; ++p) {
     for (Index k = 0; k < kInfluences; ++k) {
-      // Of kInfluences neighboring control points, as local coordinates have it.
+      // Of kInfluences neighbouring control points, as local coordinates have it.
       const auto first = static_cast<Index>(std::int64_t(p) * kControlPoints / num_points);
       weights((first + k) % kControlPoints, p) = static_cast<double>(random() % 1000 + 1) / 8000;
     }

@@ -181,7 +181,7 @@ async function testReshaping(folder, name, dim) {
   assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
 }
 
-// Canceled while it is solved, a new shape leaves no trace.
+// Cancelled while it is solved, a new shape leaves no trace.
 async function testCancel() {
   const cage = join(meshes, "3d", "limb_cage.obj");
   const model = join(meshes, "3d", "limb_model.obj");

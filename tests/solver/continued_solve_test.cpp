@@ -165,7 +165,7 @@ TYPED_TEST(ContinuedSolveTest, RefusedOptionsChangeNothing) {
   EXPECT_TRUE(same_bits(solver.solution(), solve(sample.cage, sample.mesh, options)));
 }
 
-// A cage in meters and one in millimeters are solved alike by the same options.
+// A cage in metres and one in millimetres are solved alike by the same options.
 TYPED_TEST(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);

@@ -25,8 +25,8 @@ struct Judgement {
                                //!< coordinates in their cage facets
   Index control_points_found = 0;        //!< control points at which there is a mesh vertex
   Index boundary_vertices_off_cage = 0;  //!< boundary vertices that lie on no cage facet
-  std::vector<Index> local_minima;  //!< per control point: interior vertices below all neighbors
-  std::vector<Index> local_maxima;  //!< per control point: interior vertices above all neighbors
+  std::vector<Index> local_minima;  //!< per control point: interior vertices below all neighbours
+  std::vector<Index> local_maxima;  //!< per control point: interior vertices above all neighbours
 };
 
 //! \param weights  n x V

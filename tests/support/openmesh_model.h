@@ -114,7 +114,7 @@ inline void expect_same_faces(const OpenMeshModel& a, const OpenMeshModel& b) {
   }
 }
 
-//! That two meshes have the same of what `options` names: colors and texture coordinates.
+//! That two meshes have the same of what `options` names: colours and texture coordinates.
 inline void expect_same_paint(const OpenMeshModel& a, const OpenMeshModel& b,
                               const OpenMesh::IO::Options& options = all_attributes()) {
   ASSERT_EQ(a.n_vertices(), b.n_vertices());

@@ -22,7 +22,7 @@ export const kSurfaceShader = {
       texturePlace = textureCoordinate;
       ownColor = tint;
     }`,
-  // 0: the model's own color; 1: a value; 2: a texture.
+  // 0: the model's own colour; 1: a value; 2: a texture.
   fragment: `#version 300 es
     precision highp float;
     uniform int coloring;

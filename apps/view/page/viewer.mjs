@@ -35,7 +35,7 @@ export class Viewer {
     this.hovered = -1;
     this.time = 0;       // of the poses
     this.playing = null;
-    this.isStale = true;  // the cage or colors have changed since the model was moved
+    this.isStale = true;  // the cage or colours have changed since the model was moved
     this.isAwaited = false;
     this.milliseconds = -1;  // of the last step, which may be too short for the clock; none yet
     this.onState = () => {};

@@ -69,7 +69,7 @@ MirrorPlane find_symmetry(const PointList<Dim>& points, const FacetList<Dim>& fa
   return best;
 }
 
-// Coordinates in a facet of the centers of equal pieces.
+// Coordinates in a facet of the centres of equal pieces.
 template <int Dim>
 std::vector<Vector<Dim>> spread_coordinates() {
   constexpr int kPieces = 8;

@@ -90,7 +90,7 @@ bool fill_holes(Grid& grid) {
   return has_filled;
 }
 
-// Cells that touch in a corner only get a neighbor in common. \return whether there were any
+// Cells that touch in a corner only get a neighbour in common. \return whether there were any
 bool part_touching_corners(Grid& grid) {
   bool has_marked = false;
   for (Index j = 1; j < grid.height(); ++j) {

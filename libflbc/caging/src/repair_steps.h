@@ -44,7 +44,7 @@ void drop_repeated_facets(CageDraft<Dim>& draft);
 template <int Dim>
 void drop_flaps(CageDraft<Dim>& draft);
 
-//! Neighboring triangles become oriented alike, as most of their shell are. Nothing in 2D.
+//! Neighbouring triangles become oriented alike, as most of their shell are. Nothing in 2D.
 void orient_alike(CageDraft<2>& draft);
 void orient_alike(CageDraft<3>& draft);
 

@@ -29,11 +29,11 @@ template <int Dim>
 struct MeshCheck {
   Index interior_vertices = 0;  //!< number of vertices off the boundary
   //! Per control point, the interior vertices at which w_i is below, or above, its values at all
-  //! neighbors by more than 1e-6. By the paper's Conjecture 1 local barycentric coordinates
+  //! neighbours by more than 1e-6. By the paper's Conjecture 1 local barycentric coordinates
   //! have none.
   std::vector<Index> local_minima;
   std::vector<Index> local_maxima;  //!< likewise
-  Extreme<Dim> deepest_minimum;     //!< the value is the distance from the neighbors
+  Extreme<Dim> deepest_minimum;     //!< the value is the distance from the neighbours
   Extreme<Dim> highest_maximum;     //!< likewise
   double total_variation = 0;       //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
   double harmonic_total_variation = 0;  //!< that of harmonic coordinates on this mesh

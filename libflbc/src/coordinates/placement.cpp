@@ -51,8 +51,8 @@ bool surrounds(const PointList<Dim>& offsets) {
   return extents.minCoeff() > kLeastExtent * extents.maxCoeff();
 }
 
-// Fits with a control point and its neighbors on the cage, and theirs, and so on, until they
-// surround it well enough: where facets lie in one plane neighbors alone do not.
+// Fits with a control point and its neighbours on the cage, and theirs, and so on, until they
+// surround it well enough: where facets lie in one plane neighbours alone do not.
 template <int Dim>
 class AffineFitter {
  public:

@@ -16,7 +16,7 @@ namespace flbc::panel {
 //! and most of a supernode is used once per 16 columns.
 constexpr int kMaxWidth = 16;
 
-//! A few neighboring columns of the factor, inverted in themselves: D is their diagonal block and
+//! A few neighbouring columns of the factor, inverted in themselves: D is their diagonal block and
 //! B what is below it, and stored are D^-1 and -B D^-1. Then both substitutions are nothing but
 //! products, with no division and no chain of results that wait for each other.
 struct Panel {

@@ -103,7 +103,7 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
 
 using Factor = Eigen::SparseMatrix<double>;
 
-// A supernode while it grows: neighboring columns, each the parent of the one before it in the
+// A supernode while it grows: neighbouring columns, each the parent of the one before it in the
 // elimination tree, so that the rows of the last column and the columns themselves are all rows.
 struct Run {
   Index first;

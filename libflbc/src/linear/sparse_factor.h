@@ -13,7 +13,7 @@
 
 namespace flbc {
 
-//! Neighboring columns of the factor that are stored with the same rows.
+//! Neighbouring columns of the factor that are stored with the same rows.
 struct Supernode {
   Index first;           //!< the first of its columns, which stand one after the other
   Index width;           //!< number of columns

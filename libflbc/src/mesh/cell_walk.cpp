@@ -40,7 +40,7 @@ class Walk {
   }
 
  private:
-  // The neighbor behind the facet that the point is farthest beyond.
+  // The neighbour behind the facet that the point is farthest beyond.
   Index beyond(const Location<Dim>& place) const {
     Index next = -1;
     double farthest = 0;

@@ -7,7 +7,7 @@
 namespace flbc {
 
 //! Bisects triangles at the middles of their longest edges until no edge is longer than a length;
-//! neighbors are divided alike, so that the surface stays closed. The control points keep their
+//! neighbours are divided alike, so that the surface stays closed. The control points keep their
 //! numbers and places, and the triangles their orientation.
 //! \param longest  > 0, in the units of the cage
 //! \param most_points  that are made; needles can take millions, as each division divides neighbours

@@ -17,7 +17,7 @@ struct PointWeights {
   double cost = 0;               //!< (w - t) . H (w - t) - t . H t
 };
 
-//! Minimizes (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
+//! Minimises (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
 //! target t at a time, on supports of few control points, by a primal active set method (Nocedal
 //! and Wright, "Numerical Optimization", 16.5). Works to about 1e-8: results are to be polished.
 //! Keeps its buffers: one per thread.

@@ -10,7 +10,7 @@
 namespace flbc {
 
 //! Semismooth Newton for the nearest w >= 0 to a row y with Q^T w = b. By duality
-//! w = max(0, y + Q mu), where mu minimizes
+//! w = max(0, y + Q mu), where mu minimises
 //!
 //!     F(mu) = |max(0, y + Q mu)|^2 / 2 - b . mu + delta |mu|^2 / 2
 //!

@@ -39,7 +39,7 @@ class Metric {
   const Eigen::MatrixXd* matrix_ = nullptr;
 };
 
-//! Minimizes (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
+//! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
 //! support, for one point x and target t at a time. Keeps its buffers: one per thread.
 template <int Dim>
 class EqualityQp {

@@ -15,7 +15,7 @@
 
 namespace flbc::io {
 
-//! To what a format attaches colors, normals and texture coordinates.
+//! To what a format attaches colours, normals and texture coordinates.
 enum class Attributes { kNone, kVertices, kCorners };
 
 //! Readers and writers of models.

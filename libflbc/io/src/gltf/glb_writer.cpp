@@ -186,7 +186,7 @@ class ModelBuilder {
       auto material = matt_material();
       material.name = as_utf8(given.name);
       auto& surface = material.pbrMetallicRoughness;
-      // A picture takes the place of the color, as programs that write both mean it.
+      // A picture takes the place of the colour, as programs that write both mean it.
       const Vector<3> color = picture < 0 ? given.color : Vector<3>::Ones();
       surface.baseColorFactor = {color[0], color[1], color[2], given.opacity};
       surface.baseColorTexture.index = picture;

@@ -102,7 +102,7 @@ void turn_counterclockwise(const io::PolygonSoup& soup, Corners& corners) {
   }
 }
 
-// From sRGB, in which programs write colors, to the linear colors of glTF.
+// From sRGB, in which programs write colours, to the linear colours of glTF.
 double linear(double color) {
   return color <= 0.04045 ? color / 12.92 : std::pow((color + 0.055) / 1.055, 2.4);
 }

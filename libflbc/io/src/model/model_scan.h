@@ -75,10 +75,10 @@ void add_other(Model& model, const std::string& phrase);
 template <int Dim>
 void keep_finite(Model& model, PointList<Dim>& attributes);
 
-//! Drops the colors unless all are between 0 and 1, and tells so among what else is in the file.
+//! Drops the colours unless all are between 0 and 1, and tells so among what else is in the file.
 void keep_colors_in_range(Model& model);
 
-//! The nearest of the 256 levels of a color, from 0 to 1.
+//! The nearest of the 256 levels of a colour, from 0 to 1.
 int level_of(double intensity);
 
 //! Attributes for formats that have them at vertices, no columns where a model has none.

@@ -92,7 +92,7 @@ class ObjReader {
     }
   }
 
-  // Coordinates, of which planar curves lack z, maybe a weight, or a color with or without alpha.
+  // Coordinates, of which planar curves lack z, maybe a weight, or a colour with or without alpha.
   void read_vertex() {
     const auto numbers = next_numbers(reader_, scan_.text.size(), 2);
     add(numbers.places, TripleKind::kPoint, model_.soup.points.size());

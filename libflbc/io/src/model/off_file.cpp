@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, color and texture
+// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, colour and texture
 // coordinates in this order.
 #include <algorithm>
 #include <limits>
@@ -110,7 +110,7 @@ class OffReader {
       model_.attributes.colors.col(v) << numbers[0], numbers[1], numbers[2];
       if (numbers.size() == 4) least_alpha_ = std::min(least_alpha_, numbers[3]);
     } else if (has_colors_ || !numbers.empty()) {
-      are_colors_ = false;  // a single number, for example, names a color of a table
+      are_colors_ = false;  // a single number, for example, names a colour of a table
     }
   }
 

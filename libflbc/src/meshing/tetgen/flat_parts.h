@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mends what TetGen leaves where neighboring facets of a cage lie in one plane.
+// Mends what TetGen leaves where neighbouring facets of a cage lie in one plane.
 #pragma once
 
 #include "flbc/cage.h"
@@ -7,12 +7,12 @@
 
 namespace flbc {
 
-//! Two neighboring facets whose normals include at most this angle (in degrees) lie in one plane.
+//! Two neighbouring facets whose normals include at most this angle (in degrees) lie in one plane.
 //! With TetGen's own tolerance, 0.1 degrees, it joins facets that do not, and puts vertices beside
 //! the cage.
 constexpr double kCoplanarAngle = 1e-6;
 
-//! True if some neighboring facets lie in one plane.
+//! True if some neighbouring facets lie in one plane.
 bool has_coplanar_facets(const Cage<3>& cage);
 
 //! Peels off cells without volume that cling to coplanar facets: rounding makes TetGen stack them

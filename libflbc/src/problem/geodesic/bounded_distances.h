@@ -12,8 +12,8 @@
 namespace flbc {
 
 //! Distances that are known up to a reach of their own from each source. Beyond it they are too
-//! short rather than too long, so that weights which end within the reaches and minimize (1) with a
-//! phi made of them minimize it with the true phi as well: the objective is nowhere larger than the
+//! short rather than too long, so that weights which end within the reaches and minimise (1) with a
+//! phi made of them minimise it with the true phi as well: the objective is nowhere larger than the
 //! true one, and the same for them.
 struct BoundedDistances {
   DistanceMatrix distances;  //!< n x V; beyond the reach, the larger of reach and straight line

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Points and their neighbors, ready for passes over them that are parallel and yet give the same
+//! Points and their neighbours, ready for passes over them that are parallel and yet give the same
 //! result for any number of threads.
 #pragma once
 
@@ -33,7 +33,7 @@ class EdgeGraph {
   //! The sum of k_e |edge|^2 / 2 over the edges of a point: its share of area or volume.
   double mass(Index point) const { return masses_[point]; }
 
-  //! The representatives that have neighbors, in groups without neighbors inside.
+  //! The representatives that have neighbours, in groups without neighbours inside.
   const std::vector<std::vector<Index>>& colors() const { return colors_; }
 
  private:

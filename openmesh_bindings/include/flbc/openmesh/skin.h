@@ -70,7 +70,7 @@ io::Model faces_and_attributes(const Mesh& mesh) {
 
 //! Writes the mesh at rest as a glTF 2.0 skin (.glb) or for USD (.usda), as flbc export does: its
 //! joints are the control points, which only translate, so that programs move it as deform() does.
-//! Where the vertices are now does not matter. Colors and texture coordinates of vertices are
+//! Where the vertices are now does not matter. Colours and texture coordinates of vertices are
 //! written if the mesh has them; normals are those at rest. Vertices that bind() found outside the
 //! cage stand where their weights place them, on it.
 //! \param mesh  with weights and the cage that bind() or solve() left with them (set_rest_cage())

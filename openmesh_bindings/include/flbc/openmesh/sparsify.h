@@ -17,7 +17,7 @@ namespace flbc::openmesh {
 
 //! How influences are reduced.
 enum class Reduction {
-  kPoisson,   //!< neighbors agree, so that no seams appear (flbc/sparsify.h)
+  kPoisson,   //!< neighbours agree, so that no seams appear (flbc/sparsify.h)
   kQuadratic  //!< every vertex for itself, faster (flbc/sparsify.h)
 };
 

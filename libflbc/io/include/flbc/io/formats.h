@@ -15,7 +15,7 @@ enum class Content {
   kMesh3D,    //!< tetrahedra
   kWeights,   //!< weight matrices
   kTriplets,  //!< weights, a line each, without the size of their matrix
-  kColors,    //!< colors of a model's vertices
+  kColors,    //!< colours of a model's vertices
   kFields     //!< scalars at a mesh's vertices
 };
 

@@ -29,7 +29,7 @@ struct CornerReferences {
 struct SurfaceAttributes {
   PointList<2> texture_coordinates{};  //!< 2 x T, as in the file: the second one points up
   PointList<3> normals{};              //!< 3 x N, of any length
-  //! 3 x P in [0, 1]; empty unless every vertex has a color.
+  //! 3 x P in [0, 1]; empty unless every vertex has a colour.
   PointList<3> colors{};
   std::vector<std::vector<CornerReferences>> corners{};  //!< by polygon and corner
 };
@@ -41,7 +41,7 @@ struct Material {
   double opacity = 1;                          //!< in [0, 1]
   double roughness = 0.8;                      //!< in [0, 1]
   double metallic = 0;                         //!< in [0, 1]
-  std::string texture{};  //!< path of the picture of its colors; empty for none
+  std::string texture{};  //!< path of the picture of its colours; empty for none
 };
 
 //! Polygons with what their vertices and corners carry.

@@ -23,14 +23,14 @@ using ActiveLists = VertexItems<ControlPoint>;
 double threshold_for(double tolerance);
 
 //! Supports from the weights on a coarser mesh: the control points whose weights are above the
-//! threshold at a corner of the vertex's coarse cell or at a neighbor of one, and those of the
+//! threshold at a corner of the vertex's coarse cell or at a neighbour of one, and those of the
 //! boundary next to the vertex. There are non-negative weights on them at every vertex. Boundary
 //! vertices have those control points whose weights are not zero.
 template <int Dim>
 ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
                         double threshold);
 
-//! The same from weights on the mesh itself, at the vertex or at a neighbor.
+//! The same from weights on the mesh itself, at the vertex or at a neighbour.
 //! \param weights  of an interior vertex, n numbers, feasible
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
@@ -57,12 +57,12 @@ ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_so
 //! w at one place of an interior vertex's list.
 using WeightInList = std::function<double(Index vertex, Index place)>;
 
-//! Sum of the squared weights at the ends of the active set: where a neighbor may not have any.
+//! Sum of the squared weights at the ends of the active set: where a neighbour may not have any.
 template <int Dim>
 double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight);
 
-//! Supports with the control points of neighbors whose weights are above the threshold.
+//! Supports with the control points of neighbours whose weights are above the threshold.
 template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight);

@@ -23,7 +23,7 @@ Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
           arrays.values.data()};
 }
 
-// Few enough for many blocks of a colour, enough to find neighbors in the cache.
+// Few enough for many blocks of a colour, enough to find neighbours in the cache.
 constexpr Index kBlock = 32;
 
 // The smallest colour that none of the blocks coupled to it has.

@@ -21,7 +21,7 @@ struct Residuals {
   double dual;
 };
 
-//! The iteration, allocated once. The paper minimizes (7) over gradients G subject to (8), (9) and
+//! The iteration, allocated once. The paper minimises (7) over gradients G subject to (8), (9) and
 //! (10), with copies X = G S_X, Y = G S_Y, Z = G and a scaled dual u = lambda / mu for each:
 //!
 //!     X-step:  x_b = p - b (b . p - h_b),  p = g - u      boundary facets, tangential values (9)

@@ -104,7 +104,7 @@ std::vector<Index> order_in_space(const DomainMesh<Dim>& mesh) {
   return spatial_order<Dim>(centers);
 }
 
-// Whether more cells wait for neighbors than any order with some locality would leave waiting.
+// Whether more cells wait for neighbours than any order with some locality would leave waiting.
 template <int Dim>
 bool is_scattered(const Sweep& sweep) {
   const auto num_seams = static_cast<double>(sweep.seams.size());

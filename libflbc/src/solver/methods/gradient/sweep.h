@@ -22,7 +22,7 @@ struct SweepPart {
 
 //! A facet's dual step needs nothing but the extrapolated gradients of its two cells, so it can be
 //! made as soon as both are there, while they and its dual are still in the cache. What is needed
-//! again later in the sweep only is the extrapolated gradient of cells with neighbors to come; few
+//! again later in the sweep only is the extrapolated gradient of cells with neighbours to come; few
 //! if the order of cells follows a space-filling curve, so that they stay in the cache, too, and
 //! never go to memory. Facets between parts are left for the end.
 struct Sweep {
