@@ -14,11 +14,10 @@ namespace flbc {
 //!
 //!     F(mu) = |max(0, y + Q mu)|^2 / 2 - b . mu + delta |mu|^2 / 2
 //!
-//! with delta = 0. F is convex and piecewise quadratic; with delta > 0 it has one minimum and
-//! Newton steps with an exact line search reach it after finitely many of them, whatever Q is.
-//! Since Q^T w is given, y + Q mu has the same projection as y: starting again from there is the
-//! method of multipliers, which makes delta harmless.
-//! Keeps its buffers: one per thread.
+//! with delta = 0. F is convex and piecewise quadratic. With delta > 0 it has a unique minimum,
+//! which Newton steps with exact line search reach in finitely many steps for any Q. Since Q^T w is
+//! given, y + Q mu has the same projection as y. Restarting from there is the method of multipliers
+//! and removes the effect of delta. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class DualNewton {
  public:
