@@ -22,7 +22,7 @@ void require_finite(const Eigen::VectorXd& point, const char* what, Index number
   throw InputError(what + std::to_string(number) + " is not finite: " + format_point(point));
 }
 
-// \param weights_of  those of a point
+// \param weights_of  returns the weights of a point
 template <int Dim, class WeightsOf>
 void check_input(const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const WeightsOf& weights_of, const std::vector<Index>& columns) {
@@ -50,8 +50,8 @@ void lower_to(std::atomic<Index>& least, Index number) {
   }
 }
 
-// \param weights_of  those of a point \param replace  called with the position of a column in
-// `columns` and its new weights
+// \param weights_of  returns the weights of a point \param replace  called with the position of a
+// column in `columns` and its new weights
 template <int Dim, class WeightsOf, class Replace>
 void project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                      const std::vector<Index>& columns, const WeightsOf& weights_of,

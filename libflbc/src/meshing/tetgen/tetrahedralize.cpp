@@ -32,7 +32,7 @@ constexpr double kRadiusEdgeRatio = 1.414;  // TetGen terminates for ratios abov
 // Makes a mesh with bounds on the radius-edge ratio and the volume of cells.
 using MeshMaker = std::function<DomainMesh<3>(double ratio, double largest_volume)>;
 
-// How TetGen's vertex count falls with the volume bound in meshes of some ten thousand vertices.
+// Exponent of vertex count over volume bound, for meshes of about ten thousand vertices.
 constexpr double kCountExponent = 0.8;
 
 // Measured on cages of characters and animals; the smaller the mesh, the more of its vertices lie
