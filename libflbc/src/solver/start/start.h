@@ -21,7 +21,7 @@ using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Dim>;
 template <int Dim>
 struct Start {
   double penalty = 0;             //!< penalty of the vertex duals
-  VectorsAt<1> weights{};         //!< of an interior vertex, n numbers
+  VectorsAt<1> weights{};         //!< of an interior vertex, n values
   VectorsAt<Dim> flux_density{};  //!< p / A of a cell, n x Dim, at most phi long
   VectorsAt<1> vertex_dual{};     //!< q - w of an interior vertex, n values; null: none
 
