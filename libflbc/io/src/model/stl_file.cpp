@@ -44,7 +44,7 @@ std::string lower(std::string_view word) {
   return result;
 }
 
-// Rounds once, from the decimals to single precision; what is too small is 0.
+// Rounds once, from decimal to single precision; too small numbers become 0.
 float to_single(std::string_view word) {
   if (word[0] == '+') word.remove_prefix(1);
   float value = 0;
