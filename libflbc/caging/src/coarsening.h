@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fewer control points, by collapsing edges.
+// Reduces control points by collapsing edges.
 #pragma once
 
 #include <optional>

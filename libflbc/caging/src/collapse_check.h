@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a surface still encloses the model when a vertex moves.
+// Checks that a surface still encloses the model when a vertex moves.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether facets meet a model, and whether a cage encloses all of it.
+// Tests whether facets intersect a model, and whether a cage encloses it.
 #pragma once
 
 #include <algorithm>

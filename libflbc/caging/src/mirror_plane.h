@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages that are symmetric: half of the surface stands for all of it.
+// Symmetric cages, represented by half of the surface.
 #pragma once
 
 #include "flbc/cage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed lines round a model in the plane, along the cells of a grid.
+// Wraps a model in the plane with closed lines along the cells of a grid.
 #include <algorithm>
 #include <cmath>
 #include <vector>

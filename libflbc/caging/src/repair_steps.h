@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The single repairs of which repair_cage() is made. Each says what it has done.
+// The steps of repair_cage(). Each reports its changes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where facets meet: control points in 2D, edges in 3D.
+// Ridges, where facets meet: control points in 2D, edges in 3D.
 #pragma once
 
 #include <algorithm>

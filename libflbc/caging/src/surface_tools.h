@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small things that are asked of surfaces in the making.
+// Helper functions for surfaces.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed surfaces (2D: lines) round a model, finer than a cage needs to be.
+// Closed surfaces (2D: lines) around a model, finer than the final cage.
 #pragma once
 
 #include "caging/enclosure.h"

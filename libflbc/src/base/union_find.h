@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disjoint sets of the numbers 0 .. size-1.
+// Disjoint sets of the integers 0 .. size-1.
 #pragma once
 
 #include <numeric>

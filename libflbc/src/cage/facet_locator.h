@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which facet of a cage a point lies on, and where.
+// Locates points on the facets of a cage.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages turned so that the interior lies on the same side of all facets.
+// Cages oriented so that the interior is on the same side of all facets.
 #pragma once
 
 #include <vector>

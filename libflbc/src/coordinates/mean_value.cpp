@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The weight of c_i, before division by their sum, is the integral of phi_i(p) / |p - x| over all
-// directions from x, where p is what is seen of the cage in a direction and phi_i the barycentric
-// coordinate of p in its facet. The facets' shares are computed here.
+// directions from x, where p is the point of the cage in that direction, and phi_i the barycentric
+// coordinate of p in its facet. This file computes the contributions of facets.
 #include "flbc/mean_value.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order along the Hilbert curve: what is close in space comes to be close in memory.
+// Order along the Hilbert curve, so that neighbors in space are close in memory.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs code that may crash or hang in a process of its own.
+// Runs code that may crash or hang in a separate process.
 #pragma once
 
 #include <cstddef>

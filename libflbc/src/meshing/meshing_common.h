@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of both meshers before and after the foreign library's work.
+// Common steps of meshers before and after the external library.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finer triangles on the same surface, for meshers that keep the surface they are given.
+// Subdivides a surface, for meshers that preserve their input surface.
 #pragma once
 
 #include "flbc/cage.h"

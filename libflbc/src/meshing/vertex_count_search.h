@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the cell size with which a mesher gives the number of vertices wanted.
+// Finds the cell size at which a mesher gives the target number of vertices.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which simplices meet, decided exactly. Implemented by CGAL.
+// Exact intersection tests of simplices, implemented with CGAL.
 #pragma once
 
 #include "flbc/types.h"

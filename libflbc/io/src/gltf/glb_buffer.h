@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The binary part of a .glb file. For glb_writer.cpp only, which sees the library behind it.
+// The binary part of a .glb file. Only for glb_writer.cpp, which includes the underlying library.
 #pragma once
 
 #include <tiny_gltf.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh .msh in text form, versions 2 and 4.1: sections between $Name and $EndName; nodes and
-// elements have arbitrary tags. Only tetrahedra count; points, curves and surfaces are passed over.
+// elements have arbitrary tags. Only tetrahedra are used; points, curves, and surfaces are skipped.
 #include <algorithm>
 #include <iterator>
 #include <unordered_map>

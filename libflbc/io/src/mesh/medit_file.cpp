@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MEDIT .mesh: sections that start with a keyword and a number of elements; each element ends with
-// a reference number. Vertices are numbered from 1. Numbers per vertex have a file of their own,
-// .sol, of the same form.
+// a reference number. Vertices are numbered from 1. Values per vertex are in a separate .sol file
+// of the same form.
 #include <algorithm>
 #include <filesystem>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TetGen's pair of files: .node has "COUNT 3 ATTRIBUTES MARKERS", then "NUMBER X Y Z ..."; .ele has
-// "COUNT 4 ATTRIBUTES", then "NUMBER A B C D ...". All numbers start at 0 or all at 1.
+// The file pair of TetGen: .node has "COUNT 3 ATTRIBUTES MARKERS", then "NUMBER X Y Z ..."; .ele
+// has "COUNT 4 ATTRIBUTES", then "NUMBER A B C D ...". All numbers start at 0 or all at 1.
 #include <filesystem>
 #include <ostream>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads VTK's XML format for unstructured grids, as text: arrays of points, of the cells' points
-// one after another, of where each cell's points end, of the kinds of cells, and of point data.
+// Reads the VTK XML format for unstructured grids, as text: arrays of points, cell connectivity,
+// cell offsets, cell types, and point data.
 #include <algorithm>
 #include <iterator>
 

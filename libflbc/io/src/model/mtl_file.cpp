@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Materials beside .obj files: "newmtl NAME", then Kd R G B, d OPACITY or Tr TRANSPARENCY, Ns
-// 0..1000, Pr and Pm (roughness and metal, as Blender writes them), map_Kd [-OPTION NUMBER...]...
-// PICTURE. Nothing else is looked at, and what cannot be read is left as it is by default: a look
-// is no reason to refuse a model.
+// Materials of .obj files: "newmtl NAME", then Kd R G B, d OPACITY or Tr TRANSPARENCY, Ns 0..1000,
+// Pr and Pm (roughness and metal, as Blender writes them), map_Kd [-OPTION NUMBER...]... PICTURE.
+// Other keywords are ignored. Values that cannot be read keep their defaults, because materials are
+// not essential.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

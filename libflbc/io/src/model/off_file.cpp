@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, colour and texture
+// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, color, and texture
 // coordinates in this order.
 #include <algorithm>
 #include <limits>

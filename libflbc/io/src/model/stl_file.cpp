@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// STL has triangles with normals and three points each; points that coincide are one vertex.
+// STL stores triangles with a normal and three points each; coincident points are one vertex.
 #include <algorithm>
 #include <cctype>
 #include <charconv>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NumPy's array format: magic, version, length of the header, header (a Python dictionary in text,
-// padded so that the numbers start at a multiple of 64 bytes), numbers.
+// The NumPy array format: magic, version, length of the header, header (a Python dictionary in
+// text, padded so that the numbers start at a multiple of 64 bytes), numbers.
 
 #include <ostream>
 

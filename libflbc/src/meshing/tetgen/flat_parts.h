@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mends what TetGen leaves where neighbouring facets of a cage lie in one plane.
+// Repairs TetGen meshes at coplanar neighboring facets of a cage.
 #pragma once
 
 #include "flbc/cage.h"

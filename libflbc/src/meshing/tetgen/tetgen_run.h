@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of TetGen, whose types stay behind this file.
+// Runs TetGen, and hides its types.
 #pragma once
 
 #include <string>
