@@ -1,6 +1,6 @@
 #!/bin/sh
-# One static site of README, docs/, the manual pages and the C++ interface, for any browser or web server.
-# site.sh [OUTPUT (out/site)]; takes the program of build/release, and builds it if it is not there.
+# Builds a static site of README, docs/, the manual pages, and the C++ interface.
+# site.sh [OUTPUT (out/site)]; uses the program of build/release, and builds it if missing.
 set -eu
 cd "$(dirname "$0")/.."
 site=${1:-out/site}
@@ -9,7 +9,7 @@ scripts/install_dependencies.sh doxygen python3-markdown groff-base
 cmake --build --preset release --target flbc_app
 rm -rf "$site"
 mkdir -p "$site"
-# Debian's Python, which has Debian's modules.
+# The Debian Python, which has the Debian modules.
 /usr/bin/python3 -B scripts/site/build_site.py . build/release/help "$site"
 cmake --preset release >/dev/null
 cmake --build --preset release --target docs
