@@ -80,7 +80,8 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
   }
 }
 
-// A cube with another corner so near the last that no mesher tells them apart: known before.
+// A cube with another corner so near the last that no mesher can separate them; reported before
+// meshing.
 TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   const auto cage = file("thin.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"

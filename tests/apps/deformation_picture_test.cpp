@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Before and after in one picture: what is seen is measured on the pixels.
+// Before and after in one picture, measured on its pixels.
 #include "draw/plane_picture.h"
 
 #include <cmath>

@@ -68,7 +68,7 @@ TEST(ModelPicture, TheNearerSurfaceCoversTheFarther) {
 }
 
 TEST(ModelPicture, HiddenWireIsPale) {
-  // The same wire before a plain surface and behind it; the surface has one colour.
+  // The same cage in front of a plain surface and behind it; the surface has one colour.
   Squares squares;
   squares.shown = {};
   const auto darkest_change = [&](const ObliqueView& view, double front) {

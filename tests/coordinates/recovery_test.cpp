@@ -126,7 +126,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   }
 }
 
-// The judge of the test above finds an extremum where there is one.
+// The check of the test above finds an existing extremum.
 TEST_IN_2D_AND_3D(RecoveryTest, ExtremaInsideAreFound) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);

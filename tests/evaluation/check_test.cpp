@@ -66,7 +66,7 @@ TEST_IN_2D_AND_3D(CheckTest, SoundWeightsAreSound) {
   }
 }
 
-// Everything that the judge measures, too, in code of its own, on weights without any property.
+// Compares all measures with an independent reference, on arbitrary weights.
 TEST_IN_2D_AND_3D(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);

@@ -96,7 +96,7 @@ TEST_IN_2D_AND_3D(DomainMeshTest, NamesDefects) {
   mesh.points.col(inner).setConstant(3);
   expect_refused(mesh, "overlap");
 
-  mesh = joined(sound, sound, 10);  // beside each other: two parts are no defect
+  mesh = joined(sound, sound, 10);  // disjoint: two parts are not a defect
   EXPECT_NO_THROW(normalize_and_validate(mesh));
 
   mesh = joined(sound, sound, 1);  // they share a corner, and that alone

@@ -68,7 +68,7 @@ TEST_IN_2D_AND_3D(SpatialOrderTest, NoPointsOnePointAndCoincidingPoints) {
 }
 
 TEST_IN_2D_AND_3D(SpatialOrderTest, ReorderingKeepsFixedVerticesAndTheMesh) {
-  // A fan of cells round the origin, which is the last point.
+  // A fan of cells around the origin, which is the last point.
   const Cage<Dim> cage = flbc::testing::box_cage<Dim>(1);
   DomainMesh<Dim> mesh;
   mesh.points.resize(Dim, cage.size() + 1);

@@ -59,14 +59,14 @@ class Bind : public ::testing::Test {
 
   Bind() : sample_(make_sample<kDim>(Shape::kBox, 4, 0.2)) {
     options_.max_influences = 5;
-    // A sheet in the middle of the box, whatever that is like.
+    // A sheet in the middle of any box.
     const Vector<kDim> middle = sample_.cage.points.rowwise().mean();
     const PointList<kDim> spread = sample_.cage.points.colwise() - middle;
     constexpr int kSide = 6;
     for (int y = 0; y <= kSide; ++y) {
       for (int x = 0; x <= kSide; ++x) {
         const double a = 0.6 * x / kSide, b = 0.6 * y / kSide;
-        // Inside: a mean of control points with weights that are none below 0.
+        // Inside: a mean of control points with non-negative weights.
         const Vector<kDim> place =
             middle + 0.5 * (a - 0.3) * spread.col(0) + 0.5 * (b - 0.3) * spread.col(1);
         typename Mesh::Point point;

@@ -96,7 +96,7 @@ Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>&
   return best;
 }
 
-// Judges the search of supports in a metric by trying all of them.
+// Checks the search of supports in a metric by trying all of them.
 template <int Dim>
 void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixXd& metric,
                           const PointList<Dim>& control_points) {
@@ -200,7 +200,7 @@ Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights
     better.col(a) =
         nearest_row<Dim>(metric, problem.control_points, problem.points.col(a), target, most);
     const double gain = cost - problem.cost(better);
-    EXPECT_GE(gain, -1e-9 * cost) << a;  // the judge is right
+    EXPECT_GE(gain, -1e-9 * cost) << a;  // the reference is correct
     gains.rows += gain > noticeable;
     gains.sum += gain;
   }

@@ -145,7 +145,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
 TEST_IN_2D_AND_3D(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
   Numbers numbers(31);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
-  // Every edge with ends of its own.
+  // Every edge has separate ends.
   auto loose = problem;
   std::vector<Index> origin;
   for (auto& edge : loose.edges.ends) {

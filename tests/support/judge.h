@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Measures coordinates by their values alone, with loops of its own that share no code with the
+//! Measures coordinates by their values alone, with independent loops that share no code with the
 //! library.
 #pragma once
 

@@ -27,7 +27,7 @@ MeshingOptions<Dim> vertices(Index count, const PointList<Dim>& embedded = Point
   return options;
 }
 
-//! Two runs give the same bits. \param make  gives a mesh
+//! Two runs are bit-identical. \param make  gives a mesh
 template <class Make>
 void expect_reproducible(const Make& make) {
   const auto first = make(), second = make();
@@ -99,7 +99,7 @@ bool lies_in_one_facet(const Cage<Dim>& cage, const PointList<Dim>& points,
   return false;
 }
 
-//! The points are the mesh's vertices from `first` on, bit by bit.
+//! The points are exactly the vertices of the mesh from `first` on.
 template <int Dim>
 void expect_vertices(const DomainMesh<Dim>& mesh, Index first, const PointList<Dim>& points) {
   ASSERT_GE(mesh.num_vertices(), first + points.cols());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Models written and read by OpenMesh alone, to judge what the project's own readers and writers
-//! do with them.
+//! Models written and read by OpenMesh alone, as a reference for what our readers and writers do
+//! with them.
 #pragma once
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
