@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes a TetMesh of a cage with the model vertices as mesh vertices. The weights are properties
-// without interpolation and deform the model. embedded_surface CAGE.obj MODEL.obj OUT.off
+// without interpolation and deform the model.
+//   embedded_surface CAGE.obj MODEL.obj OUT.off
 #include <iostream>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>

@@ -36,7 +36,7 @@ struct Scene {
   }
 };
 
-// The centres of the red dots, from the left to the right or from the top to the bottom: pixels of
+// The centers of the red dots, from the left to the right or from the top to the bottom: pixels of
 // one are nearer to each other than 100 pixels.
 std::vector<Vector<2>> red_dots(const Image& image) {
   std::vector<Vector<2>> sums;

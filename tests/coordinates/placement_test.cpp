@@ -18,7 +18,7 @@
 namespace flbc::testing {
 namespace {
 
-// Cages whose facets have their normals outwards, with weights that are linear on every facet.
+// Cages whose facets have their normals outward, with weights that are linear on every facet.
 template <int Dim>
 struct PlacementTest {
   explicit PlacementTest(Shape shape = Shape::kCorner) : sample(make_sample<Dim>(shape, 4)) {

@@ -110,7 +110,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
   }
 }
 
-// Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbours.
+// Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbors.
 TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   for (const Index subdivisions : {3, 4, 5}) {
     const auto sample = make_sample<Dim>(Shape::kBox, subdivisions);

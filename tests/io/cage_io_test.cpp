@@ -35,7 +35,7 @@ TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
   }
 }
 
-// A pyramid over a bent quadrangle, whose shorter diagonal is 1-3.
+// A pyramid over a bent quadrilateral, whose shorter diagonal is 1-3.
 TEST(CageIo, QuadranglesAreCutAlongTheShorterDiagonal) {
   PolygonSoup soup;
   soup.points = {{-2, 0, 0}, {0, -1, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 3}};

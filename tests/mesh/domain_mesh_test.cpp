@@ -90,7 +90,7 @@ TEST_IN_2D_AND_3D(DomainMeshTest, NamesDefects) {
   mesh.cells.rightCols(2).colwise() = sound.cells.col(0);
   expect_refused(mesh, "share one facet");
 
-  mesh = sound;  // the centre vertex beyond the boundary: cells fold over each other
+  mesh = sound;  // the center vertex beyond the boundary: cells fold over each other
   Index inner = 0;
   (sound.points.colwise() - Vector<Dim>::Constant(0.5)).colwise().norm().minCoeff(&inner);
   mesh.points.col(inner).setConstant(3);

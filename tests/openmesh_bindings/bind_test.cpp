@@ -160,7 +160,7 @@ Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index fac
     edges.col(k - 1) =
         cage.points.col(cage.facets(k, facet)) - cage.points.col(cage.facets(0, facet));
   }
-  // What is left of the way from the centre is normal to the facet.
+  // What is left of the way from the center is normal to the facet.
   Vector<Dim> normal = middle - centre;
   normal -= edges * (edges.transpose() * edges).inverse() * (edges.transpose() * normal).eval();
   const Vector<Dim> place = middle + 0.1 * normal.normalized();

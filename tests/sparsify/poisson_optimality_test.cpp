@@ -186,8 +186,8 @@ Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights
   const double cost = problem.cost(weights);
   Gains gains;
   for (Index a = 0; a < static_cast<Index>(weights.cols()); ++a) {
-    // Neighbours pull a row towards their own changes; how stiffly it is held in all, pin
-    // included, is what a change of this row alone costs.
+    // Neighbors pull a row toward their own changes; how stiffly it is held in all, pin included,
+    // is what a change of this row alone costs.
     Eigen::VectorXd pull = Eigen::VectorXd::Zero(weights.rows());
     for (const auto& [b, c] : problem.edges.ends) {
       if (a == b || a == c) pull += (weights - problem.weights).col(a == b ? c : b);

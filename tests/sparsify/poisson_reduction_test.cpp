@@ -67,7 +67,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint
   const auto on_a_curve = problem_on_a_curve<Dim>(control_points, 300, 0);
   const auto on_a_mesh = problem_on_a_mesh<Dim>();
   for (const auto* problem : {&on_a_curve, &on_a_mesh}) {
-    // On the mesh most neighbours lie on the cage and stay.
+    // On the mesh most neighbors lie on the cage and stay.
     const double part = problem == &on_a_curve ? 0.7 : 0.97;
     const auto independent = independent_poses<Dim>(problem->control_points, 20);
     const auto smooth = smooth_poses<Dim>(problem->control_points, 20);

@@ -52,7 +52,7 @@ double sum_of_facets(const PointList<Dim>& points, const FacetList<Dim>& facets)
   return sum;
 }
 
-//! Area or volume by the divergence theorem; positive for counter-clockwise loops and outward
+//! Area or volume by the divergence theorem; positive for counterclockwise loops and outward
 //! shells.
 template <int Dim>
 double enclosed_measure(const Cage<Dim>& cage) {
@@ -85,7 +85,7 @@ bool lies_in_one_facet(const Cage<Dim>& cage, const PointList<Dim>& points,
       if constexpr (Dim == 2) {
         has_all = (p - a).norm() + (p - b).norm() <= (b - a).norm() + tolerance;
       } else {
-        // Inside the prism over the triangle: heights over its plane and inwards from its edges.
+        // Inside the prism over the triangle: heights over its plane and inward from its edges.
         const Vector<3> c = cage.points.col(cage.facets(2, f));
         const Vector<3> normal = (b - a).cross(c - a).normalized();
         has_all = std::abs(normal.dot(p - a)) <= tolerance;

@@ -14,8 +14,7 @@
 //!
 //!     flbc::DomainMesh<2> mesh = flbc::triangulate(cage, {500});  // component cgal
 //!     flbc::Solution solution = flbc::solve(cage, mesh);          // n x V, a column per vertex
-//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // = mesh.points: move
-//!     cage.points
+//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // move cage.points first
 //!
 //! Further headers:
 //! - other coordinates: harmonic.h, mean_value.h

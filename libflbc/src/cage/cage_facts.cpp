@@ -125,7 +125,7 @@ template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points) {
   const CageLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
-  std::vector<char> is_outside(num_points);  // not bool: neighbours are written concurrently
+  std::vector<char> is_outside(num_points);  // not bool: neighbors are written concurrently
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < num_points; ++p) {
     is_outside[p] = locator.locate(points.col(p)) == Containment::kOutside;

@@ -53,7 +53,7 @@ struct Extrema {
   }
 };
 
-// Each neighbour once, because cells share them.
+// Each neighbor once, because cells share them.
 template <int Dim>
 void collect_neighbours(const DomainMesh<Dim>& mesh, const VertexCells& around, Index vertex,
                         std::vector<Index>& neighbours) {

@@ -26,7 +26,7 @@ Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynami
 template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric);
 
-//! The x of least norm that minimises |a x - b|, for each column of b. \param threshold  smaller
+//! The x of least norm that minimizes |a x - b|, for each column of b. \param threshold  smaller
 //! pivots, relative to the largest, count as zero
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                               double threshold = 1e-15);
@@ -41,7 +41,7 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 //! For few columns it is at most sqrt(columns) times the smallest singular value.
 double least_pivot(const Eigen::MatrixXd& columns);
 
-//! The rotation R that maximises trace(R^T a).
+//! The rotation R that maximizes trace(R^T a).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a);
 
 //! The smallest rotation that maps one direction to another.

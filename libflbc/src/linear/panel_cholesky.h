@@ -61,7 +61,7 @@ class PanelCholesky {
  private:
   std::vector<Index> position_;
   std::vector<panel::Panel> panels_;
-  std::vector<Index> below_;  // rows of the supernodes; neighbouring panels share them
+  std::vector<Index> below_;  // rows of the supernodes; neighboring panels share them
   AlignedArray<Scalar> entries_;
   const panel::Kernel<Scalar>* kernel_;
 };

@@ -13,7 +13,7 @@
 
 namespace flbc {
 
-//! Neighbouring columns of the factor that are stored with the same rows.
+//! Neighboring columns of the factor that are stored with the same rows.
 struct Supernode {
   Index first;           //!< first of its consecutive columns
   Index width;           //!< number of columns

@@ -18,7 +18,7 @@ struct PointWeights {
   double cost = 0;               //!< (w - t) . H (w - t) - t . H t
 };
 
-//! Minimises (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
+//! Minimizes (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
 //! target t at a time, on supports of few control points, by a primal active set method (Nocedal
 //! and Wright, "Numerical Optimization", 16.5). Accurate to about 1e-8; callers must polish the
 //! result. Not thread-safe, because it keeps its buffers.

@@ -10,7 +10,7 @@
 namespace flbc {
 
 //! Semismooth Newton for the nearest w >= 0 to a row y with Q^T w = b. By duality
-//! w = max(0, y + Q mu), where mu minimises
+//! w = max(0, y + Q mu), where mu minimizes
 //!
 //!     F(mu) = |max(0, y + Q mu)|^2 / 2 - b . mu + delta |mu|^2 / 2
 //!
@@ -27,7 +27,7 @@ class DualNewton {
   //! \param basis  Q, n x (Dim + 1), kept by reference
   explicit DualNewton(const Basis& basis) : basis_(basis) {}
 
-  //! Minimises F. \param row  y, n \param sums  b \return true if the minimum was reached
+  //! Minimizes F. \param row  y, n \param sums  b \return true if the minimum was reached
   bool minimize(const Eigen::VectorXd& row, const Sums& sums, double delta);
 
   //! y + Q mu at the last mu, n.

@@ -39,7 +39,7 @@ class Metric {
   const Eigen::MatrixXd* matrix_ = nullptr;
 };
 
-//! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside a
+//! Minimizes (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside a
 //! support, for one point x and target t at a time. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class EqualityQp {

@@ -28,7 +28,7 @@ class Corral {
     ++size_;
   }
 
-  // Moves the weights towards the point of the affine hull that is nearest to the origin; members
+  // Moves the weights toward the point of the affine hull that is nearest to the origin; members
   // whose weights reach zero on the way are dropped, and the rest continues.
   void descend() {
     for (;;) {

@@ -45,7 +45,7 @@ class DirichletProblem {
   DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary,
                    LinearSolver solver = LinearSolver::kDirect);
 
-  //! Minimises sum_s A_s |grad w_i - g_i|^2 for every i.
+  //! Minimizes sum_s A_s |grad w_i - g_i|^2 for every i.
   //! \param boundary_values  k x B, known values, one row per function
   //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty means
   //! zero, which gives harmonic functions

@@ -40,7 +40,7 @@ class Slots {
   std::vector<int> slots_;
 };
 
-// The largest value of a channel of colours: 1 for floating types.
+// The largest value of a channel of colors: 1 for floating types.
 double largest_intensity(const PlyType& type) {
   return type.kind == 'f' ? 1 : std::ldexp(1.0, 8 * static_cast<int>(type.bytes)) - 1;
 }

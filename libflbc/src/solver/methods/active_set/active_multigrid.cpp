@@ -47,7 +47,7 @@ std::vector<Index> colours_of_blocks(const RowMatrix& matrix, Index num_blocks) 
   return colour;
 }
 
-// Calls body(begin, end) for the rows of every block of a colour, by all threads of the team.
+// Calls body(begin, end) for the rows of every block of a color, by all threads of the team.
 template <class Body>
 void for_blocks(const SweepOrder& order, std::size_t colour, const Body& body) {
 #pragma omp for schedule(static)

@@ -14,8 +14,9 @@ namespace flbc::gradient {
 //! weights on each component only up to a constant. The gradients determine differences along a
 //! component, but not between components. For each component after the first, let psi be the
 //! harmonic function that is 1 on it and 0 on the others. Then every integrable gradient g with the
-//! right boundary values satisfies sum_s A_s grad psi(s) . g_i(s) = sum over boundary vertices v of
-//! w_i(v) (K psi)(v), one more linear constraint, which determines the constant.
+//! right boundary values satisfies
+//!   sum_s A_s grad psi(s) . g_i(s) = sum over boundary vertices v of w_i(v) (K psi)(v),
+//! one more linear constraint, which determines the constant.
 template <int Dim>
 struct Period {
   PointList<Dim> field;    //!< Dim x F, A_s grad psi(s), scaled to norm 1 over all cells

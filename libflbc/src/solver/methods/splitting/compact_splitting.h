@@ -46,9 +46,8 @@ struct Settings {
 //!     y_step:  W += alpha (w - W), w = W + delta, rows projected on { sum w = 1, sum w c = x }
 //!
 //! The projection replaces the null-space parametrization W = Y M + H of (2): the system matrix
-//! acts on columns and M on rows, so Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, and M^T M =
-//! I
-//! - Q Q^T.
+//! acts on columns and M on rows. So Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, where
+//! M^T M = I - Q Q^T.
 //!
 //! A cell stores only P, which is at most a few radii long and fits half precision. Cells without
 //! interior corners are omitted, because they do not affect the weights. With an approximate linear
