@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing, and those that are named. Does nothing, in no time,
-# if all are there.
+# Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
 set -euo pipefail
 
 packages=(

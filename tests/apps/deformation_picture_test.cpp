@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Before and after in one picture: what is seen is measured on the pixels.
+// Before and after in one picture, measured on its pixels.
 #include "draw/plane_picture.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct Scene {
   }
 };
 
-// The centres of the red dots, from the left to the right or from the top to the bottom: pixels of
+// The centers of the red dots, from the left to the right or from the top to the bottom: pixels of
 // one are nearer to each other than 100 pixels.
 std::vector<Vector<2>> red_dots(const Image& image) {
   std::vector<Vector<2>> sums;

@@ -494,7 +494,7 @@ TEST(WeightPicture, IsolinesAreEquallyWideInSteepAndFlatAreas) {
   const Image plain = decode_png(draw_weights(s.cage, s.mesh, values, 0, options));
   options.isolines = 2;
   const Image lined = decode_png(draw_weights(s.cage, s.mesh, values, 0, options));
-  // Ink per row round a crossing, relative to what a full pixel of ink would change.
+  // Ink per row around a crossing, relative to what a full pixel of ink would change.
   const auto ink = [&](double x) {
     const Vector<2> at = pixel_of(s.cage, {x, 0.53}, options);
     const int row = static_cast<int>(at.y());

@@ -37,7 +37,7 @@ class WeightsFile : public FormatTest {
 
 const char* const kExtensions[] = {"mtx", "dmat", "npy"};
 
-// 3 control points, as many points as it takes.
+// 3 control points, as many points as needed.
 WeightMatrix awkward_weights() {
   const std::vector<double> numbers = awkward_numbers();
   WeightMatrix weights = WeightMatrix::Zero(3, static_cast<Eigen::Index>(numbers.size()));

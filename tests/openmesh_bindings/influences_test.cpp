@@ -36,7 +36,7 @@ void expect_refused(const std::string& words, const Action& action) {
   }
 }
 
-// Weights of a vertex that tell it from others: up to `most` of n.
+// Distinct weights for every vertex: up to `most` of n.
 Eigen::VectorXd row_of(int key, Index n, int most) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
   for (int j = 0; j < key % (most + 1); ++j) row[(key + 3 * j) % n] = 1 + key + 0.125 * j;

@@ -44,9 +44,9 @@ struct GradientAdmmOptions {
 //! tests/support/textbook_admm.h is the version with all copies. If the boundary has several
 //! components, each one after the first adds a period constraint.
 //!
-//! The state is in the properties named below, in the units of the mesh. A new object on a mesh
-//! that has them resumes. A state for another cage with as many control points, or another penalty,
-//! is a valid start: the iteration converges from any. The elements of the mesh must not change
+//! The state is stored in the properties named below, in the units of the mesh. A new object on a
+//! mesh with these properties resumes. The iteration converges from any state, also one for another
+//! penalty or another cage with the same number of control points. Mesh elements must not change
 //! meanwhile.
 //! \tparam Mesh  a TriMesh of OpenMesh in the plane, or a TetMesh
 template <class Mesh>
@@ -121,7 +121,7 @@ class GradientAdmm {
     return {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
   }
 
-  //! Writes the weights whose gradients are nearest to the present ones as a property.
+  //! Writes the weights whose gradients are nearest to the current ones as a property.
   void recover_weights() {
     const CellFieldView<double, kDim> gradients{gradient_->data(), static_cast<std::size_t>(n_),
                                                 n_};
@@ -241,7 +241,7 @@ class GradientAdmm {
   }
 
   // The sum of what `step` returns for all elements of a range of the mesh, in parallel. Each
-  // thread lends it two matrices to work with.
+  // thread passes two work matrices to it.
   template <class Range, class Step>
   Change for_all(const Range& range, const Step& step) const {
     Change sum;
