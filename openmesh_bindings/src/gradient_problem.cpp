@@ -135,7 +135,7 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   set_up_facets(problem);
   set_up_barycentric_conditions(problem);
   set_up_periods(problem);
-  // The same choice as for Method::kGradient; docs/method.md, section 7.
+  // The same choice as for Method::kGradient; docs/explanation/method/gradient_admm.md.
   constexpr double kFactor = Dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
   const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
   problem.penalty =

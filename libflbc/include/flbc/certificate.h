@@ -24,7 +24,8 @@ struct Certificate {
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
 //! The bound holds for all arguments. It accounts for rounding in the flux, the sums, and the
 //! linear programs, but not in the hat gradients and measures (1e-16 to 1e-15 relative,
-//! docs/method.md). It is tight if the flux is the dual of a nearly converged solver.
+//! docs/explanation/method/certificate.md). It is tight if the flux is the dual of a nearly
+//! converged solver.
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, a vector per cell and control point; longer vectors are shortened to phi A, and
 //! non-finite ones count as 0

@@ -17,7 +17,8 @@ enum class Method {
   kValue,     //!< default method: weight-splitting ADMM in the metric of the continuous problem;
               //!< fastest
   kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
-  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper (see docs/method.md)
+  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
+              //!< (docs/benchmarks/paper_details.md)
   kLbc2014,   //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison

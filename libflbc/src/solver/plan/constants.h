@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Every automatic constant of a solve, with the measurement behind it. docs/results.md and
-//! docs/lab_book.md have the tables.
+//! Every automatic constant of a solve, with the measurement behind it. docs/benchmarks and
+//! docs/contributing/lab_book.md have the tables.
 #pragma once
 
 #include <cstddef>

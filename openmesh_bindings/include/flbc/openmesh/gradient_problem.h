@@ -15,8 +15,8 @@ template <int Dim>
 using VectorRows = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::RowMajor>;
 
 //! If the boundary has several components, (8)-(10) do not determine one constant per control point
-//! and additional component (docs/method.md, section 8). One condition fixes each constant: sum_s
-//! field_s . g_i(s) = values_i.
+//! and additional component (docs/explanation/method/gradient_admm.md). One condition fixes each
+//! constant: sum_s field_s . g_i(s) = values_i.
 template <int Dim>
 struct PeriodConstraint {
   PointList<Dim> field;       //!< Dim x F, with norm 1

@@ -185,7 +185,8 @@ double GradientAdmm<Scalar, Dim>::noted_change() const {
 template <class Scalar, int Dim>
 Residuals GradientAdmm<Scalar, Dim>::residuals(const Change& change) const {
   // The duals of the paper, updated with the new G, differ from these duals by G_before - G. That
-  // difference is orthogonal to the result of the G-step (docs/method.md), so Pythagoras applies.
+  // difference is orthogonal to the result of the G-step
+  // (docs/explanation/method/gradient_admm.md), so Pythagoras applies.
   const double primal = relaxation_ == 1 ? change.dual - M_ * change.lead : change.dual;
   return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
 }

@@ -33,8 +33,8 @@ struct Residuals {
 //! Without over-relaxation, the gradients equal G of the paper in every iteration. A projection
 //! onto a constraint changes a vector only along the constrained direction. Dual steps relative to
 //! the extrapolated gradients 2 G - G_before therefore need only one value per tangent direction of
-//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. See docs/method.md
-//! for the derivation.
+//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. See
+//! docs/explanation/method/gradient_admm.md for the derivation.
 //!
 //! On domains with holes it also has period constraints, which the paper lacks.
 template <class Scalar, int Dim>
