@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 3, 5 and 6: curves. And the bars of the race."""
 
+import math
+
 import matplotlib.ticker
 
 import results
@@ -123,35 +125,72 @@ def least_times(curve):
     return times
 
 
+# Names at the ends of curves, which need no knowledge of options.
+CURVE_NAMES = {"lbc2014": "LBC 2014", "lbc2014-tuned": "LBC 2014,\ntuned", "paper": "FLBC 2019",
+               "gradient": "gradient\nADMM", "value": "libflbc"}
+MODEL_NAMES = {"woody": "2D figure", "horse": "3D horse"}
+
+
 def convergence(plt, rows, comments, path):
     models = results.in_order(row["model"] for row in rows)
-    # The legend below all curves: there is no corner that none of them passes.
-    figure, axes = plt.subplot_mosaic([models, ["legend"] * len(models)], layout="constrained",
-                                      figsize=(5.6 * len(models), 4.6),
-                                      gridspec_kw={"height_ratios": [1, 0.06]})
-    for model in models:
-        axis = axes[model]
+    figure, axes = plt.subplots(1, len(models), squeeze=False, layout="constrained",
+                                figsize=(5.9 * len(models), 4.7))
+    for model, axis in zip(models, axes[0]):
         mine = [row for row in rows if row["model"] == model]
-        for name, label, color, marker in results.METHODS:
+        reached, ends = {}, []
+        for name, _, color, marker in results.METHODS:
             curve = meaningful([row for row in mine if row["method"] == name])
-            if curve:
-                axis.loglog(least_times(curve),
-                            [results.value(r, "error") for r in curve],
-                            label=label, color=color, marker=marker)
-        axis.set_ylim(bottom=max(axis.get_ylim()[0], SMALLEST_ERROR))
-        axis.set_title(f"{model}, {results.thousands(mine[0]['vertices'])} vertices, "
-                       f"{mine[0]['control_points']} control points")
-        plain_ticks(axis.xaxis)
-        axis.set_xlabel("solve and recovery, seconds")
-        axis.set_ylabel("true mean squared error")
+            if not curve or name not in CURVE_NAMES:
+                continue
+            times, errors = least_times(curve), [results.value(row, "error") for row in curve]
+            axis.loglog(times, errors, color=color, marker=marker, markersize=4)
+            reached[name] = time_of(times, errors, MARKED_ERROR)
+            ends.append((times, errors, name, color))
+        low = max(axis.get_ylim()[0], SMALLEST_ERROR)
+        axis.set_ylim(bottom=low)
+        for times, errors, name, color in ends:
+            name_end(axis, times, errors, low, factor_of(name, reached), color)
         axis.axhline(MARKED_ERROR, color="#888888", linestyle="--", linewidth=0.9)
-    axes["legend"].axis("off")
-    axes["legend"].legend(*axes[models[0]].get_legend_handles_labels(), loc="center",
-                          ncol=len(results.METHODS))
-    footer(figure, comments)
+        axis.set_title(f"{MODEL_NAMES.get(model, model)}: {mine[0]['control_points']} control points, "
+                       f"{results.thousands(mine[0]['vertices'])} vertices")
+        axis.set_xlim(right=axis.get_xlim()[1] * 2.2)
+        plain_ticks(axis.xaxis)
+        axis.set_xlabel("seconds of solve and recovery")
+        axis.set_ylabel("mean squared error")
+    footer(figure, ["", "\u00d7: time to an error of 1e-5 (dashed), relative to libflbc"]
+           + comments[1:])
     figure.savefig(path)
     plt.close(figure)
     return path
+
+
+def time_of(times, errors, error):
+    """When a curve first reaches the error, interpolated; None if it does not."""
+    for k in range(1, len(errors)):
+        if errors[k] <= error < errors[k - 1]:
+            part = math.log(errors[k - 1] / error) / math.log(errors[k - 1] / errors[k])
+            return times[k - 1] * (times[k] / times[k - 1]) ** part
+    return None
+
+
+def factor_of(name, reached):
+    """The name, with how many times as long as libflbc the method takes to the marked error."""
+    if name == "value" or not reached[name]:
+        return CURVE_NAMES[name]
+    factor = reached[name] / reached["value"]
+    return f"{CURVE_NAMES[name]} ({factor:.{0 if factor >= 10 else 1}f}\u00d7)"
+
+
+def name_end(axis, times, errors, low, label, color):
+    """The label to the right of where a curve ends, or, where it leaves the axis, to its better side."""
+    end = time_of(times, errors, low)
+    place, offset, sides = (times[-1], errors[-1]), (8, 0), ("left", "center")
+    if end:
+        place, offset, sides = (end, low), (6, 14), ("left", "bottom")
+    if label == CURVE_NAMES["value"]:
+        offset, sides = (-28, 14), ("right", "bottom")
+    axis.annotate(label, place, xytext=offset, textcoords="offset points", color=color, fontsize=9.5,
+                  fontweight="bold", ha=sides[0], va=sides[1])
 
 
 def bars(plt, rows, comments, path):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keeps the tables of README.md and docs/, and numbers in their sentences (claims.py), equal to stored results.
 
-    docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables
+    docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables;
+                          scripts/pictures.sh charts draws the charts anew
     docs.py --check       fails if a table or a number differs from the stored results it is made of
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
@@ -21,15 +22,9 @@ import results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
-IMAGES = ROOT / "docs" / "images"
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
 PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
          if MARKED.search(page.read_text())]
-# Pictures in docs/images, by their place in OUT.
-PICTURES = {"figure5.png": "error_against_time.png", "figure6.png": "error_against_time_large.png",
-            "seconds_to_error.png": "seconds_to_error.png",
-            "cages.png": "automatic_cages.png", "samples/before_after.png": "before_after.png",
-            "samples/figure.png": "figure.png"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
@@ -78,9 +73,6 @@ def take_over(out):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
-    for made, picture in PICTURES.items():
-        if (out / made).exists():
-            shutil.copy(out / made, IMAGES / picture)
     for page in PAGES:
         page.write_text(with_tables(page.read_text()))
     claims.rewrite(STORED)

@@ -104,7 +104,8 @@ class RunCommand : public CommandLineTest {
                     " -k 4 --fps 1 --cages " + cage + " " + pose,
                 "m4.glb", "out/model.glb");
     expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
-                    " --control-point " + json["pictures"]["control_point"].dump(),
+                    " --control-point " + json["pictures"]["control_point"].dump() +
+                    (name[0] == '3' ? " --show-model " + model : ""),
                 "f.png", "out/function.png");
 
     // All reports are in one.
