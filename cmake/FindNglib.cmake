@@ -1,4 +1,4 @@
-# Netgen's library for other programs, which Debian keeps in folders of its own.
+# The Netgen library, which Debian installs in nonstandard directories.
 find_path(Nglib_INCLUDE_DIR nglib.h PATH_SUFFIXES netgen)
 find_library(Nglib_LIBRARY NAMES nglib PATH_SUFFIXES netgen)
 include(FindPackageHandleStandardArgs)

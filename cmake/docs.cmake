@@ -1,4 +1,4 @@
-# Target `docs`: the public interface as HTML in docs/html of the build folder.
+# Target `docs`: HTML documentation of the public interface, in docs/html of the build directory.
 find_package(Doxygen QUIET)
 if(DOXYGEN_FOUND)
   configure_file(docs/Doxyfile.in docs/Doxyfile @ONLY)

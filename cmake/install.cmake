@@ -1,13 +1,13 @@
-# What `cmake --install` puts where; included when all targets are known. Nothing that is installed
-# knows the prefix, so that a tree may be moved. Install components are the packages (package.cmake):
-# core, meshers and openmesh what runs, core_dev, meshers_dev and openmesh_dev what is compiled and
-# linked with, and program.
+# Install rules; included after all targets are defined. Installed files do not contain the prefix,
+# so the tree can be moved. Install components are the packages (package.cmake): core, meshers, and
+# openmesh have runtime files; core_dev, meshers_dev, and openmesh_dev have files for compiling and
+# linking; program has the program.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)
 
-# An export per component: flbcConfig.cmake offers those whose file it finds beside it, so that the
-# components with copyleft licences may be in packages of their own.
+# One export per component. flbcConfig.cmake offers components whose file is in its directory, so
+# components with copyleft licenses can be in separate packages.
 function(flbc_install_component component package)
   foreach(target IN LISTS ARGN)
     if(NOT TARGET ${target})

@@ -1,6 +1,6 @@
-# Inner loops are compiled for several instruction sets and chosen at run time, so that one binary is
-# fast everywhere. They are optimised in every build type: nothing in them is worth stepping through,
-# and without inlining one set's code could be linked into another's.
+# Inner loops are compiled for several instruction sets and chosen at run time, so that one binary
+# is fast everywhere. They are optimized in every build type, because without inlining the linker
+# could mix code for different instruction sets.
 include_guard(DIRECTORY)
 set(flbc_kernel_flags -O3 -fno-math-errno -fno-trapping-math -Wno-psabi)
 

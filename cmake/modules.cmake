@@ -1,5 +1,5 @@
-# Modules of the library. Each is an OBJECT library that finds only its own headers and those of the
-# modules that it depends on, so that an include of a higher layer does not compile.
+# Modules of the library. Each is an OBJECT library that finds only its own headers and those of its
+# dependencies, so an include from a higher layer does not compile.
 include_guard(DIRECTORY)
 include(${CMAKE_CURRENT_LIST_DIR}/kernels.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
@@ -27,7 +27,7 @@ function(flbc_add_module name)
     target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   endif()
 
-  # Other modules find the headers of this one in a folder of links.
+  # Other modules find the headers of this module in a directory of links.
   set(view ${flbc_MODULES}/${id})
   file(REMOVE_RECURSE ${view})
   cmake_path(GET name PARENT_PATH parent)
@@ -52,7 +52,7 @@ function(flbc_add_module name)
     set(files_in_unit 16)
     flbc_optimise_lightly(${target})
   elseif(name STREQUAL base)
-    # Eigen is most of what there is to compile.
+    # Compiling Eigen dominates build time.
     target_precompile_headers(${target} PRIVATE
       <algorithm> <functional> <map> <string> <vector>
       <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore>)
@@ -68,9 +68,9 @@ function(flbc_add_module name)
   target_link_libraries(${library} PRIVATE ${arg_LINKS})
 endfunction()
 
-# An optional library of modules that are added later: the license of the library behind it reaches
-# the binary.
-# \param ARGN  components that it uses
+# An optional library whose modules are added later. The license of the underlying library applies
+# to the binary.
+# \param ARGN  components that it depends on
 function(flbc_add_component name)
   add_library(flbc_${name})
   add_library(flbc::${name} ALIAS flbc_${name})
@@ -78,7 +78,7 @@ function(flbc_add_component name)
   target_link_libraries(flbc_${name} PUBLIC flbc::flbc ${ARGN})
 endfunction()
 
-# Every public header but flbc.h belongs to exactly one module.
+# Every public header except flbc.h belongs to exactly one module.
 function(flbc_check_public_headers)
   get_property(owned GLOBAL PROPERTY flbc_headers_of_modules)
   file(GLOB headers RELATIVE ${flbc_HEADERS}/flbc CONFIGURE_DEPENDS ${flbc_HEADERS}/flbc/*.h)

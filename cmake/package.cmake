@@ -1,7 +1,7 @@
-# Debian packages of what is built, by `cpack -G DEB` in its folder: the program, headers with
-# libraries, meshers and bindings, whose licences are others, in packages of their own. Built with
-# shared libraries (the preset `package`) what runs has packages that carry the version of the
-# interface in their names, so that two may be installed side by side.
+# Debian packages, made by `cpack -G DEB` in the build directory. The program, the headers with
+# libraries, the meshers, and the bindings are separate packages, because their licenses differ.
+# With shared libraries (preset `package`), names of runtime packages contain the interface version,
+# so several versions can be installed in parallel.
 set(CPACK_PACKAGE_NAME flbc)
 set(CPACK_PACKAGE_CONTACT "libflbc <libflbc@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
@@ -24,7 +24,8 @@ set(others_cgal "CGAL, GPL-3+")
 set(others_tetgen "TetGen, AGPL-3+")
 set(others_netgen "Netgen, LGPL-2.1, where it is installed")
 
-# One package: an install component under a name. \param depends  besides what dpkg-shlibdeps finds
+# One package: an install component under a name. \param depends  in addition to those found by
+# dpkg-shlibdeps
 function(flbc_package component name summary depends)
   string(TOUPPER ${component} upper)
   set(all ${CPACK_COMPONENTS_ALL} ${component})
@@ -106,7 +107,7 @@ if(TARGET flbc_app)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnglib-6.2)
 endif()
 
-# Where dpkg-shlibdeps finds the libraries of packages that are being made.
+# Directories where dpkg-shlibdeps finds the libraries of the new packages.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS)
 foreach(target flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
   if(BUILD_SHARED_LIBS AND TARGET ${target})

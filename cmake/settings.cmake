@@ -1,4 +1,4 @@
-# What the whole repository and libflbc/ alone, as somebody's sub-directory, have in common.
+# Settings shared by the repository and by libflbc/ as a subdirectory of another project.
 include_guard(DIRECTORY)
 include(${CMAKE_CURRENT_LIST_DIR}/version.cmake)
 
@@ -7,7 +7,7 @@ option(FLBC_WITH_TETGEN "3D meshing with TetGen (AGPL-3)" ON)
 option(FLBC_WITH_CHOLMOD "Factor with CHOLMOD (LGPL-2.1 / GPL-2) instead of Eigen" ON)
 
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
-# On where its library is found, because few need it.
+# On if its library is found.
 find_package(Nglib QUIET)
 option(FLBC_WITH_NETGEN "3D meshing with Netgen (LGPL-2.1) where TetGen fails" ${Nglib_FOUND})
 set(CMAKE_CXX_EXTENSIONS OFF)

@@ -1,7 +1,7 @@
-# Shared libraries, with -DBUILD_SHARED_LIBS=ON. They carry their version, find each other after the
-# tree has moved, and export only the names of public headers, by a list for the linker. Visibility
-# attributes would be needed at every function, because the attribute of a namespace does not apply
-# to templates that source files define.
+# Shared libraries, with -DBUILD_SHARED_LIBS=ON. They are versioned, find each other after the tree
+# is moved, and export only the names of public headers, by a linker version script. Visibility
+# attributes would be needed at every function, because a namespace attribute does not apply to
+# templates defined in source files.
 if(NOT BUILD_SHARED_LIBS)
   return()
 endif()
@@ -17,7 +17,7 @@ set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
 
-# The words of headers in the form of mangled names: length, word.
+# The identifiers in headers in mangled form: length, identifier.
 function(flbc_words_of headers result)
   set(words)
   foreach(header IN LISTS headers)
@@ -28,7 +28,7 @@ function(flbc_words_of headers result)
     list(APPEND words ${found})
   endforeach()
   list(REMOVE_DUPLICATES words)
-  # Namespaces would export all names in them.
+  # Namespaces would export all their names.
   list(REMOVE_ITEM words flbc io openmesh distance gradient active_set splitting)
   set(mangled)
   foreach(word IN LISTS words)
@@ -38,7 +38,7 @@ function(flbc_words_of headers result)
   set(${result} ${mangled} PARENT_SCOPE)
 endfunction()
 
-# Functions and variables, const functions, and what belongs to types.
+# Functions and variables, const functions, and type information.
 function(flbc_list_exports namespace headers)
   flbc_words_of("${headers}" words)
   foreach(kind N NK TIN TSN TVN TTN)
@@ -66,7 +66,7 @@ foreach(target IN LISTS shared_libraries)
   if(NOT TARGET ${target})
     continue()
   endif()
-  # An interface may change with every minor version, as write_basic_package_version_file() says.
+  # The interface may change with every minor version, as in write_basic_package_version_file().
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     INSTALL_RPATH "$ORIGIN")

@@ -1,5 +1,6 @@
-# Each source folder is compiled as one unit or a few, so that Eigen's templates are instantiated once
-# per folder. With -DFLBC_UNITY_BUILD=OFF (preset `debug`) a change to one file compiles only that file.
+# Each source directory is compiled as one or a few units, so Eigen templates are instantiated once
+# per directory. With -DFLBC_UNITY_BUILD=OFF (preset `debug`) a change to one file compiles only
+# that file.
 include_guard(DIRECTORY)
 option(FLBC_UNITY_BUILD "Compile the files of a folder together" ON)
 
@@ -8,7 +9,7 @@ function(flbc_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# \param most  files in one unit
+# \param most  maximum number of files in one unit
 function(flbc_compile_in_units target most)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)

@@ -1,2 +1,2 @@
-# The one place that says it.
+# The only definition of the version.
 set(FLBC_VERSION 0.1.0)

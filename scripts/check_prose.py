@@ -4,7 +4,7 @@
 check_prose.py [PAGE...]   default: every page of the repository
 
 A page has at most 12 kB. Its sentences have at most 20 words on average and none more than 35. Tables,
-code, formulas on lines of their own, and titles are not sentences.
+code, formulas on lines of their own, and titles are not sentences. Files named in backticks exist.
 """
 import pathlib
 import re
@@ -32,6 +32,7 @@ HABITS = {
     r"round (a|an|the|its)": "around",
     r"\d %": "percent without a space",
 }
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 ABBREVIATIONS = r"(?:e\.g|i\.e|cf|et al|vs|Fig|Figs|Eq|Eqs|Sec|No|approx|resp|[A-Z])\."
 
 
@@ -63,6 +64,18 @@ def sentences(text):
                 yield sentence.strip()
 
 
+def missing_files(page, text):
+    """Paths in backticks that begin with a folder of the repository and lead nowhere."""
+    text = re.sub(r"^( *)(```|~~~).*?^\1?\s*\2[^\n]*$", "\n", text, flags=re.S | re.M)
+    for name in re.findall(r"`([\w.-]+(?:/[\w.*-]+)+)/?`", text):
+        first = name.split("/")[0]
+        folders = [page.parent] if first == ".." else [ROOT, ROOT / "libflbc" / "src"]
+        below = [folder for folder in folders if (folder / first).is_dir()]
+        if below and first not in ("build", "out") and not any(
+                list(folder.glob(name)) or list(folder.glob(name + ".*")) for folder in below):
+            yield name
+
+
 def words(sentence):
     return len([word for word in sentence.split() if re.search(r"\w", word)])
 
@@ -75,6 +88,8 @@ def check(path, text):
         yield f"{len(text.encode())} bytes; at most {SIZE}"
     if counts and sum(counts) / len(counts) > MEAN:
         yield f"{sum(counts) / len(counts):.1f} words in a sentence on average; at most {MEAN}"
+    for name in missing_files(path, text):
+        yield f"no file {name}"
     for sentence, count in zip(found, counts):
         if count > LONGEST:
             yield f"{count} words; at most {LONGEST}: {sentence}"
@@ -85,11 +100,10 @@ def check(path, text):
 
 
 def main():
-    root = pathlib.Path(__file__).resolve().parent.parent
     pages = [pathlib.Path(page) for page in sys.argv[1:]]
     if not pages:
-        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=root, capture_output=True, text=True)
-        pages = [root / line for line in listed.stdout.split("\n") if line]
+        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True)
+        pages = [ROOT / line for line in listed.stdout.split("\n") if line]
     wrong = 0
     for page in pages:
         for line in check(page, page.read_text()):

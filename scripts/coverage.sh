@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: scripts/coverage.sh [CTEST_OPTIONS]
-# Builds with GCC's counters (preset `coverage`), runs the tests, and prints which part of the lines
-# of the library, of its file formats and of the bindings they run; at least 90 % are wanted. The
-# report by file is build/coverage/report/index.html. Options go to ctest; with TARGETS only these
-# are built: TARGETS=weights_test scripts/coverage.sh -R Weights. LEAST=0 wants nothing.
+# Builds with GCC coverage counters (preset `coverage`), runs the tests, and prints line coverage of
+# the library, file formats, and bindings. At least 90% is required; LEAST=0 disables this. Report
+# by file: build/coverage/report/index.html. Options go to ctest. TARGETS limits the build:
+# TARGETS=weights_test scripts/coverage.sh -R Weights
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +19,7 @@ find build/coverage -name '*.gcda' -delete
 status=0
 ctest --preset coverage --label-exclude 'install|blender' --timeout 1800 "$@" || status=$?
 
-# gcovr replaces the file that --output names: it must be none of the system's, as /dev/null.
+# gcovr replaces the file of --output, so it must not be a system file such as /dev/null.
 mkdir -p build/coverage/report
 counters=(--root . --object-directory build/coverage --exclude-directories '.*/CompilerIdCXX')
 summary() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and takes a 2D and a 3D sample all the way: weights, deformed
-# models, skins, reports and pictures under out/.
+# Installs missing packages, builds, and processes a 2D and a 3D sample: weights, deformed models,
+# skins, reports, and pictures in out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

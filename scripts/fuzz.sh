@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Usage: scripts/fuzz.sh [SECONDS_PER_READER] [READER...]
-# Builds flbc_fuzz (libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer; preset `fuzz`), lets it
-# work on every reader, or on those that are named, for so many seconds each (60), one reader a core,
-# and ends with a table. Exit status 1 if there are findings: inputs on which a reader crashes, takes
-# 10 s or 2 GiB, throws what is no flbc::Error, or hands back what breaks a promise (tests/fuzz). What
-# it has learnt is kept in build/fuzz/corpus, so that the next run goes on from there. With SEED=1 in
-# the environment it forgets that and does the same in every run, as far as it gets; with RUNS=N it
-# ends after N inputs a reader.
+# Builds flbc_fuzz (libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer; preset `fuzz`) and
+# fuzzes every reader, or the named readers, for the given seconds each (default: 60). It runs one
+# reader per core and ends with a table. Exit status 1 if there are findings: inputs on which a
+# reader crashes, takes 10 s or 2 GiB, throws anything except flbc::Error, or violates its contract
+# (tests/fuzz). The corpus is kept in build/fuzz/corpus, and the next run resumes from it. SEED=1 in
+# the environment ignores the corpus and makes runs reproducible. RUNS=N ends after N inputs per
+# reader.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -46,7 +46,7 @@ number_in() {
   grep -oE "$2 *[0-9]+" "$1" | tail -1 | grep -oE '[0-9]+$' || echo 0
 }
 
-# fuzz_reader READER: fuzzes one reader; its log and findings tell the rest.
+# fuzz_reader READER: fuzzes one reader; see its log and findings for the result.
 fuzz_reader() {
   local reader=$1 file
   file=$(printf '%s\n' "${known[@]}" | sed -n "s/^$reader //p")

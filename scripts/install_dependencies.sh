@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing, and those that are named. Does nothing, in no time,
-# if all are there.
+# Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
 set -euo pipefail
 
 packages=(
@@ -11,7 +10,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev  # the program flbc
   libcpp-httplib-dev                      # flbc view --serve
   libgtest-dev poppler-utils librsvg2-bin python3-numpy  # tests; the last three read results
-  python3-markdown groff-base             # tests of pages
+  mkdocs mkdocs-material libjs-katex codespell groff-base  # tests of pages
 )
 packages+=("$@")
 

@@ -47,7 +47,7 @@ def cases(models, quick):
         if model is None or not model.exists():
             continue
         pose = cage.with_name(cage.stem + "_pose.obj")
-        poses = ["--pose", pose] if pose.exists() else ["--deformed", cage]
+        poses = ["--pose", pose] if pose.exists() else ["--pose", cage]
         yield f"{name} run", [
             ["run", cage, model, *poses, "-k", "8", "-o", "OUT/run", *limits],
             ["check", cage, "--model", model, "--weights", "OUT/run/weights.npy", "--json",

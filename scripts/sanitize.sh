@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: scripts/sanitize.sh [CTEST_OPTIONS]
-# Builds everything with AddressSanitizer and UndefinedBehaviorSanitizer (preset `asan`) and runs the
-# tests, but for those of installed files, browsers and Blender, which run what is not instrumented.
-# Options go to ctest; with TARGETS only these are built: TARGETS="weights_test replay_test"
-# scripts/sanitize.sh -R 'Weights|Fuzz'
+# Builds everything with AddressSanitizer and UndefinedBehaviorSanitizer (preset `asan`) and runs
+# the tests, except those of installed files, browsers, and Blender, which run code without
+# sanitizers. Options go to ctest. TARGETS limits the build:
+# TARGETS="weights_test replay_test" scripts/sanitize.sh -R 'Weights|Fuzz'
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,13 +11,13 @@ if [[ ${1:-} == -h || ${1:-} == --help ]]; then
   sed -n '2,6s/^# //p' scripts/sanitize.sh
   exit
 fi
-# Readers are tested with headers that ask for more memory than there is: that is for the program
-# to refuse. Stacks cannot be watched after functions returned: frames are then kept at addresses to
-# which instructions for aligned vectors of 64 bytes cannot write.
+# Readers are tested with headers that request more memory than available, which the program must
+# reject. Stack use after return is not checked, because it moves frames to addresses to which
+# instructions for aligned 64-byte vectors cannot write.
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_stack_use_after_return=0:${ASAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
 
-# Whether the net holds: an access beyond an array and an overflow end a program.
+# Checks that the sanitizers work: an out-of-bounds access and an overflow must end a program.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cat >"$folder/net.cpp" <<'END'

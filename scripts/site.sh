@@ -1,18 +1,17 @@
 #!/bin/sh
-# One static site of README, docs/, the manual pages and the C++ interface, for any browser or web server.
+# Builds one static site of the pages in docs/, the command pages, and the C++ interface. It has search and
+# works without a network.
 # site.sh [OUTPUT (out/site)]; takes the program of build/release, and builds it if it is not there.
 set -eu
 cd "$(dirname "$0")/.."
 site=${1:-out/site}
-scripts/install_dependencies.sh doxygen python3-markdown groff-base
+scripts/install_dependencies.sh doxygen mkdocs mkdocs-material libjs-katex
 [ -f build/release/CMakeCache.txt ] || cmake --preset release >/dev/null
 cmake --build --preset release --target flbc_app
-rm -rf "$site"
-mkdir -p "$site"
-# Debian's Python, which has Debian's modules.
-/usr/bin/python3 -B scripts/site/build_site.py . build/release/help "$site"
+scripts/site/build.sh build/release/help "$site"
 cmake --preset release >/dev/null
 cmake --build --preset release --target docs
 cp -r build/release/docs/html "$site/api"
+# Debian's Python, which has Debian's modules.
 /usr/bin/python3 -B scripts/site/check_links.py "$site"
 echo "$site/index.html"

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, runs all tests. Options go to ctest, e.g. scripts/test.sh -R solver
+# Installs missing packages, builds, and runs all tests. Options go to ctest, for example
+# scripts/test.sh -R solver
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_dependencies.sh
 cmake --preset release >/dev/null
 cmake --build --preset release
-# Without them the tests of glTF in other programs and of pages in a browser are skipped.
+# Without them, tests of glTF in other programs and of pages in a browser are skipped.
 if command -v npm >/dev/null; then
   scripts/install_dependencies.sh chromium fonts-dejavu-core ||
     echo "no browser: the test of pages in one will be skipped" >&2

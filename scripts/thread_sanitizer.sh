@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: scripts/thread_sanitizer.sh [GOOGLETEST_OPTIONS]
-# Builds the tests of the iterations, of whole solves and of whatever else runs in parallel with
-# ThreadSanitizer (preset `tsan`) and runs them with four threads; options go to them, e.g.
-# scripts/thread_sanitizer.sh --gtest_filter='*Single*'. GCC's OpenMP library tells ThreadSanitizer
-# nothing of its barriers, so that all would be a race; clang's does, through the tool archer.
+# Builds the tests of parallel code with ThreadSanitizer (preset `tsan`) and runs them with four
+# threads. Options go to the tests, such as --gtest_filter='*Single*'. Needs clang: the GCC OpenMP
+# library does not report its barriers to ThreadSanitizer, so everything would be a race; clang
+# does, through the tool archer.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,10 +18,10 @@ if [ ! -e "$archer" ]; then
   exit 1
 fi
 export OMP_TOOL_LIBRARIES=$archer OMP_NUM_THREADS=4 OMP_WAIT_POLICY=passive
-# Libraries that are not instrumented, as CHOLMOD, are not looked at.
+# Ignores libraries without instrumentation, such as CHOLMOD.
 export TSAN_OPTIONS="ignore_noninstrumented_modules=1 ${TSAN_OPTIONS:-}"
 
-# Whether the net holds: a race is seen, and what a barrier separates is none.
+# Checks that ThreadSanitizer works: it reports a race, and accepts accesses separated by a barrier.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cat >"$folder/net.cpp" <<'END'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Usage: scripts/tidy.sh [REGEX...]
-# Runs clang-tidy with the rules of .clang-tidy on all sources, or on those whose paths match, as
+# Runs clang-tidy with the rules of .clang-tidy on all sources, or on those with matching paths:
 # scripts/tidy.sh libflbc/io apps/main. A warning is a failure.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,7 +10,7 @@ if [[ ${1:-} == -h || ${1:-} == --help ]]; then
   exit
 fi
 scripts/install_dependencies.sh clang clang-tidy libomp-14-dev
-# File by file, and with clang++: clang-tidy reads no precompiled headers of GCC.
+# Without unity builds, and with clang++, because clang-tidy cannot read GCC precompiled headers.
 cmake --preset clang -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DFLBC_UNITY_BUILD=OFF \
   -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
 

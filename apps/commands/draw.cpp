@@ -30,6 +30,7 @@ struct DrawArguments {
   std::string weights;
   std::string cage;
   std::string pose;
+  std::string shown_model;
   std::string output;
   std::string color;
   std::string view = "three-quarter";
@@ -89,6 +90,7 @@ std::vector<Index> all_of(Index count) {
 
 std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
+  if (!arguments.shown_model.empty()) throw OptionError("--show-model is for cages in 3D");
   if (arguments.all) {
     return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
   }
@@ -101,8 +103,14 @@ std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const Weig
   if (arguments.all) {
     return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
   }
+  Cage<3> model;
+  if (!arguments.shown_model.empty()) {
+    const auto shown = load_shown_model<3>(arguments.shown_model);
+    model = {shown.points, gltf::triangles_of_points(shown.surface)};
+  }
   return draw::draw_slices(cage, domain, weights.row(arguments.control_point),
-                           arguments.control_point, arguments.slices, arguments.options);
+                           arguments.control_point, arguments.slices, arguments.options,
+                           model.facets.cols() > 0 ? &model : nullptr);
 }
 
 // A model at rest and, with a pose, also there.
@@ -130,7 +138,8 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
 }
 
 std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments) {
-  if (!arguments.color.empty() && arguments.color != kWeight) {
+  const bool has_squares = !arguments.pose.empty() && !arguments.all && arguments.color != kWeight;
+  if (arguments.color == kDisplacement || (arguments.color == kPlain && !has_squares)) {
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
   const auto posed = load_posed(cage, arguments);
@@ -140,14 +149,13 @@ std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments
   }
   return draw::draw_deformation(
       cage.facets, triangles, {cage.points, posed.model.points}, {posed.pose, posed.moved},
-      posed.weights.row(arguments.control_point), arguments.control_point, arguments.options);
+      has_squares ? Eigen::VectorXd() : Eigen::VectorXd(posed.weights.row(arguments.control_point)),
+      arguments.control_point, arguments.options);
 }
 
 draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& arguments) {
   const bool has_moved = posed.moved.cols() > 0;
-  const auto color = !arguments.color.empty() ? arguments.color
-                     : has_moved              ? kDisplacement
-                                              : kWeight;
+  const auto color = !arguments.color.empty() ? arguments.color : has_moved ? kPlain : kWeight;
   if (color == kPlain) return {};
   if (color == kDisplacement) return {displacements<3>(posed.model.points, posed.moved)};
   return {posed.weights.row(arguments.control_point), arguments.control_point};
@@ -198,7 +206,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
       ->needs(model);
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
-             "what the colors of a 3D model show (default: weight, or displacement with --pose)")
+             "what the colors of the model show (default: weight, or plain with --pose)")
       ->needs(model);
   command
       .add_option("--view", a.view,
@@ -206,7 +214,13 @@ void add_options(CLI::App& command, DrawArguments& a) {
                   "three-quarter)")
       ->needs(model)
       ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
-  command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
+  auto* shown = command
+                    .add_option("--show-model", a.shown_model,
+                                "model whose shape is shown with the slices of DOMAIN in 3D")
+                    ->needs(domain);
+  command.add_flag("--all", a.all, "draw all functions on one sheet")
+      ->excludes(point)
+      ->excludes(shown);
   command.add_option("--slices", a.slices, "number of slices in 3D (default: 3)");
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command.add_option("--isolines", a.options.isolines,

@@ -12,16 +12,17 @@ constexpr Color from_bytes(int r, int g, int b) {
   return {static_cast<float>(r) / 255, static_cast<float>(g) / 255, static_cast<float>(b) / 255};
 }
 
-// Colors at 0, 0.1, ..., 1, chosen in CIE LCh: the lightness L falls at every step from 97 to 25
-// while the hue turns from blue (250 degrees) to red (22 degrees).
+// Colors at 0, 0.1, ..., 1, chosen in CIE LCh: the lightness L falls at every step from 93 to 22
+// while the hue turns from green (150 degrees) to blue (292 degrees).
 constexpr std::array<Color, 11> kTable = {
-    from_bytes(247, 248, 250), from_bytes(202, 225, 246), from_bytes(149, 205, 243),
-    from_bytes(97, 192, 232),  from_bytes(52, 189, 192),  from_bytes(100, 183, 125),
-    from_bytes(152, 169, 61),  from_bytes(190, 146, 26),  from_bytes(206, 108, 23),
-    from_bytes(180, 54, 42),   from_bytes(118, 18, 36)};
+    from_bytes(216, 241, 221), from_bytes(178, 227, 201), from_bytes(135, 212, 186),
+    from_bytes(89, 195, 178),  from_bytes(40, 177, 173),  from_bytes(0, 159, 169),
+    from_bytes(0, 139, 173),   from_bytes(0, 117, 169),   from_bytes(0, 94, 155),
+    from_bytes(0, 71, 136),    from_bytes(23, 48, 114)};
 
-constexpr Color kNegative = from_bytes(214, 168, 236);
-constexpr Color kVeryNegative = from_bytes(104, 20, 168);
+constexpr Color kZero = from_bytes(248, 248, 249);
+constexpr Color kNegative = from_bytes(253, 205, 150);
+constexpr Color kVeryNegative = from_bytes(190, 75, 10);
 constexpr Color kAboveOne = from_bytes(255, 120, 225);
 constexpr Color kFarAboveOne = from_bytes(235, 0, 170);
 
@@ -55,6 +56,7 @@ Color defect_color(Color slight, Color severe, double excess) {
 }  // namespace
 
 Color weight_color(double weight) {
+  if (std::abs(weight) <= kWeightTolerance) return kZero;
   if (weight < -kWeightTolerance) return defect_color(kNegative, kVeryNegative, -weight);
   if (weight > 1 + kWeightTolerance) return defect_color(kAboveOne, kFarAboveOne, weight - 1);
   return smooth_color(weight);

@@ -12,7 +12,7 @@
 namespace flbc::draw {
 namespace {
 
-constexpr Color kPlain{0.70F, 0.76F, 0.84F};
+constexpr Color kGhost{0.93F, 0.94F, 0.95F};
 constexpr float kHiddenOpacity = 0.22F;
 
 Vector<2> pixel_of(const ModelScene& scene, const Vector<3>& place) {
@@ -47,7 +47,7 @@ double light_on(const Vector<3>& normal) {
   return std::min(1.0, 0.34 + 0.46 * std::max(0.0, front.dot(lamp)) + 0.26 * front.z());
 }
 
-Raster painted_surface(const Canvas& canvas, const ModelScene& scene) {
+Raster painted_surface(const Canvas& canvas, const ModelScene& scene, Color plain) {
   const auto& points = scene.place.points;
   const PointList<3> normals = normals_in_view(scene);
   const Eigen::VectorXd nearness = points.transpose() * scene.view.toward;
@@ -60,7 +60,7 @@ Raster painted_surface(const Canvas& canvas, const ModelScene& scene) {
         {pixels.col(a), pixels.col(b), pixels.col(c)}, {nearness[a], nearness[b], nearness[c]},
         [&](double b0, double b1, double b2) {
           const Color color = scene.values.size() == 0
-                                  ? kPlain
+                                  ? plain
                                   : weight_color(b0 * scene.values[a] + b1 * scene.values[b] +
                                                  b2 * scene.values[c]);
           const Vector<3> normal = b0 * normals.col(a) + b1 * normals.col(b) + b2 * normals.col(c);
@@ -90,8 +90,8 @@ void paint_wire(Canvas& canvas, const Raster& surface, const ModelScene& scene) 
       last = &pieces_of;
     }
   }
-  canvas.draw_segments(hidden, 1.3 * scene.unit, kInk, kHiddenOpacity);
-  canvas.draw_segments(visible, 1.3 * scene.unit, kInk, 0.85F);
+  canvas.draw_segments(hidden, 1.5 * scene.unit, kInk, kHiddenOpacity);
+  canvas.draw_segments(visible, 1.7 * scene.unit, kInk, 0.85F);
 }
 
 double dot_radius(const ModelScene& scene) {
@@ -107,14 +107,12 @@ double dot_radius(const ModelScene& scene) {
 
 void paint_control_points(Canvas& canvas, const Raster& surface, const ModelScene& scene) {
   const auto& places = scene.place.control_points;
-  std::vector<Vector<2>> visible, hidden;
+  std::vector<Vector<2>> visible;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const Vector<2> pixel = pixel_of(scene, places.col(i));
-    const bool is_hidden = surface.hides(pixel, scene.view.toward.dot(places.col(i)));
-    (is_hidden ? hidden : visible).push_back(pixel);
+    if (!surface.hides(pixel, scene.view.toward.dot(places.col(i)))) visible.push_back(pixel);
   }
   const double radius = dot_radius(scene);
-  canvas.fill_discs(hidden, radius, mix(kWhite, kInk, 2 * kHiddenOpacity));
   paint_dots(canvas, visible, radius, kInk);
   if (scene.control_point < 0) return;
   // Last and largest, so that neighbors never hide it.
@@ -124,8 +122,13 @@ void paint_control_points(Canvas& canvas, const Raster& surface, const ModelScen
 
 }  // namespace
 
+void paint_ghost(Canvas& canvas, const ModelScene& scene) {
+  Raster surface = painted_surface(canvas, scene, kGhost);
+  canvas.draw_raster(surface);
+}
+
 void paint_model(Canvas& canvas, const ModelScene& scene) {
-  Raster surface = painted_surface(canvas, scene);
+  Raster surface = painted_surface(canvas, scene, kClay);
   canvas.draw_raster(surface);
   paint_wire(canvas, surface, scene);
   paint_control_points(canvas, surface, scene);

@@ -36,8 +36,12 @@ struct ModelScene {
   double unit;      //!< size of what is 1 pixel wide in a picture of the usual width
 };
 
+//! Paints the surface alone, pale and whatever the values: where a model was before.
+void paint_ghost(Canvas& canvas, const ModelScene& scene);
+
 //! Paints the surface with its nearest parts in front, lit from the upper left, and over it the
-//! wire, pale where the surface hides it.
+//! wire, pale where the surface hides it, with
+//! the control points that it does not hide.
 void paint_model(Canvas& canvas, const ModelScene& scene);
 
 }  // namespace flbc::draw

@@ -71,6 +71,7 @@ void paint_bar(Canvas& canvas, const Box& bar, const ShownValues& shown, double 
   }
   auto without_lines = options;
   without_lines.isolines = 0;
+  without_lines.support_level = 0;
   paint_color_bar(canvas, bar, shown.control_point, shown.values.minCoeff(),
                   shown.values.maxCoeff(), without_lines);
 }
@@ -84,9 +85,11 @@ std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& p
   check(model, places, shown);
   const auto [in_a_row, gap] = arrange_poses(common_box(places, view).size());
   std::vector<Vector<2>> shifts;
+  std::vector<Box> boxes;  // of all that is shown with a place: later ones have the first as ghost
   Box all = common_box({places.front()}, view);
   for (const auto& place : places) {
-    const Box box = common_box({place}, view);
+    boxes.push_back(common_box({places.front(), place}, view));
+    const Box& box = boxes.back();
     if (shifts.empty()) {
       shifts.emplace_back(0, 0);
       continue;
@@ -103,10 +106,20 @@ std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& p
   const Eigen::VectorXd values =
       largest > 0 ? Eigen::VectorXd(shown.values / largest) : shown.values;
   Canvas canvas(layout.width, layout.height, options.format);
+  const PixelMap map(all, layout.frame);
+  const double unit = std::max(0.6, pixel_unit(options));
+  const auto scene = [&](std::size_t place, std::size_t panel, const Eigen::VectorXd& colors) {
+    return ModelScene{model, places[place], colors,        shown.control_point,
+                      view,  map,           shifts[panel], unit};
+  };
+  const Eigen::VectorXd plain;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    paint_model(canvas,
-                {model, places[k], values, shown.control_point, view, PixelMap(all, layout.frame),
-                 shifts[k], std::max(0.6, pixel_unit(options))});
+    if (k > 0) paint_ghost(canvas, scene(0, k, plain));
+    paint_model(canvas, scene(k, k, values));
+    if (places.size() == 1) break;
+    const Box& box = boxes[k];
+    paint_label(canvas, map(Vector<2>(Vector<2>(box.center().x(), box.high.y()) + shifts[k])),
+                k == 0 ? kRestLabel : kPoseLabel, pixel_unit(options));
   }
   if (shown_options.color_bar) paint_bar(canvas, layout.color_bar, shown, largest, options);
   return canvas.encode();

@@ -18,8 +18,8 @@ struct ShownValues {
 };
 
 //! Draws the model in one or several places, side by side or, if they are wide, one above the
-//! other, in the same scale and the same frame.
-//! \param places  at least one
+//! other, in the same scale and the same frame, all but the first with a pale copy of the first.
+//! \param places  at least one: at rest, and poses
 //! \throws InputError if sizes and indices do not belong together or a number is not finite,
 //! OptionError as draw_weights()
 std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,

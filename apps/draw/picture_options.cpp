@@ -16,8 +16,8 @@ PictureFormat picture_format(const std::string& path) {
   if (extension == ".png") return PictureFormat::kPng;
   if (extension == ".svg") return PictureFormat::kSvg;
   if (extension == ".pdf") return PictureFormat::kPdf;
-  throw OptionError(path + ": a picture is written as one of " + kPictureExtensions +
-                    ", not as '" + extension + "'");
+  throw OptionError(path + ": a picture is written as one of " + kPictureExtensions + ", not as '" +
+                    extension + "'");
 }
 
 void validate(const WeightPictureOptions& options) {

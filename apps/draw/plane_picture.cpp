@@ -12,6 +12,8 @@
 namespace flbc::draw {
 namespace {
 
+constexpr Color kDarkClay{0.70F, 0.60F, 0.51F};
+
 // Dots shrink where control points are dense, so that the polygon remains visible.
 double dot_radius(const Cage<2>& cage, const PixelMap& map, double unit) {
   double length = 0;
@@ -35,6 +37,7 @@ void paint_cage(Canvas& canvas, const Cage<2>& cage, const PixelMap& map, Index 
   std::vector<Vector<2>> dots;
   for (const auto& point : cage.points.colwise()) dots.push_back(map(Vector<2>(point)));
   paint_dots(canvas, dots, radius, kInk);
+  if (control_point < 0) return;
   // Last and largest, so that neighbors never hide it.
   paint_dots(canvas, {dots[control_point]}, std::max(1.5 * radius, 5 * unit), kHighlight);
 }
@@ -59,6 +62,26 @@ void paint_function(Canvas& canvas, const PixelMap& map, const Cage<2>& cage,
   canvas.draw_segments(outline_of(points, mesh.cells), 2.4 * unit, kInk, 0.8F);
   paint_weight(canvas, points, mesh.cells, values, options);
   paint_cage(canvas, cage, map, control_point, unit);
+}
+
+// Squares of the shape at rest, which show how it is deformed.
+void paint_checker(Canvas& canvas, const PointList<2>& pixels, const CellList<2>& triangles,
+                   const PointList<2>& rest) {
+  constexpr double kSquares = 40;  // along the larger side
+  const Vector<2> low = rest.rowwise().minCoeff();
+  const double square = (rest.rowwise().maxCoeff() - low).maxCoeff() / kSquares;
+  Raster raster = canvas.raster_for(pixels);
+  for (const auto& t : triangles.colwise()) {
+    raster.fill({pixels.col(t[0]), pixels.col(t[1]), pixels.col(t[2])}, Vector<3>::Zero(),
+                [&](double b0, double b1, double b2) {
+                  const Vector<2> at =
+                      (b0 * rest.col(t[0]) + b1 * rest.col(t[1]) + b2 * rest.col(t[2]) - low) /
+                      square;
+                  const auto sum = static_cast<int>(at.x()) + static_cast<int>(at.y());
+                  return sum % 2 == 0 ? kClay : kDarkClay;
+                });
+  }
+  canvas.draw_raster(raster);
 }
 
 void check_edges(const Cage<2>& cage) {
@@ -140,8 +163,11 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
   validate(options);
   check_shape(triangles, before, after);
   check_shape(triangles, after, before);
-  check_weight(values, static_cast<Index>(before.points.cols()), control_point,
-               static_cast<Index>(before.control_points.cols()));
+  const bool checkered = values.size() == 0;
+  if (!checkered) {
+    check_weight(values, static_cast<Index>(before.points.cols()), control_point,
+                 static_cast<Index>(before.control_points.cols()));
+  }
 
   const Box content = common_box(before, after);
   const Vector<2> size = content.size();
@@ -152,20 +178,31 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
   const Vector<2> second = content.low + (in_a_row ? step : Vector<2>(0, 0));
   const Box both{content.low, content.high + step};
 
-  const PictureLayout layout = plan_picture(both, options);
+  auto shown = options;
+  shown.color_bar = options.color_bar && !checkered;
+  const PictureLayout layout = plan_picture(both, shown);
   const PixelMap map(both, layout.frame);
   const double unit = std::max(0.6, pixel_unit(options));
   Canvas canvas(layout.width, layout.height, options.format);
-  const auto paint = [&](const DrawnShape& shape, const Vector<2>& place) {
+  const auto paint = [&](const DrawnShape& shape, const Vector<2>& place, const char* label) {
     const Vector<2> shift = place - content.low;
     const Cage<2> cage{shape.control_points.colwise() + shift, facets};
     const DomainMesh<2> mesh{shape.points.colwise() + shift, triangles};
     check_edges(cage);
-    paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
+    if (checkered) {
+      const PointList<2> pixels = map(mesh.points);
+      canvas.draw_segments(outline_of(pixels, triangles), 2.4 * unit, kInk, 0.8F);
+      paint_checker(canvas, pixels, triangles, before.points);
+      paint_cage(canvas, cage, map, -1, unit);
+    } else {
+      paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
+    }
+    paint_label(canvas, map(Vector<2>(place.x() + size.x() / 2, place.y() + size.y())), label,
+                pixel_unit(options));
   };
-  paint(before, first);
-  paint(after, second);
-  if (options.color_bar) {
+  paint(before, first, kRestLabel);
+  paint(after, second, kPoseLabel);
+  if (shown.color_bar) {
     paint_color_bar(canvas, layout.color_bar, control_point, values.minCoeff(), values.maxCoeff(),
                     options);
   }

@@ -36,10 +36,11 @@ struct DrawnShape {
 };
 
 //! Draws a shape and its cage before and after, side by side or, if they are wide, one above the
-//! other, in the same scale and the same frame, colored by one coordinate function.
+//! other, in the same scale and the same frame, colored by one coordinate function or in
+//! squares that are deformed with it.
 //! \param facets  2 x m, of the cage
 //! \param triangles  3 x T, of the shape
-//! \param values  P
+//! \param values  P; empty for the squares, without a control point in red
 //! \throws InputError if sizes and indices do not belong together or a number is not finite,
 //! OptionError as draw_weights()
 std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,

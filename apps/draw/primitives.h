@@ -23,6 +23,7 @@ inline Color mix(Color a, Color b, float t) {
 
 constexpr Color kWhite{1, 1, 1};
 constexpr Color kInk{0.13F, 0.15F, 0.19F};
+constexpr Color kClay{0.84F, 0.76F, 0.68F};  // of models without values
 constexpr Color kHighlight{0.90F, 0.07F, 0.10F};
 
 //! A piece of a straight line.

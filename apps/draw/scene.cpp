@@ -15,6 +15,9 @@ namespace {
 constexpr Color kWire{0.30F, 0.33F, 0.39F};
 constexpr Color kShellShade{0.87F, 0.89F, 0.925F};
 constexpr Color kShellLight{0.965F, 0.97F, 0.98F};
+constexpr Color kModelSection{0.55F, 0.36F, 0.20F};
+constexpr Color kModelShade{0.72F, 0.66F, 0.60F};
+constexpr Color kModelLight{0.93F, 0.88F, 0.83F};
 
 // Facets whose normals differ by less than about 3 degrees are in one plane to the eye.
 constexpr double kFlatCosine = 0.9986;
@@ -124,6 +127,25 @@ void paint_shell(Canvas& canvas, const Scene& scene) {
   canvas.draw_raster(raster);
 }
 
+// The model, as a pale shape behind the slices.
+void paint_model_shape(Canvas& canvas, const Scene& scene) {
+  const auto& points = scene.model->points;
+  PointList<2> pixels(2, points.cols());
+  for (Eigen::Index p = 0; p < points.cols(); ++p) pixels.col(p) = scene.pixel(points.col(p));
+  const Eigen::VectorXd nearness = points.transpose() * scene.view.toward;
+  const PointList<3> normals = outer_normals(*scene.model);
+  Raster raster = canvas.raster_for(pixels);
+  for (Eigen::Index f = 0; f < scene.model->facets.cols(); ++f) {
+    const auto t = scene.model->facets.col(f);
+    const double front = std::abs(normals.col(f).dot(scene.view.toward));
+    const Color color = mix(kModelShade, kModelLight, static_cast<float>(front));
+    raster.fill({pixels.col(t[0]), pixels.col(t[1]), pixels.col(t[2])},
+                {nearness[t[0]], nearness[t[1]], nearness[t[2]]},
+                [&](double, double, double) { return color; });
+  }
+  canvas.draw_raster(raster);
+}
+
 }  // namespace
 
 void paint_slice(Canvas& canvas, const Slice& slice,
@@ -134,15 +156,18 @@ void paint_slice(Canvas& canvas, const Slice& slice,
     points.col(v) = pixel(slice.mesh.points.col(v));
   }
   paint_weight(canvas, points, slice.mesh.cells, slice.values, options);
-  std::vector<Segment> outline;
-  for (const Segment& segment : slice.outline) {
-    outline.push_back({pixel(segment.a), pixel(segment.b)});
-  }
-  canvas.draw_segments(outline, 2.2 * unit, kInk);
+  const auto on_canvas = [&](const std::vector<Segment>& segments) {
+    std::vector<Segment> lines;
+    for (const Segment& segment : segments) lines.push_back({pixel(segment.a), pixel(segment.b)});
+    return lines;
+  };
+  canvas.draw_segments(on_canvas(slice.section), 2 * unit, kModelSection);
+  canvas.draw_segments(on_canvas(slice.outline), 2.2 * unit, kInk);
 }
 
 void paint_scene(Canvas& canvas, const Scene& scene) {
   paint_shell(canvas, scene);
+  if (scene.model != nullptr) paint_model_shape(canvas, scene);
   const auto slabs = cut_wire(scene);
   const int count = static_cast<int>(scene.slices.size());
   const bool ascending = scene.slices.front().plane.normal.dot(scene.view.toward) > 0;

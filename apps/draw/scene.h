@@ -22,6 +22,7 @@ struct Scene {
   PixelMap map;
   double unit;  //!< the pixels of a line that is 1 pixel wide in a picture of the usual size
   WeightPictureOptions options;
+  const Cage<3>* model = nullptr;  //!< a surface shown as a pale shape
 
   //! Where a point in space appears on the canvas.
   Vector<2> pixel(const Vector<3>& p) const { return map(view.project(p)); }

@@ -16,6 +16,9 @@ namespace {
 // Below this a weight does not count for the choice of planes.
 constexpr double kSupport = 0.01;
 
+// Of the cage, that slices cover: nearer ones would hide each other in the picture.
+constexpr double kLeastRange = 0.25;
+
 struct CutPoint {
   Vector<2> position;
   double value;
@@ -92,23 +95,6 @@ void store(const std::vector<CutPoint>& corners, Slice& slice) {
   }
 }
 
-std::vector<Segment> cut_cage(const Cage<3>& cage, const Plane& plane) {
-  const EdgeCutter cutter(cage.points, plane);
-  std::vector<Segment> outline;
-  for (const auto& facet : cage.facets.colwise()) {
-    std::vector<Vector<2>> ends;
-    for (int k = 0; k < 3; ++k) {
-      const Index a = facet[k];
-      const Index b = facet[(k + 1) % 3];
-      if (cutter.above(a) != cutter.above(b)) {
-        ends.push_back(cutter.cut_edge(a, b, nullptr).position);
-      }
-    }
-    if (ends.size() == 2) outline.push_back({ends[0], ends[1]});
-  }
-  return outline;
-}
-
 struct Interval {
   double low;
   double high;
@@ -129,8 +115,7 @@ Interval support_of(const DomainMesh<3>& mesh, const Eigen::VectorXd& values, in
 
 // The range to be covered by slices, on the axis.
 Interval range_of_slices(const Interval& extent, Interval support) {
-  // A narrower range would put the slices on top of each other in the picture.
-  const double missing = std::max(0.0, 0.5 * extent.length() - support.length()) / 2;
+  const double missing = std::max(0.0, kLeastRange * extent.length() - support.length()) / 2;
   support = {support.low - missing, support.high + missing};
   const double shift =
       std::max(0.0, extent.low - support.low) - std::max(0.0, support.high - extent.high);
@@ -152,6 +137,23 @@ Plane plane_through(const Vector<3>& origin, const Vector<3>& normal) {
   return plane;
 }
 
+std::vector<Segment> section_of(const Cage<3>& surface, const Plane& plane) {
+  const EdgeCutter cutter(surface.points, plane);
+  std::vector<Segment> outline;
+  for (const auto& facet : surface.facets.colwise()) {
+    std::vector<Vector<2>> ends;
+    for (int k = 0; k < 3; ++k) {
+      const Index a = facet[k];
+      const Index b = facet[(k + 1) % 3];
+      if (cutter.above(a) != cutter.above(b)) {
+        ends.push_back(cutter.cut_edge(a, b, nullptr).position);
+      }
+    }
+    if (ends.size() == 2) outline.push_back({ends[0], ends[1]});
+  }
+  return outline;
+}
+
 Slice cut(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd& values,
           const Plane& plane) {
   Slice slice{plane};
@@ -161,7 +163,7 @@ Slice cut(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd&
     cut_cell({cell[0], cell[1], cell[2], cell[3]}, cutter, values, corners);
   }
   store(corners, slice);
-  slice.outline = cut_cage(cage, plane);
+  slice.outline = section_of(cage, plane);
   return slice;
 }
 

@@ -37,7 +37,11 @@ struct Slice {
                              //!< no vertices, and may be degenerate
   Eigen::VectorXd values{};  //!< at the vertices of `mesh`, interpolated linearly
   std::vector<Segment> outline{};  //!< where the plane meets the cage, in no particular order
+  std::vector<Segment> section{};  //!< where it meets the model, if one is shown
 };
+
+//! Where a plane meets a surface of triangles, in plane coordinates and no particular order.
+std::vector<Segment> section_of(const Cage<3>& surface, const Plane& plane);
 
 //! Cuts all cells by the plane. A face of the mesh that lies in the plane counts once.
 //! \param values  V, the function at the vertices of the mesh
@@ -45,9 +49,9 @@ Slice cut(const Cage<3>& cage, const DomainMesh<3>& mesh, const Eigen::VectorXd&
           const Plane& plane);
 
 //! Parallel planes, ascending along the axis on which the cage is longest: they spread over the
-//! range in which the function is not zero, at least over half of the cage, and one passes through
-//! the control point, or a fifth of that range beside it where the point is a tip, as far as the
-//! spacing allows.
+//! range in which the function is not zero, at least over a quarter of the cage, and one passes
+//! through the control point, or a fifth of that range beside it where the point is a tip, as far
+//! as the spacing allows.
 //! \param count  >= 1. \throws OptionError if it is not
 std::vector<Plane> choose_planes(const Cage<3>& cage, const DomainMesh<3>& mesh,
                                  const Eigen::VectorXd& values, Index control_point, int count);

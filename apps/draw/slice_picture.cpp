@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "draw/layout.h"
 #include "draw/scene.h"
@@ -41,10 +43,12 @@ Strip choose_strip(const Box& content, const WeightPictureOptions& options) {
 }
 
 std::vector<Slice> cut_all(const Cage<3>& cage, const DomainMesh<3>& mesh,
-                           const Eigen::VectorXd& values, Index control_point, int number) {
+                           const Eigen::VectorXd& values, Index control_point, int number,
+                           const Cage<3>* model = nullptr) {
   std::vector<Slice> slices;
   for (const Plane& plane : choose_planes(cage, mesh, values, control_point, number)) {
     slices.push_back(cut(cage, mesh, values, plane));
+    if (model != nullptr) slices.back().section = section_of(*model, plane);
   }
   return slices;
 }
@@ -88,6 +92,29 @@ Box box_of(const Slice& slice, const PanelAxes& axes) {
   return {turned.rowwise().minCoeff(), turned.rowwise().maxCoeff()};
 }
 
+// Writes a letter above a slice.
+void paint_letter(Canvas& canvas, const Slice& slice, std::size_t k,
+                  const std::function<Vector<2>(const Vector<2>&)>& pixel, double unit) {
+  PointList<2> pixels(2, slice.mesh.num_vertices());
+  for (Index v = 0; v < slice.mesh.num_vertices(); ++v) {
+    pixels.col(v) = pixel(slice.mesh.points.col(v));
+  }
+  Eigen::Index top = 0;
+  pixels.row(1).minCoeff(&top);
+  paint_label(canvas, pixels.col(top), std::string(1, static_cast<char>('A' + k)), unit);
+}
+
+// The letters in the oblique view, on top of all.
+void paint_letters(Canvas& canvas, const Scene& scene, const Box& strip) {
+  const auto slices = in_reading_order(scene, strip.size().x() > strip.size().y());
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const Slice& slice = *slices[k];
+    paint_letter(
+        canvas, slice, k, [&](const Vector<2>& p) { return scene.pixel(slice.plane.to_space(p)); },
+        scene.unit);
+  }
+}
+
 // Paints all slices, seen from straight before them, in a row (if the strip is wider than high) or
 // a column, at one scale and in their order in the scene, from the left or from the top.
 void paint_panels(Canvas& canvas, const Scene& scene, const Box& strip, Index control_point) {
@@ -114,6 +141,7 @@ void paint_panels(Canvas& canvas, const Scene& scene, const Box& strip, Index co
     const PixelMap map({center - largest / 2, center + largest / 2}, {corner, corner + panel_size});
     const auto pixel = [&](const Vector<2>& p) { return map(axes.turn(p)); };
     paint_slice(canvas, slice, pixel, scene.unit, scene.options);
+    paint_letter(canvas, slice, k, pixel, scene.unit);
     if (std::abs(slice.plane.distance(highlighted)) < near) {
       paint_dots(canvas, {pixel(slice.plane.to_plane(highlighted))}, 7 * scene.unit, kHighlight);
     }
@@ -131,23 +159,26 @@ void paint_slices(Canvas& canvas, const Scene& scene, Index control_point) {
 
 std::string draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh,
                         const Eigen::VectorXd& values, Index control_point, int number_of_slices,
-                        const WeightPictureOptions& options) {
+                        const WeightPictureOptions& options, const Cage<3>* model) {
   validate(options);
   check_arguments(cage, number_of_slices);
   check_weight(values, mesh.num_vertices(), control_point, cage.size());
 
-  const auto slices = cut_all(cage, mesh, values, control_point, number_of_slices);
+  const auto slices = cut_all(cage, mesh, values, control_point, number_of_slices, model);
   const ObliqueView view = choose_view(cage, slices.front().plane, control_point);
   const Box content = bounding_box(view.project(cage.points));
   const Strip strip = choose_strip(content, options);
   const PictureLayout layout = plan_picture(content, options, strip);
   const Scene scene{
-      cage,   slices, view, PixelMap(content, layout.frame), std::max(0.6, pixel_unit(options)),
-      options};
+      cage,    slices, view, PixelMap(content, layout.frame), std::max(0.6, pixel_unit(options)),
+      options, model};
 
   Canvas canvas(layout.width, layout.height, options.format);
   paint_slices(canvas, scene, control_point);
-  if (strip != Strip::kNone) paint_panels(canvas, scene, layout.strip, control_point);
+  if (strip != Strip::kNone) {
+    paint_panels(canvas, scene, layout.strip, control_point);
+    paint_letters(canvas, scene, layout.strip);
+  }
   if (options.color_bar) {
     paint_color_bar(canvas, layout.color_bar, control_point, values.minCoeff(), values.maxCoeff(),
                     options);

@@ -17,7 +17,7 @@
 namespace flbc::draw {
 namespace {
 
-constexpr Color kSupportLine{0.55F, 0.58F, 0.63F};
+constexpr Color kSupportLine{0.36F, 0.39F, 0.44F};
 constexpr Color kMeshEdge{0.25F, 0.28F, 0.33F};
 
 void fill_cells(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
@@ -105,7 +105,7 @@ void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>&
   fill_cells(canvas, points, cells, values);
   if (options.mesh_edges) draw_mesh_edges(canvas, points, cells, unit);
   if (options.support_level > 0) {
-    canvas.draw_segments(trace_isolines(points, cells, values, {options.support_level}), 1.1 * unit,
+    canvas.draw_segments(trace_isolines(points, cells, values, {options.support_level}), 1.3 * unit,
                          kSupportLine);
   }
   canvas.draw_segments(trace_isolines(points, cells, values, isoline_levels(options.isolines)),
@@ -128,6 +128,12 @@ void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point
   canvas.draw_text(start + Vector<2>(symbol_width + gap, 0.25 * height), subscript, small, kInk);
 }
 
+void paint_label(Canvas& canvas, const Vector<2>& top, const std::string& label, double unit) {
+  const double height = 18 * unit;
+  canvas.draw_text({top.x() - text_width(label, height) / 2, top.y() - height}, label, height,
+                   kInk);
+}
+
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
                      double greatest, const WeightPictureOptions& options) {
   const double unit = pixel_unit(options);
@@ -145,7 +151,13 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
                       -2 * kWeightTolerance, -0.1, "<0", unit);
   }
   paint_symbol(canvas, {box.center().x(), top - 26 * unit}, control_point, 24 * unit);
-
+  if (options.support_level > 0) {
+    const double y = box.high.y() + 3 * gap + patch;
+    canvas.draw_segments({{{box.low.x(), y}, {box.high.x(), y}}}, 1.3 * std::max(0.6, unit),
+                         kSupportLine);
+    canvas.draw_text({box.high.x() + 11 * unit, y + 8 * unit}, short_number(options.support_level),
+                     16 * unit, kInk);
+  }
   paint_scale(canvas, box, options.isolines, {"0", "0.5", "1"}, unit);
 }
 

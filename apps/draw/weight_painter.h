@@ -18,8 +18,8 @@ void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>&
 void paint_dots(Canvas& canvas, const std::vector<Vector<2>>& centers, double radius, Color color);
 
 //! Paints the scale of the colors, upright in the box, with its numbers at the right, "w" with the
-//! number of the control point above it, and below and above the scale the colors of weights
-//! outside [0, 1], if `least` and `greatest` say that there are any.
+//! number of the control point above it, below and above the scale the colors of weights outside
+//! [0, 1], if `least` and `greatest` say that there are any, and the line of the support.
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
                      double greatest, const WeightPictureOptions& options);
 
@@ -29,6 +29,14 @@ void paint_length_bar(Canvas& canvas, const Box& box, double largest,
 
 //! Writes "w" with a subscript, centered at the point of the baseline.
 void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height);
+
+//! Labels of a model in two places.
+constexpr const char* kRestLabel = "Rest";
+constexpr const char* kPoseLabel = "Pose";
+
+//! Writes a label above what it names. \param top  middle of its upper side \param unit  as
+//! pixel_unit()
+void paint_label(Canvas& canvas, const Vector<2>& top, const std::string& label, double unit);
 
 //! \throws InputError if the values are not one finite number per vertex, OptionError if there is
 //! no such control point

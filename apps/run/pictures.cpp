@@ -34,15 +34,15 @@ draw::WeightPictureOptions options_of(const Run<Dim>& run) {
 }
 
 std::string draw_function(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(run.cage, run.solver.domain(),
-                            run.domain_weights().row(control_point), control_point,
-                            options_of(run));
+  return draw::draw_weights(run.cage, run.solver.domain(), run.domain_weights().row(control_point),
+                            control_point, options_of(run));
 }
 
 std::string draw_function(const Run<3>& run, Index control_point) {
-  return draw::draw_slices(run.cage, run.solver.domain(),
-                           run.domain_weights().row(control_point), control_point, 3,
-                           options_of(run));
+  const Cage<3> model{run.shape().points, gltf::triangles_of_points(run.shape().surface)};
+  return draw::draw_slices(run.cage, run.solver.domain(), run.domain_weights().row(control_point),
+                           control_point, 3, options_of(run),
+                           model.facets.cols() > 0 ? &model : nullptr);
 }
 
 draw::ObliqueView usual_view() {
@@ -51,9 +51,9 @@ draw::ObliqueView usual_view() {
 
 // The shape at rest by the sparse weights.
 std::string draw_rest(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(
-      run.cage, {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
-      run.sparse.row(control_point), control_point, options_of(run));
+  return draw::draw_weights(run.cage,
+                            {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
+                            run.sparse.row(control_point), control_point, options_of(run));
 }
 
 std::string draw_rest(const Run<3>& run, Index control_point) {
@@ -80,12 +80,12 @@ std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   const auto& weights = is_surface ? run.sparse : run.domain_weights();
   return draw::draw_deformation(
       run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
-      {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)},
-      weights.row(control_point), control_point, options_of(run));
+      {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)}, {}, control_point,
+      options_of(run));
 }
 
-// The shape at rest and in the pose, coloured by how far it moves; slices through the mesh of the
-// interior in place of one without triangles.
+// The shape at rest and in the pose; slices through the mesh of the interior
+// in place of one without triangles.
 std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
   const auto& shape = run.shape();
   if (shape.surface.triangles.cols() == 0) {
@@ -96,8 +96,7 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
   }
   const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
-                          {{run.cage.points, shape.points}, {pose.points, points}},
-                          {displacements<3>(shape.points, points)},
+                          {{run.cage.points, shape.points}, {pose.points, points}}, {},
                           usual_view(), options_of(run));
 }
 

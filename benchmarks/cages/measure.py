@@ -16,7 +16,6 @@ CONTROL_POINTS = 100
 VERTICES = 4000
 QUICK_VERTICES = 1500
 QUICK_CASES = ("arm", "limb", "ring", "half_outside", "inconsistent_orientation")
-PICTURED = ("arm", "armadillo", "beast", "clothing", "horse", "shark")
 
 
 def solve(context, words, weights):
@@ -73,25 +72,10 @@ def models_of(context):
 
 
 def cages(context):
-    pictured = []
     for model in models_of(context):
-        folder = context.out / "cages" / model.stem
-        row = measure_cage(context, model, folder)
-        if row is None:
-            continue
-        if model.stem in PICTURED and row["solve"] == "converged":
-            pictured.append((model, folder))
-        yield row
-    if pictured:
-        draw(context, pictured)
-
-
-def draw(context, pictured):
-    try:
-        import poses_picture
-        poses_picture.write(context, pictured, context.out / "cages.png")
-    except ImportError:
-        context.failed("cages: no picture without matplotlib")
+        row = measure_cage(context, model, context.out / "cages" / model.stem)
+        if row is not None:
+            yield row
 
 
 def repairs(context):

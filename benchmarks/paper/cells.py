@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cells of the tables of docs/results.md."""
+"""Cells of the tables of the pages."""
 
 import results
 import tables

@@ -1,36 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/results.md and docs/method.md as header and body, from rows of the CSV files."""
+"""The tables of the pages as header and body, from rows of the CSV files."""
 
 import results
 import tables
 import use_tables
 from cells import brief, formatted
 
-SHORT = {"lbc2014": "lbc2014", "lbc2014-tuned": "tuned", "paper": "paper", "gradient": "gradient",
-         "gradient-local": "gradient, no linear system", "value": "**value**"}
+# Tables that are made of another result than that of their own name.
+SOURCES = {"harmonic": "models", "solvers": "race"}
+
+
+def source_of(name):
+    """The result, a file in docs/results without .csv, that a table is made of."""
+    return SOURCES.get(name, name)
 
 
 def race(rows):
-    """Seconds to the error, in brackets iterations; a line per model."""
-    names = [name for name, _, _, _ in results.METHODS if any(r["method"] == name for r in rows)]
+    """Seconds to the error, in parentheses iterations; a line per model."""
+    names = [name for name in results.LABELS if any(r["method"] == name for r in rows)]
     body = []
     for model in results.in_order(r["model"] for r in rows):
-        cells = []
+        mine = {r["method"]: r for r in rows if r["model"] == model}
+        first = next(iter(mine.values()))
+        cells = [model, first["control_points"], results.thousands(first["vertices"])]
         for name in names:
-            found = [r for r in rows if r["model"] == model and r["method"] == name]
-            if not found:
+            if name not in mine:
                 cells.append("-")
                 continue
-            row = found[0]
-            reached = "" if row["converged"] == "1" else "not within "
-            cells.append(f"{results.value(row, 'total_seconds'):.2f} "
-                         f"({reached}{results.thousands(row['iterations'])})")
-        body.append([model] + cells)
-    return ["model"] + [SHORT[name].strip("*") for name in names], body
+            row = mine[name]
+            counted = tables.iterations(dict(row, converged="1"))
+            if row["converged"] != "1":
+                counted = "not within " + counted
+            cells.append(f"{results.value(row, 'total_seconds'):.2f} ({counted})")
+        body.append(cells)
+    return ["model", "n", "V"] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
 def table2(rows):
-    header = ["model", "method", "iterations", "s", "error", "gap", "min", "infl"]
+    header = ["model", "method", "iterations", "total, s", "true error", "gap", "smallest weight", "influences"]
     body = []
     last_model = None
     for row in rows:
@@ -40,7 +47,9 @@ def table2(rows):
                       f"{results.value(row, 'paper_flbc_error'):.1e})")
         first = row["model"] != last_model
         last_model = row["model"]
-        body.append([title if first else "", SHORT[row["method"]], tables.iterations(row)] +
+        method = results.LABELS[row["method"]]
+        body.append([title if first else "", f"**{method}**" if row["method"] == "value" else method,
+                     tables.iterations(row)] +
                     formatted(row, [("total_seconds", ".2f"), ("error", ".1e"),
                                     ("relative_gap", ".1e"), ("min_weight", ".1e"),
                                     ("mean_influences", ".1f")]))
@@ -48,7 +57,7 @@ def table2(rows):
 
 
 def conjecture1(rows):
-    header = ["model", "n", "V", "w >= 0", "run", "iterations", "minima", "maxima",
+    header = ["model", "n", "V", "`w >= 0`", "run", "iterations", "minima", "maxima",
               "smallest weight", "gap"]
     body = []
     for row in rows:
@@ -63,9 +72,9 @@ def conjecture1(rows):
 
 
 def speed(rows):
-    header = ["model", "n", "V", "iterations", "set-up + solve = total, s", "true error",
-              "harmonic, s", "ratio", "in iterations of `gradient`",
-              "in iterations of tuned `lbc2014`"]
+    header = ["model", "n", "V", "iterations", "setup + solve = total, s", "true error",
+              "harmonic, s", "ratio", "in iterations of the gradient ADMM",
+              "in iterations of LBC 2014"]
     body = []
     for row in rows:
         counted = tables.iterations(row)
@@ -83,7 +92,7 @@ def speed(rows):
 
 
 def growth(rows):
-    header = ["model", "n", "V", "cells", "levels", "iterations", "set-up + solve, s", "peak MiB",
+    header = ["model", "n", "V", "cells", "levels", "iterations", "setup + solve, s", "peak MiB",
               "bytes per cell", "time, memory grow as V to the power"]
     body = []
     for model in results.in_order(row["model"] for row in rows):
@@ -129,7 +138,7 @@ def lbc2014(rows):
 
 def levels(rows):
     header = ["model", "V", "tolerance", "cold: iterations, s", "error", "levels",
-              "from coarser meshes: iterations, s", "error", "times"]
+              "default: iterations, s", "error", "speedup"]
     body = []
     for row in rows:
         errors = formatted(row, [("cold_error", ".2f"), ("error", ".2f")])
@@ -144,7 +153,7 @@ def levels(rows):
 
 def many(rows):
     header = ["cage", "n", "V", "tolerance", "all pairs: iterations, s, MiB",
-              "supports: iterations, s, MiB", "pairs", "times", "difference"]
+              "active set: iterations, s, MiB", "pairs", "speedup", "difference"]
     body = []
     for row in rows:
         def run(prefix):

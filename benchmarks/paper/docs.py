@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables in docs/results.md and docs/method.md, and numbers in README.md and docs (claims.py), equal to stored results.
+"""Keeps the tables of README.md and docs/, and numbers in their sentences (claims.py), equal to stored results.
 
-    docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables
+    docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables;
+                          scripts/pictures.sh charts draws the charts anew
     docs.py --check       fails if a table or a number differs from the stored results it is made of
 
-A table stands in one of them between <!-- results: NAME --> and <!-- end of results -->, its results
-in docs/results/NAME.csv as flbc_bench_paper wrote them. Its last line names the commit that made it.
+A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
+docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that doc_tables.SOURCES names. Its
+last line has the commit that made it.
 """
 
 import pathlib
@@ -20,42 +22,43 @@ import results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
-PAGES = [ROOT / "docs" / "results.md", ROOT / "docs" / "method.md"]
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
-# Pictures in docs, by their place in OUT.
-PICTURES = {"figure5.png": "error_against_time.png", "figure6.png": "error_against_time_large.png",
-            "cages.png": "automatic_cages.png", "samples/before_after.png": "before_after.png",
-            "samples/figure.png": "figure.png"}
+PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+         if MARKED.search(page.read_text())]
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
 def written(name):
     """The table of a stored result, with the commit that made it."""
-    rows, comments = results.read(STORED, name)
+    source = doc_tables.source_of(name)
+    rows, comments = results.read(STORED, source)
     header, body = doc_tables.TABLES.get(name, doc_tables.plain)(rows)
     lines = ["| " + " | ".join(header) + " |", "|---" * len(header) + "|"]
     lines += ["| " + " | ".join(row) + " |" for row in body]
     commit = next((c for c in comments if c.startswith("commit ")), "commit unknown")
     if claims.of_busy_machine(comments):
         commit += "; seconds are too long: other programs ran on the machine"
-    return "\n".join(lines) + f"\n\n(docs/results/{name}.csv, {commit})\n"
+    return "\n".join(lines) + f"\n\n(docs/results/{source}.csv, {commit})\n"
+
+
+def is_stored(name):
+    return (STORED / f"{doc_tables.source_of(name)}.csv").exists()
 
 
 def with_tables(page):
-    return MARKED.sub(lambda m: m[1] + (written(m[2]) if (STORED / f"{m[2]}.csv").exists() else m[3])
-                      + m[4], page)
+    return MARKED.sub(lambda m: m[1] + (written(m[2]) if is_stored(m[2]) else m[3]) + m[4], page)
 
 
 def check():
     found = [match for page in PAGES for match in MARKED.finditer(page.read_text())]
-    marked = {m[2] for m in found}
+    marked = {doc_tables.source_of(m[2]) for m in found}
     stored = {path.stem for path in STORED.glob("*.csv")}
-    problems = [f"docs/results/{name}.csv has no table in docs" for name in stored - marked]
+    problems = [f"docs/results/{name}.csv has no table on a page" for name in stored - marked]
     for match in found:
-        if match[2] not in stored:
+        if not is_stored(match[2]):
             print(f"{match[2]}: nothing stored yet, so not checked")
         elif match[3] != written(match[2]):
-            problems.append(f"the table {match[2]} differs from docs/results/{match[2]}.csv")
+            problems.append(f"the table {match[2]} differs from docs/results/{doc_tables.source_of(match[2])}.csv")
     problems += claims.check(STORED)
     for problem in problems:
         print(problem, file=sys.stderr)
@@ -64,15 +67,12 @@ def check():
 
 def take_over(out):
     STORED.mkdir(exist_ok=True)
-    for name in {m[2] for page in PAGES for m in MARKED.finditer(page.read_text())}:
+    for name in {doc_tables.source_of(m[2]) for page in PAGES for m in MARKED.finditer(page.read_text())}:
         _, comments = results.read(out, name)
         if any(c.startswith(UNFIT) for c in comments):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
-    for made, picture in PICTURES.items():
-        if (out / made).exists():
-            shutil.copy(out / made, PAGES[0].parent / picture)
     for page in PAGES:
         page.write_text(with_tables(page.read_text()))
     claims.rewrite(STORED)

@@ -22,12 +22,11 @@ sys.path[:0] = [str(HERE.parent / "cages"), str(HERE.parent / "bindings")]
 import measure  # noqa: E402
 import on_openmesh  # noqa: E402
 import reductions  # noqa: E402
-import samples  # noqa: E402
 
 # Name to (what it is, function of the context that yields rows as dictionaries).
 EXPERIMENTS = {"cages": measure.CAGES, "repairs": measure.REPAIRS, "sparsify": reductions.SPARSIFY,
                "openmesh_iterations": on_openmesh.ITERATIONS, "openmesh_frames": on_openmesh.FRAMES_MOVED,
-               "openmesh_topology": on_openmesh.TOPOLOGY, "samples": samples.SAMPLES}
+               "openmesh_topology": on_openmesh.TOPOLOGY}
 
 
 class Context:
@@ -80,7 +79,7 @@ def machine(context):
             processor = line.split(":", 1)[1].strip()
             break
     version = context.run([context.flbc, "--version"]).output.split("\n")[0]
-    return f"{processor}, {os.cpu_count()} cores; {context.threads} threads; {version}; single runs"
+    return f"{processor}, {os.cpu_count()} cores; {context.threads} threads; {version}"
 
 
 def comments(context, about):

@@ -37,7 +37,7 @@ class ResultTable {
 
   //! Writes OUT/NAME.csv. \param about  a comment line \return whether all rows are there
   bool write(const std::string& about) const {
-    std::vector<std::string> comments{about, describe_machine(context_.threads) + "; single runs"};
+    std::vector<std::string> comments{about, describe_machine(context_.threads)};
     if (!context_.commit.empty()) comments.push_back("commit " + context_.commit);
     if (context_.busy) comments.push_back("busy machine: seconds are too long");
     if (context_.quick) comments.push_back("quick run: small meshes, few iterations");

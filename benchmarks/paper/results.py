@@ -8,11 +8,15 @@ import math
 METHODS = [
     ("lbc2014", "LBC 2014, penalty 10", "#9a9a9a", "s"),
     ("lbc2014-tuned", "LBC 2014, tuned penalty", "#3b3b3b", "D"),
-    ("paper", "paper (FLBC)", "#e08214", "^"),
-    ("gradient", "gradient", "#2c7fb8", "v"),
-    ("gradient-local", "gradient, no linear system", "#8856a7", "P"),
-    ("value", "value", "#1b9e4b", "o"),
+    ("paper", "FLBC 2019", "#e08214", "^"),
+    ("gradient", "gradient ADMM", "#2c7fb8", "v"),
+    ("gradient-local", "gradient ADMM, no linear system", "#8856a7", "P"),
+    ("value", "default", "#1b9e4b", "o"),
 ]
+
+
+LABELS = {name: label for name, label, _, _ in METHODS}
+TWO_DIMENSIONAL = ("logo", "woody", "cactus")
 
 
 def read(out, name):

@@ -58,7 +58,7 @@ def table2(out):
     if not rows:
         return None
     names = {name: label for name, label, _, _ in results.METHODS}
-    header = ["model", "n", "V", "method", "iterations", "set-up, s", "solve, s", "recover, s",
+    header = ["model", "n", "V", "method", "iterations", "setup, s", "solve, s", "recover, s",
               "total, s", "error", "paper's error, s", "min w", "gap", "reference's gap"]
     body = []
     for row in rows:
@@ -183,5 +183,5 @@ def time_to_error_rows(rows):
 
 
 def after_setup(row):
-    """Seconds of solve and recovery: the set-up before is the same for all methods."""
+    """Seconds of solve and recovery: the setup before is the same for all methods."""
     return results.value(row, "solve_seconds") + results.value(row, "recover_seconds")

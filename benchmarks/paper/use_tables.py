@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of docs/results.md on what a user gets, beyond the paper: header and body, as in doc_tables.py."""
+"""Tables of what a user gets, beyond the paper: header and body, as in doc_tables.py."""
 
 import results
 import tables
@@ -7,9 +7,9 @@ from cells import brief, formatted
 
 
 def models(rows):
-    header = ["model", "n", "V", "cells", "iterations", "mesh, s", "set-up, s", "solve, s",
-              "harmonic, s", "MiB", "influences", "harmonic's", "smallest weight",
-              "error of reproduction"]
+    header = ["model", "n", "V", "cells", "iterations", "mesh, s", "setup, s", "solve, s",
+              "harmonic, s", "MiB", "influences", "harmonic influences",
+              "smallest weight", "reproduction error"]
     body = []
     for row in rows:
         body.append([row["model"], row["control_points"], results.thousands(row["vertices"]),
@@ -22,8 +22,43 @@ def models(rows):
     return header, body
 
 
+def harmonic(rows):
+    """Influences and seconds of local and of harmonic coordinates, from the same rows as models."""
+    header = ["Model", "Control points", "Mesh vertices", "Influences: local", "Influences: harmonic",
+              "Time: local, s", "Time: harmonic, s"]
+    body = []
+    for row in rows:
+        model = row["model"] + (" (2D)" if row["model"] in results.TWO_DIMENSIONAL else "")
+        influences = formatted(row, [("mean_influences", ".1f"), ("harmonic_influences", ".1f")])
+        body.append([model, row["control_points"], results.thousands(row["vertices"]),
+                     f"**{influences[0]}**", influences[1]] +
+                    formatted(row, [("total_seconds", ".2f"), ("harmonic_seconds", ".2f")]))
+    return header, body
+
+
+SOLVERS = {"value": "**libflbc**, default method", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
+           "paper": "2019 gradient ADMM, as published"}
+
+
+def solvers(rows):
+    """Seconds to the error, from the same rows as race: a line per method, the best of each model bold."""
+    models_shown = results.in_order(row["model"] for row in rows)
+    seconds = {(row["method"], row["model"]): f"{results.value(row, 'total_seconds'):.2f}"
+               for row in rows if row["converged"] == "1"}
+    body = []
+    for method, name in SOLVERS.items():
+        line = [name]
+        for model in models_shown:
+            cell = seconds.get((method, model), "not reached")
+            best = min((seconds[other, model] for other in SOLVERS if (other, model) in seconds),
+                       key=float, default=None)
+            line.append(f"**{cell}**" if cell == best else cell)
+        body.append(line)
+    return ["Seconds to 1e-5"] + models_shown, body
+
+
 def tolerance(rows):
-    """Iterations, in brackets the true error relative to the promise; a line per mesh."""
+    """Iterations, in parentheses the true error relative to the tolerance; a line per mesh."""
     wanted = results.in_order(row["tolerance"] for row in rows)
     header = ["model", "V"] + [f"{float(t):.0e}".replace("e-0", "e-") for t in wanted]
     body = []
@@ -44,7 +79,7 @@ def editing(rows):
         header += [f"{model}, {results.thousands(vertices)} V: iterations", "s", "error"]
     body = []
     for move in results.in_order(row["move"] for row in rows):
-        line = [move]
+        line = [move.replace(" %", "%")]
         for model, _ in models_shown:
             row = next(r for r in rows if (r["model"], r["move"]) == (model, move))
             if not row["iterations"]:
@@ -62,7 +97,7 @@ def editing(rows):
 def cages(rows):
     header = ["model", "vertices", "control points", "outside, crossing", "distance",
               "symmetric across", "s", "`flbc check`", "iterations of the solve", "smallest weight",
-              "error of reproduction"]
+              "reproduction error"]
     body = []
     for row in rows:
         solved = (tables.iterations(row) if row["solve"] == "converged" else row["solve"])
@@ -88,14 +123,14 @@ def repairs(rows):
 
 
 def sparsify(rows):
-    """Errors in percent, rms (largest); a line per number of influences and method."""
+    """Errors in percent, root mean square (largest); a line per number of influences and method."""
     header = ["weights", "K", "method", "edges, independent", "edges, smooth",
               "positions, independent", "positions, smooth", "edges, positions, animation", "s"]
     body = []
     last = None
     for row in rows:
         title = (f"{row['weights']}, {results.thousands(row['points'])} points, "
-                 f"n = {row['control_points']}, {results.value(row, 'influences_before'):.0f} before")
+                 f"n = {row['control_points']}, {results.value(row, 'influences_before'):.0f} influences before")
         cells = [percent(row, column) + f" ({percent(row, column + '_max')})" for column in
                  ("edges_independent", "edges_smooth", "positions_independent", "positions_smooth")]
         animated = ""
@@ -115,15 +150,15 @@ def optima(rows):
         squared, largest = formatted(row, [("squared_difference", ".1e"),
                                            ("largest_difference", ".1e")])
         above, below = formatted(row, [("objective_above", ".1e"), ("bound_below", ".1e")])
-        body.append([row["model"], results.thousands(row["vertices"]), row["method"],
-                     row["non_negative"], tables.iterations(row), above, f"{squared} ({largest})",
+        body.append([row["model"], results.thousands(row["vertices"]),
+                     results.LABELS.get(row["method"], row["method"]), row["non_negative"], tables.iterations(row), above, f"{squared} ({largest})",
                      below])
     return header, body
 
 
 def openmesh_iterations(rows):
     header = ["mesh", "method", "vertices", "iterations", "arrays, s", "properties, s", "ratio"]
-    return header, [[row["mesh"], row["method"], results.thousands(row["vertices"]), row["iterations"]] +
+    return header, [[row["mesh"], results.LABELS.get(row["method"], row["method"]), results.thousands(row["vertices"]), row["iterations"]] +
                     formatted(row, [("arrays_seconds", ".3f"), ("properties_seconds", ".3f"),
                                     ("ratio", ".2f")]) for row in rows]
 
@@ -145,8 +180,8 @@ def openmesh_frames(rows):
 
 
 def openmesh_topology(rows):
-    header = ["cells", "faces", "TetMesh (faces, edges, all incidences), s", "with validation",
-              "facets of the solver alone", "from the TetMesh"]
+    header = ["cells", "faces", "TetMesh (faces, edges, all incidences), s", "with validation, s",
+              "facets of the solver alone, s", "from the TetMesh, s"]
     return header, [[results.thousands(row["cells"]), results.thousands(row["faces"])] +
                     formatted(row, [("tet_mesh_seconds", ".3f"), ("checked_seconds", ".3f"),
                                     ("facets_seconds", ".3f"), ("domain_seconds", ".3f")])
@@ -158,7 +193,7 @@ def percent(row, column):
     return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
 
 
-TABLES = {"models": models, "tolerance": tolerance, "editing": editing, "cages": cages,
+TABLES = {"models": models, "harmonic": harmonic, "solvers": solvers, "tolerance": tolerance, "editing": editing, "cages": cages,
           "repairs": repairs, "sparsify": sparsify, "optima": optima,
           "openmesh_iterations": openmesh_iterations, "openmesh_frames": openmesh_frames,
           "openmesh_topology": openmesh_topology}

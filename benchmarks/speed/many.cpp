@@ -105,7 +105,8 @@ std::string measure(const Context& context, const Case& chosen, ActiveSet active
   if (active == ActiveSet::kOff) {
     io::write_weights(weights, solution.sparse_weights);
   } else if (chosen.on_all_pairs) {
-    run.difference = mean_squared_difference(solution.sparse_weights, io::read_sparse_weights(weights));
+    run.difference =
+        mean_squared_difference(solution.sparse_weights, io::read_sparse_weights(weights));
   }
   return text_of(run);
 }
@@ -155,7 +156,9 @@ bool run_many(const Context& context) {
     const auto row = compare(context, chosen);
     table.add(row ? std::optional(table.line(*row)) : std::nullopt);
   }
-  return table.write("value on all pairs and on supports; set-up, coarse meshes and solve");
+  return table.write(
+      "value on all pairs and on the active set; setup, coarse meshes and solve, the least of up "
+      "to 3 runs");
 }
 
 }  // namespace flbc::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds a model to a cage and moves it to where the cage's pose takes it. Files as OpenMesh reads.
+// Binds a model to a cage and deforms it with a posed cage. Reads all OpenMesh formats.
 #include <iostream>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

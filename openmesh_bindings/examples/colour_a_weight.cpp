@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solves on a triangulated 2D shape and colours its vertices by one weight.
+// Solves on a triangulated 2D shape and colors its vertices by one weight.
 //   colour_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off
 #include <iostream>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A property pipeline: weights of a model, decimation by OpenMesh's own tool, which carries them
-// along, and a deformation.
+// A property pipeline: weights of a model, decimation by OpenMesh, which keeps them, and a
+// deformation.
 //   decimate_and_deform CAGE.obj MODEL.obj OUT.off
 #include <cmath>
 #include <iostream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cage made into a TetMesh with the model's vertices as mesh vertices: weights without
-// interpolation, as properties, and the model deformed by them.
+// Makes a TetMesh of a cage with the model vertices as mesh vertices. The weights are properties
+// without interpolation and deform the model.
 //   embedded_surface CAGE.obj MODEL.obj OUT.off
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Iterates on a triangulated 2D shape and reads gradients, duals and weights from the mesh.
+// Iterates on a triangulated 2D shape and reads gradients, duals, and weights from the mesh.
 //   iterate_on_mesh CAGE.obj SHAPE.obj CONTROL_POINT OUT.off
 #include <flbc/io/cage_io.h>
 #include <flbc/io/mesh_io.h>

@@ -29,7 +29,7 @@ DomainMesh<Dim> make_interior(const BindInput<Dim>& input, const BindOptions& op
   }
 }
 
-//! The points as their weights are to place them: those outside are on the cage.
+//! The points that the weights must reproduce: points outside are moved onto the cage.
 template <int Dim>
 struct Evaluation {
   SparseWeights weights;

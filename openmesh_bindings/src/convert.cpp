@@ -33,7 +33,7 @@ Cage<3> cage_of_polygons(const PointList<3>& points,
 
 std::vector<Index> loop_of(const Cage<2>& cage) {
   validate(cage);
-  // A sound cage has two facets at each control point.
+  // A valid cage has two facets at each control point.
   std::vector<std::pair<Index, Index>> neighbours(cage.size(), {-1, -1});
   const auto add = [&](Index at, Index other) {
     auto& [first, second] = neighbours[at];

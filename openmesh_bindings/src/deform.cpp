@@ -8,7 +8,7 @@
 namespace flbc::openmesh::internal {
 namespace {
 
-// Sums in the order of deform(SparseWeights), so that the results are the same.
+// Sums in the order of deform(SparseWeights), so results are identical.
 template <int Dim>
 Vector<Dim> place_of(const InfluenceBlock& weights, std::int64_t p, const PaddedPoints<Dim>& cage) {
   const std::size_t most = weights.most();
@@ -40,12 +40,12 @@ std::size_t control_points_of(const RowBlock<double>& weights) {
   return weights.width();
 }
 
-// As the loop over a point's weights wants them.
+// The layout for the loop over the weights of a point.
 template <int Dim>
 PaddedPoints<Dim> arranged(const InfluenceBlock&, const PointList<Dim>& control_points) {
   return PaddedPoints<Dim>(control_points);
 }
-// A coordinate per column: the sums then run over contiguous numbers.
+// One coordinate per column, so sums run over contiguous values.
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> arranged(const RowBlock<double>&,
                                                     const PointList<Dim>& control_points) {

@@ -24,7 +24,7 @@ Domain<3> make_domain(const TetMesh& mesh) {
   topology.sides.resize(2, num_faces);
   topology.cell_facets.resize(4, domain.mesh.num_cells());
   for (const auto cell : mesh.cells()) {
-    // A cell that was turned round has its vertices in another order than the mesh.
+    // A reversed cell has its vertices in another order than the mesh.
     const auto vertices = mesh.cv_range(cell);
     const auto faces = mesh.cf_range(cell);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -36,7 +36,7 @@ Domain<3> make_domain(const TetMesh& mesh) {
     const auto sides = mesh.fc_range(face);
     const Index first = sides[0].idx();
     topology.sides.col(face.idx()) << first, (sides.size() == 2 ? sides[1].idx() : -1);
-    // In the order of the first cell's vertices, as build_topology() has them.
+    // In the order of the vertices of the first cell, as in build_topology().
     Index row = 0;
     for (Index k = 0; k < 4; ++k) {
       if (topology.cell_facets(k, first) == face.idx()) continue;

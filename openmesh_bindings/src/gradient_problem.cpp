@@ -60,8 +60,8 @@ void set_up_barycentric_conditions(GradientProblem<Dim>& problem) {
   problem.target = demanded * R.inverse();
 }
 
-// The component of the boundary on which each control point lies, the one of the first vertex of
-// the boundary first. \return their number
+// The boundary component of each control point; component 0 contains the first boundary vertex.
+// \return number of components
 template <int Dim>
 Index number_components(const LbcProblem<Dim>& problem, std::vector<Index>& component) {
   const auto& facets = problem.cage.facets;
@@ -87,8 +87,8 @@ Index number_components(const LbcProblem<Dim>& problem, std::vector<Index>& comp
 }
 
 // With psi harmonic, 1 on one component and 0 on the others, the sum of A_s grad psi(s) . g_i(s) is
-// the same for the gradients of all weights with the right boundary values, those of harmonic
-// coordinates included. These sum to psi over the control points on the component.
+// the same for the gradients of all weights with the right boundary values, including those of
+// harmonic coordinates. These sum to psi over the control points on the component.
 template <int Dim>
 void set_up_periods(GradientProblem<Dim>& problem) {
   const auto& mesh = problem.base.mesh;
@@ -135,7 +135,7 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   set_up_facets(problem);
   set_up_barycentric_conditions(problem);
   set_up_periods(problem);
-  // As Method::kGradient chooses it; docs/method.md, section 7.
+  // The same choice as for Method::kGradient; docs/explanation/method/gradient_admm.md.
   constexpr double kFactor = Dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
   const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
   problem.penalty =

@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<char, 8> kPairsMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
 constexpr Count kPairBytes = sizeof(std::uint32_t) + sizeof(double);
 
-// Precedes the pairs, all control points before all weights. The shape is there twice, as the
-// size it leads to, so that damage to one of them shows.
+// Header before the pairs; all control points come before all weights. The size is stored
+// redundantly with the shape, to detect damage.
 struct PairsHeader {
   Count control_points, most, elements, data_bytes;
 };

@@ -19,9 +19,9 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-// Takes vertices and faces as they come from a reader. The half-edge mesh behind it only holds what
-// OpenMesh wants to know about points and attributes; faces never enter it, because it would refuse
-// non-manifold ones with a message on standard error and go on.
+// Receives vertices and faces from a reader. The underlying half-edge mesh stores only points and
+// attributes. Faces are stored separately, because OpenMesh would skip non-manifold faces with a
+// message on standard error.
 class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
  public:
   using Base = OpenMesh::IO::ImporterT<Mesh>;
@@ -37,7 +37,7 @@ class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
     return OpenMesh::FaceHandle(static_cast<int>(polygons_.size()) - 1);
   }
 
-  // Faces have no place in the mesh, so nothing may be attached to them.
+  // Faces are not in the mesh, so they cannot have attributes.
   void add_face_texcoords(OpenMesh::FaceHandle, OpenMesh::VertexHandle,
                           const std::vector<OpenMesh::Vec2f>&) override {}
   void add_face_texcoords(OpenMesh::FaceHandle, OpenMesh::VertexHandle,
@@ -54,7 +54,7 @@ class SoupImporter : public OpenMesh::IO::ImporterT<Mesh> {
 io::PolygonSoup read_polygons(const std::string& path) {
   const auto extension = io::extension_of(path);
   if (extension == "ply" || extension == "om") return io::ModelFile(path).model().soup;
-  if (!std::ifstream(path)) io::read_file(path);  // throws with the system's reason
+  if (!std::ifstream(path)) io::read_file(path);  // throws with the system error
   io::PolygonSoup soup;
   Mesh mesh;
   OpenMesh::IO::Options options;

@@ -8,7 +8,7 @@ namespace flbc::openmesh::internal {
 template <int Dim>
 CoarseMesher<Dim> coarse_mesher(Mesher<Dim> mesher) {
   if (!mesher) return {};
-  // A mesher that fails on so few vertices must not keep the solve waiting.
+  // A mesher that fails on few vertices must not delay the solve.
   constexpr double kTimeLimit = 60;
   return [mesher = std::move(mesher)](const Cage<Dim>& cage, Index vertices) {
     MeshingOptions<Dim> meshing;

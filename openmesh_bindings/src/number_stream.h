@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Numbers in .om files: what the property types have in common. Sizes are checked against the
-//! stream before memory is taken, so that damaged files end in an error.
+//! Shared input and output of numbers in .om files. Sizes are checked against the stream before
+//! allocation, so damaged files cause an error.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace flbc::openmesh {
 
 using Count = std::uint64_t;
 
-// .om files keep the size of a property in 32 bits.
+// .om files store the size of a property in 32 bits.
 constexpr Count kMostStoredBytes = std::numeric_limits<std::uint32_t>::max();
 
 [[noreturn]] inline void refuse_stored(const std::string& name, const std::string& why) {
   throw InputError("property '" + name + "' cannot be read: " + why);
 }
 
-//! \throws IoError if a property takes more bytes than .om files hold
+//! \throws IoError if a property exceeds the limit of .om files
 inline void require_storable(const std::string& name, std::size_t bytes) {
   if (bytes <= kMostStoredBytes) return;
   throw IoError("property '" + name + "' needs " + std::to_string(bytes) +
@@ -60,13 +60,13 @@ bool read_numbers(std::istream& in, Number* numbers, std::size_t count, bool swa
   return in.good();
 }
 
-//! The product, or the largest number there is if it is larger.
+//! The product, saturated at the maximum.
 inline Count product(Count a, Count b) {
   constexpr Count kMost = std::numeric_limits<Count>::max();
   return b > 0 && a > kMost / b ? kMost : a * b;
 }
 
-//! Nothing if the stream cannot be asked.
+//! No value if the stream is not seekable.
 inline std::optional<Count> bytes_left(std::istream& in) {
   const auto here = in.tellg();
   if (here < 0) return std::nullopt;

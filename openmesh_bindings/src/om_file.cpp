@@ -47,7 +47,7 @@ void add_polygons(OmMesh& mesh, const io::PolygonSoup& soup) {
   }
 }
 
-// \return the options to write what was added
+// \return the options to write the added attributes
 Options add_attributes(OmMesh& mesh, const io::Model& model) {
   Options options(Options::Binary);
   const auto normals = io::normals_at_vertices(model).value_or(PointList<3>());

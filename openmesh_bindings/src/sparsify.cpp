@@ -10,7 +10,7 @@ SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>&
   SparsifyOptions options;
   options.max_influences = most;
   options.threshold = threshold;
-  // Without neighbours there are no seams between them.
+  // Without neighbors there are no seams.
   if (reduction == Reduction::kQuadratic || edges.ends.empty()) {
     return flbc::sparsify<Dim>(control_points, points, weights, options);
   }

@@ -24,7 +24,8 @@ std::vector<Edge> sorted_edges(const CellList<3>& cells) {
   return edges;
 }
 
-// Turns each facet outward from its first cell. Facets list the vertices in the order of that cell.
+// Orients each facet outward from its first cell. Facets list the vertices in the order of that
+// cell.
 void orient(MeshTopology<3>& topology) {
   for (Index f = 0; f < topology.num_facets(); ++f) {
     const auto facets = topology.cell_facets.col(topology.sides(0, f));

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::array<char, 8> kRowsMagic = {'f', 'l', 'b', 'c', 'r', 'o', 'w', '1'};
 
-// Precedes the numbers. The shape is there twice, as the size it leads to, so that damage to
-// one of them shows.
+// Header before the values. The size is stored redundantly with the shape, to detect damage.
 struct RowsHeader {
   Count scalar_bytes, components, width, elements, data_bytes;
 };
@@ -60,7 +59,7 @@ RowBlock<Scalar> read_rows(std::istream& in, bool swap, const std::string& name,
                            const RowsHeader& header) {
   const auto left = bytes_left(in);
   if (left && *left < header.data_bytes) refuse_stored(name, "the file ends within the property");
-  // Some numbers at a time, so that a stream of unknown length gets memory for what it has.
+  // Reads in blocks, so that a stream of unknown length allocates memory only for its data.
   constexpr std::size_t kAtOnce = 1 << 16;
   const std::size_t count = header.data_bytes / sizeof(Scalar);
   std::vector<Scalar> numbers;

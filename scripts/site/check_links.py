@@ -32,8 +32,9 @@ def main():
             if parts.scheme or parts.netloc:
                 continue
             checked += 1
-            target = path if not parts.path else (
-                path.parent / urllib.parse.unquote(parts.path)).resolve()
+            name = urllib.parse.unquote(parts.path)
+            folder = site if name.startswith("/") else path.parent
+            target = (folder / name.lstrip("/")).resolve() if name else path
             anchor = urllib.parse.unquote(parts.fragment)
             # Doxygen's pages have anchors of its own that it does not always set.
             is_checked = path.relative_to(site).parts[0] != "api"

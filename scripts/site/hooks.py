@@ -13,6 +13,7 @@ from mkdocs.structure.files import File
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 KATEX = pathlib.Path("/usr/share/javascript/katex")
+OUTSIDE = "outside:"  # MkDocs leaves links with a scheme alone
 LINK = re.compile(r"(\]\()([^)\s#]+)(#[^)\s]*)?(\))")
 
 
@@ -37,7 +38,6 @@ def on_files(files, config):
         path.write_text(text)
         files.append(File(name, str(folder), config["site_dir"], config["use_directory_urls"]))
     for file in files.media_files():
-        # Stored results are read on the site only where a page links to one.
         if file.src_path.startswith("reference/cli/"):
             files.remove(file)
     return files
@@ -66,11 +66,15 @@ def on_page_markdown(markdown, page, config, files):
         if name.is_dir():
             inside = inside / "index.html"
         up = os.path.relpath(pathlib.Path("files") / inside, os.path.dirname(page.file.src_path) or ".")
-        return f"{found[1]}{up}{found[4]}"
+        return f"{found[1]}{OUTSIDE}{up}{found[4]}"
     return LINK.sub(relink, markdown)
 
 
 linked = []
+
+
+def on_post_page(output, page, config):
+    return output.replace(OUTSIDE, "")
 
 
 def listing(folder, copy):

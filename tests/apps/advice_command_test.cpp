@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages that advise something: a command provokes each, and carrying out the advice works.
+// Messages with suggestions: a command triggers each message, and following the suggestion works.
 #include <regex>
 #include <vector>
 
@@ -8,7 +8,7 @@
 namespace flbc::testing {
 namespace {
 
-// Shell commands run in a folder of their own; $F is the program, $M the samples, $V few vertices.
+// Shell commands run in a separate directory; $F is the program, $M the samples, $V few vertices.
 struct Row {
   std::string advice;              // a piece of the message
   std::string command;             // provokes it

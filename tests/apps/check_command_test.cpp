@@ -70,7 +70,7 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
 }
 
 TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
-  // A cube of quadrangles, the last of which is turned over.
+  // A cube of quadrilaterals, the last of which is turned over.
   const auto cube = file("cube.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
                          "v 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n"
@@ -80,7 +80,8 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
   }
 }
 
-// A cube with another corner so near the last that no mesher tells them apart: known before.
+// A cube with another corner so near the last that no mesher can separate them; reported before
+// meshing.
 TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   const auto cage = file("thin.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"

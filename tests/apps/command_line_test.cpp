@@ -258,7 +258,7 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 7 1\n", "bad.obj:4");
   // A tetrahedron without one side.
   refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
-  // A cube of quadrangles without lid.
+  // A cube of quadrilaterals without lid.
   refused(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",

@@ -20,7 +20,7 @@ using OpenMesh::IO::Options;
 
 class DeformFormats : public CommandLineTest {
  protected:
-  // OpenMesh writes no colours to .obj, and nothing but triangles to .stl.
+  // OpenMesh writes no colors to .obj, and nothing but triangles to .stl.
   static Options attributes_of(const std::string& name) {
     const auto extension = io::extension_of(name);
     if (extension == "stl") return Options(Options::FaceNormal);
@@ -182,7 +182,7 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
         EXPECT_LT((shown.back().texcoord2D(v) - mesh.texcoord2D(v)).norm(), 1e-5);
       }
     }
-    // The colour says how far, the same in all poses; half as far in the second one.
+    // The color shows the distance, on the same scale in all poses; half as far in the second one.
     std::vector<std::pair<double, double>> seen;
     for (const auto v : mesh.vertices()) {
       const double length = points.col(v.idx()).norm();
@@ -256,7 +256,7 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
                  " --pose " + path("pose.obj") + " --show-displacement -o " + path("o.msh"),
              1);
   EXPECT_NE(refused.errors.find("o.msh: cannot show displacements"), std::string::npos);
-  // A 2D mesh becomes a coloured model as well; its fields have no place there.
+  // A 2D mesh becomes a colored model as well; its fields cannot be stored there.
   const auto mesh = samples<2>().front().mesh;
   io::write_domain(path("p.vtu"), mesh, {{"other", mesh.points.row(0).transpose()}});
   const auto rest = simplex<2>("r.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Before and after in one picture: what is seen is measured on the pixels.
+// Before and after in one picture, measured on its pixels.
 #include "draw/plane_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -36,7 +37,7 @@ struct Scene {
   }
 };
 
-// The centres of the red dots, from the left to the right or from the top to the bottom: pixels of
+// The centers of the red dots, from the left to the right or from the top to the bottom: pixels of
 // one are nearer to each other than 100 pixels.
 std::vector<Vector<2>> red_dots(const Image& image) {
   std::vector<Vector<2>> sums;
@@ -88,6 +89,20 @@ TEST(DeformationPicture, BothHaveTheSameScaleAndFrame) {
   const double still_size = (still[1].x() - still[0].x()) / 1.06;
   EXPECT_NEAR(still[1].y(), still[0].y(), 0.6);
   EXPECT_GT(still_size, square_size);
+}
+
+TEST(DeformationPicture, ShowsSquaresWithoutValues) {
+  Scene square(1);
+  const auto colored = square.draw(square.shape);
+  square.values.resize(0);
+  const auto plain = square.draw(square.shape);
+  EXPECT_TRUE(red_dots(plain).empty());
+  const auto reddish = [](const Image& image) {
+    return std::count_if(image.pixels.begin(), image.pixels.end(),
+                         [](Color color) { return color.r > color.b + 0.1; });
+  };
+  EXPECT_GT(reddish(plain), 0.3 * static_cast<double>(plain.pixels.size()));
+  EXPECT_LT(reddish(colored), 0.1 * static_cast<double>(colored.pixels.size()));
 }
 
 TEST(DeformationPicture, WhatDoesNotBelongTogetherIsRefused) {

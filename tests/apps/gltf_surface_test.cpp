@@ -50,8 +50,8 @@ TEST(SurfaceOfModel, NormalsDoNotDependOnHowACubeIsCut) {
 }
 
 TEST(SurfaceOfModel, SeamsPartVerticesAndEqualValuesDoNot) {
-  // Two quadrangles side by side. The left and the right have different texture coordinates where
-  // they meet at vertex 1, equal ones of different number at vertex 4.
+  // Two quadrilaterals side by side. The left and the right have different texture coordinates
+  // where they meet at vertex 1, equal ones of different number at vertex 4.
   io::PolygonSoup soup;
   for (int k = 0; k < 6; ++k) soup.points.emplace_back(k % 3, k / 3, 0);
   soup.polygons = {{0, 1, 4, 3}, {1, 2, 5, 4}};

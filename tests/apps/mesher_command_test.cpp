@@ -52,7 +52,7 @@ TEST_F(MesherCommand, SoundCagesAreMeshedByTheFirst) {
 
 TEST_F(MesherCommand, MeshersOfTheOtherDimensionAreRefused) {
   expect("mesh " + sample("3d/limb_cage.obj") + " --mesher cgal -o " + path("m.mesh"), 1,
-         "--mesher cgal: this mesher makes no meshes in 3D");
+         "--mesher cgal: this mesher does not support 3D");
   expect("mesh " + sample("2d/ring_cage.obj") + " --mesher tetgen -o " + path("m.obj"), 1);
   expect("mesh " + sample("2d/ring_cage.obj") + " --mesher x -o " + path("m.obj"), 1);
 }

@@ -47,7 +47,7 @@ struct Squares {
   }
 };
 
-// How far a colour is from being the other one in some light.
+// How far a color is from being the other one in some light.
 double difference_in_hue(Color a, Color b) {
   const Eigen::Vector3d u(a.r, a.g, a.b), v(b.r, b.g, b.b);
   return std::acos(std::min(1.0, u.normalized().dot(v.normalized())));
@@ -68,7 +68,7 @@ TEST(ModelPicture, TheNearerSurfaceCoversTheFarther) {
 }
 
 TEST(ModelPicture, HiddenWireIsPale) {
-  // The same wire before a plain surface and behind it; the surface has one colour.
+  // The same cage in front of a plain surface and behind it; the surface has one color.
   Squares squares;
   squares.shown = {};
   const auto darkest_change = [&](const ObliqueView& view, double front) {

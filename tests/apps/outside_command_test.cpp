@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models that reach out of their cage, by a hair or by more, as users see them.
+// Models that extend outside their cage, slightly or more, from the view of a user.
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST_F(OutsideCommand, AHairHasOneAnswer) {
   }
 }
 
-// Vertices on the cage, beside it by a hair, and twice: all that real models have.
+// Vertices on the cage, slightly outside it, and duplicated, as in real models.
 TEST_F(OutsideCommand, EmbeddingTakesModelsAsTheyAre) {
   const auto of = file("model.obj",
                        "v 0.5 0.5 0\nv 0.3 -0.0000001 0\nv 0.5 0.5 0\nv 1 1 0\nv 0.25 0.75 0\n"

@@ -34,7 +34,7 @@ TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
       EXPECT_GT(done, level == 0 ? 0.99 : 0.02);
     }
     EXPECT_NE(estimate.line("", seconds).find("100%"), std::string::npos);
-    // Nothing tells of what comes after the iteration.
+    // No progress is reported after the iteration.
     EXPECT_EQ(estimate.line("", seconds + 1000).substr(0, 9), "finishing");
   }
 }

@@ -18,6 +18,8 @@ rm -rf "$work"
 mkdir -p "$work/limb"
 ln -s "$repository/meshes" "$work/meshes"
 cd "$work"
+# The README's cage, moved.
+cp meshes/3d/limb_cage_pose.obj limb/cage.obj
 "$flbc" solve meshes/3d/limb_cage.obj --method harmonic --vertices 800 -q -o limb/weights.npy \
   --model meshes/3d/limb_model.obj
 "$flbc" deform meshes/3d/limb_model.obj --weights limb/weights.npy -q -o deformed.obj \

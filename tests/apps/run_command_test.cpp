@@ -58,7 +58,7 @@ class RunCommand : public CommandLineTest {
     return nlohmann::json::parse(slurp(path(folder + "/report.json")));
   }
 
-  // That a command by itself makes the same file.
+  // The command on its own makes the same file.
   void expect_same(const std::string& command, const std::string& own, const std::string& file_made,
                    const std::string& options = "") const {
     SCOPED_TRACE(command);
@@ -105,7 +105,8 @@ class RunCommand : public CommandLineTest {
                     " -k 4 --fps 1 --pose " + cage + " " + pose,
                 "m4.glb", "out/model.glb");
     expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
-                    " --control-point " + json["pictures"]["control_point"].dump(),
+                    " --control-point " + json["pictures"]["control_point"].dump() +
+                    (name[0] == '3' ? " --show-model " + model : ""),
                 "f.png", "out/function.png");
 
     // All reports are in one.
@@ -217,13 +218,13 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   EXPECT_EQ(report("out")["export"]["times"].size(), 4U);
   EXPECT_EQ(report("out")["deform"].size(), 3U);
 
-  // The next run leaves nothing of this one, but what is not of this program.
+  // The next run removes all results of this one, but no other files.
   expect_run("out", common + " --pose " + path("pose_1.obj") + " " + path("pose_2.obj"), 0,
              "2 poses");
   names = names_in("out");
   EXPECT_EQ(names.count("deformed_000.obj"), 1U);
   EXPECT_EQ(names.count("deformed_002.obj"), 0U);
-  // Nor does it remove what it reads itself.
+  // It does not remove its input files.
   fs::copy_file(path("pose_2.obj"), path("out/deformed_001.obj"),
                 fs::copy_options::overwrite_existing);
   expect_run("out", common + " --pose " + path("out/deformed_001.obj"), 0, "largest");
@@ -251,7 +252,7 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
     EXPECT_EQ(names_in("out").size(), 2U);
     fs::remove(path(std::string("out/") + name));
   }
-  // Reports that are not what they seem remove nothing but results.
+  // Manipulated reports cannot remove anything except results.
   for (const char* report :
        {R"({"command": "other", "files": ["below.txt"]})",
         R"({"command": "run", "files": ["../precious.txt", "..", "", 7, "below.txt"]})",

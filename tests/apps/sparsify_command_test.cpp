@@ -165,7 +165,7 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   const auto arguments = square();
   expect_refusal(arguments + " -k 3 --method poisson", 2, "model.obj: has no faces and no lines");
   expect_refusal(arguments + " -k 3 --method cubic", 1, "choose from quadratic|poisson");
-  // Without neighbours there are no edges to measure.
+  // Without neighbors there are no edges to measure.
   expect("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"));
   const auto report = Json::parse(slurp(path("r.json")));
   EXPECT_EQ(report["method"], "quadratic");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pages of flbc view: that they hold what they were given, read back from the finished file.
+// Pages of flbc view contain their input, as read back from the finished file.
 #include <cstring>
 #include <nlohmann/json.hpp>
 

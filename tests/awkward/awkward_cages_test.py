@@ -117,7 +117,7 @@ def judged(flbc, folder, name, dim, expected, cage):
     solve = Command(flbc, "solve", files["cage"], "--vertices", 300, "--mesh-timeout",
                     MESH_SECONDS, "--max-iterations", 100, "--quiet", "-o", files["weights"],
                     "--save-domain", files["domain"], "--report", files["report"])
-    # TetGen's .node has its cells beside it, in a file that nothing is asked of here.
+    # The cells of a TetGen .node file are in another file, which is not needed here.
     files["domain"].with_suffix(".ele").unlink(missing_ok=True)
     faults += [f"solve {fault}" for fault in solve_faults(solve, dim, cage, expected, files)]
     if check.status == 2 and solve.status != 2:
@@ -146,7 +146,7 @@ def main():
     options = parser.parse_args()
     os.environ.update(OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
 
-    # The judge's own eyes: wrong weights are seen.
+    # Self-test: the checker detects wrong weights.
     judge.test_itself()
     counts, worst, wrong, late = {}, (0.0, "none"), 0, []
     begin = time.monotonic()

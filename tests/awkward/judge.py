@@ -50,7 +50,8 @@ def faults(rows, places, points):
     sums = max(abs(math.fsum(row) - 1) for row in rows)
     if sums > MOST_ERROR:
         yield f"a sum that is off by {sums}"
-    # Seen from the first control point: products of far points would lose the digits judged here.
+    # Relative to the first control point, because products of distant points would lose the
+    # required digits.
     size = max(math.dist(p, points[0]) for p in points)
     error = 0.0
     for axis in range(len(points[0])):

@@ -40,9 +40,9 @@ def notices_changes():
         (folder / "race.csv").write_text(CSV)
         assert quietly(lambda: docs.take_over(folder)) == 0
         page = page_file.read_text()
-        for part in ("before", "after", "1.25 (not within 10,000)", "0.12 (20)", "commit 0123abc"):
+        for part in ("before", "after", "1.25 (not within 10,000)", "0.12 (20 + 1 level)", "| 6 | 1,000 |", "commit 0123abc"):
             assert part in page, part
-        for old, new in (("1.25", "1.24"), ("(20)", "(19)"), ("0123abc", "0123abd")):
+        for old, new in (("1.25", "1.24"), ("(20 +", "(19 +"), ("0123abc", "0123abd")):
             page_file.write_text(page.replace(old, new))
             assert quietly(docs.check) == 1, f"{new} for {old} went unnoticed"
         page_file.write_text(page)
@@ -74,7 +74,12 @@ def notices_numbers_in_sentences():
         assert claims.check(folder, folder, said) == []
         (folder / "race.csv").write_text("# busy machine: seconds are too long\n" + CSV)
         page.write_text("it takes 9 s on logo.\n")
-        assert quietly(lambda: claims.check(folder, folder, said)) == [], "seconds of a busy machine are none"
+        assert quietly(lambda: claims.check(folder, folder, said)) == [], "a busy machine's seconds count"
+        worse = [("page.md", "on {} models", "race", lambda rows: [claims.WORDS[len(rows)]])]
+        (folder / "race.csv").write_text(CSV)
+        page.write_text("It is worse on three models.\n")
+        claims.rewrite(folder, folder, worse)
+        assert page.read_text() == "It is worse on two models.\n"
         page.write_text("It takes long.\n")
         assert len(claims.check(folder, folder, said)) == 1, "a sentence that is gone went unnoticed"
 
@@ -114,6 +119,23 @@ horse,2000,plain,,,0.0003,0.0002,""")
 model,control_points,vertices,cells,coarse_levels,converged,iterations,mesh_seconds,setup_seconds,solve_seconds,harmonic_seconds,mebibytes,mean_influences,harmonic_influences,min_weight,reproduction_error
 woody,26,1000,1900,1,1,120,0.04,0.05,0.2,0.03,34.4,4.54,23.3,0,2e-16""")
     assert models == ["woody | 26 | 1,000 | 1,900 | 120 + 1 level | 0.04 | 0.05 | 0.20 | 0.03 | 34 | 4.5 | 23.3 | 0 | 2.0e-16"]
+    harmonic = table("harmonic", """
+model,control_points,vertices,mean_influences,harmonic_influences,total_seconds,harmonic_seconds
+woody,26,1000,4.54,23.3,0.239,0.03
+horse,51,2000,4.29,8.5,0.536,0.02""")
+    assert harmonic == ["woody (2D) | 26 | 1,000 | **4.5** | 23.3 | 0.24 | 0.03",
+                        "horse | 51 | 2,000 | **4.3** | 8.5 | 0.54 | 0.02"]
+    solvers = table("solvers", """
+model,method,converged,total_seconds
+woody,lbc2014-tuned,1,0.081
+woody,paper,0,9.5
+woody,gradient,1,0.01
+woody,value,1,0.079
+horse,lbc2014-tuned,1,0.2
+horse,paper,1,2.9
+horse,value,1,0.3""")
+    assert [line.split(" | ", 1)[1] for line in solvers] == ["**0.08** | 0.30", "**0.08** | **0.20**",
+                                                             "not reached | 2.90"]
     tolerance = table("tolerance", """
 model,control_points,vertices,cells,tolerance,converged,iterations,error
 woody,26,1000,1900,1e-05,1,89,0.11

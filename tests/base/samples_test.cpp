@@ -51,7 +51,7 @@ double diagonal(const PolygonSoup& soup) {
   return box.diagonal().norm();
 }
 
-// Directed edges; each may occur only once, or two faces beside each other disagree.
+// Directed edges; each may occur only once, or two adjacent faces have inconsistent orientation.
 std::set<std::pair<Index, Index>> directed_edges(const std::vector<Polygon>& polygons) {
   std::set<std::pair<Index, Index>> edges;
   for (const Polygon& polygon : polygons) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judges of the library have to be right themselves: sample meshes and judge.
+// Tests of the test helpers: sample meshes and the reference measures.
 #include <cmath>
 #include <limits>
 #include <map>

@@ -73,7 +73,7 @@ class Page {
     return Buffer.from(data).toString("base64");
   }
 
-  // The number of colours in a picture.
+  // The number of colors in a picture.
   colours(base64) {
     return this.tab.evaluate(async (data) => {
       const image = new Image();

@@ -26,8 +26,8 @@ Cage<Dim> box_beside(double low, double high) {
 
 TEST_IN_2D_AND_3D(CagePartsTest, NestsAndNeighbours) {
   constexpr Index n = 1 << Dim;
-  // A nest of five boxes around the origin, of which two are holes, given from the middle outwards
-  // and inwards; and two boxes beside it, one with a hole.
+  // A nest of five boxes around the origin, of which two are holes, given from the middle outward
+  // and inward; and two boxes next to it, one with a hole.
   Cage<Dim> cage = join(box_cage<Dim>(0.5), reversed(box_cage<Dim>(0.7)));  // a hole around a part
   cage = join(cage, box_cage<Dim>(1));
   cage = join(cage, box_cage<Dim>(0.3));  // a hole in the innermost but one

@@ -11,7 +11,7 @@
 namespace flbc {
 namespace {
 
-// A box with one more corner beside the last: in 3D two facets are needles of that width.
+// A box with one more corner next to the last: in 3D two facets are needles of that width.
 Cage<2> box_with_short_edge(double width) {
   Cage<2> cage;
   cage.points.resize(2, 5);

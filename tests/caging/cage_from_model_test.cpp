@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages that are made enclose their models, whatever state these are in.
+// Generated cages enclose their models, even defective ones.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -51,7 +51,7 @@ Cage<Dim> crossed_bars() {
   return bars;
 }
 
-// Facets anywhere, each with corners of its own.
+// Facets anywhere, with separate corners.
 template <int Dim>
 Cage<Dim> soup(Index count) {
   std::mt19937 random(7);

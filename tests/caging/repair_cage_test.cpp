@@ -65,7 +65,7 @@ TEST_IN_2D_AND_3D(RepairCageTest, SoundCagesStayAsTheyAre) {
   EXPECT_EQ(repaired.cage.facets, cage.facets);
 }
 
-// Every facet has corners of its own, some of them a little off.
+// Every facet has separate corners, some of them slightly displaced.
 TEST_IN_2D_AND_3D(RepairCageTest, UnweldedCagesAreWelded) {
   const auto box = box_cage<Dim>(1);
   const auto count = static_cast<Index>(box.facets.cols());
@@ -162,7 +162,7 @@ TEST(RepairCage3Test, TrianglesAreOrientedAsMostOfThemAre) {
   EXPECT_NEAR(winding_number<3>(repaired.cage, Vector<3>::Zero()), 1, 1e-12);
 }
 
-// A corner in the middle of an edge, with a triangle that has no area beside it.
+// A corner in the middle of an edge, with a degenerate triangle next to it.
 TEST(RepairCage3Test, FlatTrianglesGiveTheirCornersToTheirNeighbours) {
   auto cage = box_cage<3>(1);
   const Index a = cage.facets(0, 0), b = cage.facets(1, 0), c = cage.facets(2, 0);

@@ -78,7 +78,7 @@ std::vector<Index> interior_of(const LbcProblem<Dim>& problem) {
   return interior;
 }
 
-// The known values on the boundary, and inside whatever row is nearest to the given one.
+// The known values on the boundary, and inside the row nearest to the given one.
 template <int Dim>
 WeightMatrix feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   const auto boundary = harmonic_coordinates(problem);

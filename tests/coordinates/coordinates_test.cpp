@@ -69,7 +69,7 @@ TEST_IN_2D_AND_3D(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
     FAIL() << "found points that are outside";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("2 of 4 vertices are outside"), std::string::npos) << message;
+    EXPECT_NE(message.find("2 of 4 points are outside"), std::string::npos) << message;
     EXPECT_NE(message.find("vertex 2 at (1.5, 1.5"), std::string::npos) << message;
   }
   points.col(2).setConstant(0.5);

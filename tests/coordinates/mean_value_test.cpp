@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Cages of all kinds with points inside, among them the centres of their cells.
+// Cages of all kinds with points inside, among them the centers of their cells.
 template <int Dim>
 std::vector<Sample<Dim>> cages() {
   std::vector<Sample<Dim>> all{make_hollow_sample<Dim>()};

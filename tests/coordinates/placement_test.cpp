@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Weights at points inside a cage, beside it by a hair, and outside.
+// Weights at points inside a cage, slightly outside, and far outside.
 #include "flbc/placement.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace flbc::testing {
 namespace {
 
-// Cages whose facets have their normals outwards, with weights that are linear on every facet.
+// Cages whose facets have their normals outward, with weights that are linear on every facet.
 template <int Dim>
 struct PlacementTest {
   explicit PlacementTest(Shape shape = Shape::kCorner) : sample(make_sample<Dim>(shape, 4)) {
@@ -40,7 +40,7 @@ struct PlacementTest {
           .normalized();
     }
   }
-  // At the middle of every facet, and beside its first corner.
+  // At the center of every facet, and next to its first corner.
   PointList<Dim> off_the_facets(double distance) const {
     const Index num_facets = static_cast<Index>(sample.cage.facets.cols());
     PointList<Dim> points(Dim, 2 * num_facets);
@@ -110,7 +110,7 @@ TEST_IN_2D_AND_3D(PlacementTest, PointsInsideAreInterpolated) {
   const auto weights = t.weights_at_points(points, OutsidePoints::kFail);
   t.expect_sums_are_one(weights);
   const PointList<Dim> before = t.sample.mesh.points;
-  // Linear functions of the place are reproduced whatever the weights of the mesh are.
+  // Linear functions of position are reproduced for any weights of the mesh.
   for (Eigen::Index p = 0; p < points.cols(); ++p) {
     const auto& place = placement.places[p];
     Vector<Dim> found = Vector<Dim>::Zero();
@@ -198,7 +198,7 @@ TEST_IN_2D_AND_3D(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConve
   const auto sample = make_sample<Dim>(Shape::kBox, 3);
   const auto& cage = sample.cage;
   const auto weights = mean_value_coordinates<Dim>(cage, sample.mesh.points);
-  // A straight line from inside through a facet and round the box's edges and corners.
+  // A straight line from inside through a facet and around the edges and corners of the box.
   const Vector<Dim> center = cage.points.rowwise().mean();
   const double size = bounding_box_diagonal<Dim>(cage.points);
   Vector<Dim> along = Vector<Dim>::Zero();
@@ -209,7 +209,7 @@ TEST_IN_2D_AND_3D(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConve
   for (int k = 0; k < kPoints; ++k) {
     const double angle = 0.02 * k;
     Vector<Dim> place = center + size * k / kPoints * along;
-    if (k >= kPoints / 2) {  // round the box
+    if (k >= kPoints / 2) {  // around the box
       place = center;
       place[0] += size * std::cos(angle);
       place[1] += size * std::sin(angle);
@@ -226,7 +226,7 @@ TEST_IN_2D_AND_3D(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConve
   }
 }
 
-// Whatever becomes of points, weights without their zeros say the same.
+// Sparse weights give the same result for every policy.
 TEST_IN_2D_AND_3D(PlacementTest, SparseWeightsGiveTheSame) {
   PlacementTest<Dim> t;
   const auto& sample = t.sample;

@@ -110,7 +110,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheConstraints) {
   }
 }
 
-// Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbours.
+// Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbors.
 TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   for (const Index subdivisions : {3, 4, 5}) {
     const auto sample = make_sample<Dim>(Shape::kBox, subdivisions);
@@ -126,7 +126,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   }
 }
 
-// The judge of the test above finds an extremum where there is one.
+// The check of the test above finds an existing extremum.
 TEST_IN_2D_AND_3D(RecoveryTest, ExtremaInsideAreFound) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);

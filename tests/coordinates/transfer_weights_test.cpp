@@ -64,7 +64,7 @@ TEST_IN_2D_AND_3D(TransferTest, PointsBesideAreReproducedFromTheNearestPlace) {
   TransferTest<Dim> t;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> part(-1, 1);
-  // Corners moved towards the middle of a cell, so that all stay inside the cage.
+  // Corners moved toward the middle of a cell, so that all stay inside the cage.
   PointList<Dim> moved = t.model.points;
   for (Index s = 0; s < t.sample.mesh.num_cells(); ++s) {
     const Index v = t.sample.mesh.cells(0, s);

@@ -68,7 +68,7 @@ TEST_IN_2D_AND_3D(CheckTest, SoundWeightsAreSound) {
   }
 }
 
-// Everything that the judge measures, too, in code of its own, on weights without any property.
+// Compares all measures with an independent reference, on arbitrary weights.
 TEST_IN_2D_AND_3D(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
@@ -242,7 +242,7 @@ TEST_IN_2D_AND_3D(CheckTest, ExtremaCountFromAMarginOn) {
   sound.weights = harmonic_weights(sound.sample);
   const auto before = sound.check();
   const Index v = sound.first_vertex(true);
-  double highest = -1, lowest = 2;  // of w_0 at the neighbours
+  double highest = -1, lowest = 2;  // of w_0 at the neighbors
   for (Index s = 0; s < sound.sample.mesh.num_cells(); ++s) {
     if ((sound.sample.mesh.cells.col(s).array() != v).all()) continue;
     for (const Index w : sound.sample.mesh.cells.col(s)) {

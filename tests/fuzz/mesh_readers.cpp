@@ -29,7 +29,7 @@ void read_mesh(const std::string& path) {
   }
 }
 
-// The file that is fuzzed lies beside this one.
+// The fuzzed file is next to this one.
 void read_mesh_beside(const std::string& path) {
   read_mesh<3>(path.substr(0, path.rfind('.')) + ".mesh");
 }

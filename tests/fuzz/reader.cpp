@@ -40,7 +40,7 @@ std::string Folder::path(const std::string& name) const {
   return path_ + "/" + name;
 }
 
-// Millions of times: without streams, and the file keeps its room.
+// Called millions of times, so no streams, and the file keeps its capacity.
 void put_file(const std::string& path, const char* bytes, std::size_t size) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
   const bool done = file >= 0 && write(file, bytes, size) == static_cast<ssize_t>(size) &&

@@ -11,7 +11,7 @@
 
 namespace flbc::fuzz {
 
-//! A reader's result breaks a promise. No flbc::Error, so that it is a finding.
+//! The result of a reader violates its contract. Not a flbc::Error, so that it counts as a finding.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -22,7 +22,8 @@ inline void require(bool holds, const char* promise) {
   if (!holds) throw BrokenPromise(promise);
 }
 
-//! \throws BrokenPromise if a point of a mesh is not finite, or a vertex of a cell is none of it
+//! \throws BrokenPromise if a point of a mesh is not finite, or a vertex index of a cell is out of
+//! range
 template <class Mesh>
 void require_indices_in_range(const Mesh& mesh) {
   require(mesh.points.allFinite(), "points are finite");
@@ -40,13 +41,13 @@ struct Reader {
   //! Reads the file and requires of the result what users rely on. It may throw flbc::Error.
   void (*read)(const std::string& path);
   std::vector<std::string> seeds;  //!< contents that are read without an error
-  //! Other files, names with contents, that lie beside it.
+  //! Other files in the same directory: names with contents.
   std::vector<std::pair<std::string, std::string>> companions{};
   bool refuses =
       true;  //!< whether it refuses what it does not understand, rather than pass over it
 };
 
-//! The readers, a room of the sources each.
+//! The readers, one source file for each module.
 std::vector<Reader> model_readers();
 std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
@@ -56,7 +57,7 @@ std::vector<Reader> openmesh_readers();
 //! All of them.
 std::vector<Reader> all_readers();
 
-//! A folder of its own, in memory where there is such a thing, that goes away with it.
+//! A temporary directory, in memory if possible, removed by the destructor.
 class Folder {
  public:
   Folder();
@@ -90,7 +91,7 @@ class Reading {
   explicit Reading(Reader reader);
 
   //! \return whether the content was read rather than refused
-  //! \throws whatever is no flbc::Error: a finding
+  //! \throws any exception except flbc::Error, as a finding
   bool accepts(const std::string& content) const;
 
  private:

@@ -35,7 +35,7 @@ cube() { # EDGE SHEAR
   }'
 }
 
-# A globe of quadrangles, triangles at the poles, with colours, and texture coordinates that part
+# A globe of quadrilaterals, triangles at the poles, with colors, and texture coordinates that part
 # along a meridian.
 globe() {
   awk -v n=12 -v m=16 'BEGIN {
@@ -131,7 +131,7 @@ prepare domain3 limb.node "$cage" "$pose" 4
 export_skin domain3 limb.node "$cage" domain3.glb -k 4 --pose "$cage" "$pose" --fps 1
 check domain3.glb --model limb.node --pose 0 limb.node --pose 1 domain3.4.posed.node
 
-# ---- 3D: quadrangles with colours and a seam -----------------------------------------------------
+# ---- 3D: quadrilaterals with colors and a seam --------------------------------------------------
 cube 1.5 0 >cube.obj
 cube 1.5 0.3 >cube_pose.obj
 globe >globe.obj

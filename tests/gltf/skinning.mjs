@@ -53,7 +53,7 @@ export class SpecifiedSkin {
     return skin;
   }
 
-  // The number of influences that have room at a vertex.
+  // The number of influence slots per vertex.
   get slots() {
     return this.primitive.getAttribute('JOINTS_1') ? 8 : 4;
   }

@@ -35,7 +35,7 @@ TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
   }
 }
 
-// A pyramid over a bent quadrangle, whose shorter diagonal is 1-3.
+// A pyramid over a bent quadrilateral, whose shorter diagonal is 1-3.
 TEST(CageIo, QuadranglesAreCutAlongTheShorterDiagonal) {
   PolygonSoup soup;
   soup.points = {{-2, 0, 0}, {0, -1, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 3}};
@@ -92,7 +92,7 @@ TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
 }
 
 TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
-  // A frame of four quadrilaterals round a hole.
+  // A frame of four quadrilaterals around a hole.
   PolygonSoup frame;
   frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2}, {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
   for (Index k = 0; k < 4; ++k) {

@@ -165,7 +165,7 @@ TEST_F(ModelFileTest, StlKeepsItsTriangles) {
   }
 }
 
-// Vertices are numbered as OpenMesh numbers them, whatever coincides.
+// Vertices are numbered as in OpenMesh, for any coincident points.
 TEST_F(ModelFileTest, CornersOfStlMergeAsInOpenMesh) {
   const auto facet = [](const std::string& a, const std::string& b, const std::string& c) {
     return "  FACET NORMAL 0 0 0\r\n outer loop\n vertex " + a + "\nvertex " + b + "\n\tvertex " +

@@ -208,7 +208,7 @@ TEST_F(PolygonFile, MalformedOff) {
       });
 }
 
-// A cage as others write it: in single precision, each corner by itself.
+// A cage as written by other programs: single precision, separate corners.
 TEST_F(PolygonFile, StlCages) {
   PolygonSoup cube;
   for (int k = 0; k < 8; ++k) cube.points.emplace_back(k % 2 / 3.0, k / 2 % 2 / 7.0, k / 4);

@@ -148,7 +148,7 @@ TEST_F(TetMeshFile, MalformedSolutions) {
                              {path("d.sol") + malformed.place, malformed.message});
     EXPECT_EQ(fields.size(), 1u);
     EXPECT_EQ(io::read_domain<3>(path("d.mesh")).num_cells(),
-              1);  // who asks for no fields needs none
+              1);  // not an error without requested fields
   }
 }
 

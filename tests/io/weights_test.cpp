@@ -37,7 +37,7 @@ class WeightsFile : public FormatTest {
 
 const char* const kExtensions[] = {"mtx", "dmat", "npy"};
 
-// 3 control points, as many points as it takes.
+// 3 control points, as many points as needed.
 WeightMatrix awkward_weights() {
   const std::vector<double> numbers = awkward_numbers();
   WeightMatrix weights = WeightMatrix::Zero(3, static_cast<Eigen::Index>(numbers.size()));
@@ -212,7 +212,7 @@ TEST_F(WeightsFile, MalformedMtx) {
        {head + "922347750 0 0\n", ":2: ", "only 0 entries"},
        {head + "16666666 0 0\n", ":2: ", "only 0 entries"},
        {head + "2000000 1 1\n1 1 1\n", ":2: ", "only 1 entries"},
-       {array + "0 922347750\n", ":2: ", "no weights"},
+       {array + "0 922347750\n", ":2: ", "not a weight matrix"},
        {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
        {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},
        {head + "3 2 1\n4 1 1\n", ":3: ", "rows are numbered 1 to 3"},
@@ -246,9 +246,9 @@ TEST_F(WeightsFile, MalformedDmat) {
        {"2 3\n1 2 3\n4 abc 6\n", ":3: ", "expected a number, found \"abc\""},
        {"2 3\n1 2 nan\n4 5 6\n", ":2: ", "expected a finite number"},
        {"2000000000 2000000000\n1 2 3\n", ":1: ", "too short"},
-       {"922347750 0\n", ":1: ", "no weights"},
-       {"0 922347750\n", ":1: ", "no weights"},
-       {"0 0\n922347750 0\n", ": at byte 16: ", "no weights"},
+       {"922347750 0\n", ":1: ", "not a weight matrix"},
+       {"0 922347750\n", ":1: ", "not a weight matrix"},
+       {"0 0\n922347750 0\n", ": at byte 16: ", "not a weight matrix"},
        {"0 0\n", ":1: ", "the file ends before the size"},
        {"0 0\n2 x\n", ":2: ", "expected an integer, found \"x\""},
        {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5}), ": at byte 48: ", "after 5 of 6 numbers"},
@@ -285,7 +285,7 @@ TEST_F(WeightsFile, MalformedNpy) {
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999, 2)}"),
         ": at byte 61: ", "number of elements"},
        {npy("{'descr': '<f8', 'fortran_order': False, 'shape': (922347750, 0)}"), ": ",
-        "no weights"},
+        "not a weight matrix"},
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999, 2)}"), ": ",
         "more than this program can handle"},
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (2000000000, 2000000000)}"), ": ",

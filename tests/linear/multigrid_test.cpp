@@ -123,7 +123,7 @@ TEST_IN_2D_AND_3D(MultigridTest, EverySliceGivesTheSameBits) {
   }
 }
 
-// As accurate as it says, for right-hand sides of any size, and the same bits for any number of
+// As accurate as documented, for right-hand sides of any size, and bit-identical for any number of
 // threads.
 TEST_IN_2D_AND_3D(MultigridTest, PreconditionsConjugateGradients) {
   const auto matrix = interior_matrix<Dim>(Shape::kCorner, Dim == 2 ? 50 : 12, 0.2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse matrices that several threads put together are those of the textbook, and the same bits
+// Sparse matrices assembled by several threads equal those of the textbook, and are bit-identical
 // for any number of threads.
 #include <cstring>
 #include <random>

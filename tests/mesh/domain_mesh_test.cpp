@@ -90,13 +90,13 @@ TEST_IN_2D_AND_3D(DomainMeshTest, NamesDefects) {
   mesh.cells.rightCols(2).colwise() = sound.cells.col(0);
   expect_refused(mesh, "share one facet");
 
-  mesh = sound;  // the centre vertex beyond the boundary: cells fold over each other
+  mesh = sound;  // the center vertex beyond the boundary: cells fold over each other
   Index inner = 0;
   (sound.points.colwise() - Vector<Dim>::Constant(0.5)).colwise().norm().minCoeff(&inner);
   mesh.points.col(inner).setConstant(3);
   expect_refused(mesh, "overlap");
 
-  mesh = joined(sound, sound, 10);  // beside each other: two parts are no defect
+  mesh = joined(sound, sound, 10);  // disjoint: two parts are not a defect
   EXPECT_NO_THROW(normalize_and_validate(mesh));
 
   mesh = joined(sound, sound, 1);  // they share a corner, and that alone

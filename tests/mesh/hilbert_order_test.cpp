@@ -15,7 +15,7 @@ namespace flbc {
 namespace {
 
 // The properties that define a Hilbert curve: it visits all cells of the grid, each once, steps
-// from each to one of its neighbours, and refines the curve of the coarser grid.
+// from each to one of its neighbors, and refines the curve of the coarser grid.
 TEST_IN_2D_AND_3D(SpatialOrderTest, CurveVisitsAllCellsInUnitSteps) {
   for (int levels : {1, 2, 3, 4}) {
     const std::uint32_t side = 1u << levels;
@@ -68,7 +68,7 @@ TEST_IN_2D_AND_3D(SpatialOrderTest, NoPointsOnePointAndCoincidingPoints) {
 }
 
 TEST_IN_2D_AND_3D(SpatialOrderTest, ReorderingKeepsFixedVerticesAndTheMesh) {
-  // A fan of cells round the origin, which is the last point.
+  // A fan of cells around the origin, which is the last point.
   const Cage<Dim> cage = flbc::testing::box_cage<Dim>(1);
   DomainMesh<Dim> mesh;
   mesh.points.resize(Dim, cage.size() + 1);

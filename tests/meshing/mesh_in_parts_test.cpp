@@ -30,7 +30,7 @@ Cage<Dim> box_beside(double low, double high) {
   return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
 }
 
-// A box with a hole in which there is another box; and a large box beside.
+// A box with a hole in which there is another box; and a large separate box.
 template <int Dim>
 Cage<Dim> three_parts() {
   return join(join(join(box_cage<Dim>(0.3), box_cage<Dim>(1)), reversed(box_cage<Dim>(0.6))),

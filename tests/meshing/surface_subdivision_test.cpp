@@ -53,7 +53,7 @@ TEST(SurfaceSubdivisionTest, ShortEdgesAreLeftAlone) {
   EXPECT_EQ(same.facets, cage.facets);
 }
 
-// Its two long edges take turns, and each division divides a neighbour, which divides the next one.
+// Its two long edges take turns, and each division divides a neighbor, which divides the next one.
 TEST(SurfaceSubdivisionTest, NeedlesThatWouldTakeMillionsOfPointsAreRefused) {
   const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1e6, 1, 1));
   EXPECT_THROW(subdivide_surface(cage, 1000, 100'000), InputError);

@@ -111,7 +111,7 @@ TEST(TetrahedralizeTest, SelfIntersectionsGiveAnErrorAndTheProcessSurvives) {
   EXPECT_NE(text.find("TetGen"), std::string::npos);
   EXPECT_NE(text.find("intersect"), std::string::npos);
   EXPECT_FALSE(has_child());
-  expect_fills(box_cage<3>(1), tetrahedralize(box_cage<3>(1)), 8);  // and goes on working
+  expect_fills(box_cage<3>(1), tetrahedralize(box_cage<3>(1)), 8);  // and still works
 }
 
 TEST(TetrahedralizeTest, TimeLimit) {

@@ -59,14 +59,14 @@ class Bind : public ::testing::Test {
 
   Bind() : sample_(make_sample<kDim>(Shape::kBox, 4, 0.2)) {
     options_.max_influences = 5;
-    // A sheet in the middle of the box, whatever that is like.
+    // A sheet in the middle of any box.
     const Vector<kDim> middle = sample_.cage.points.rowwise().mean();
     const PointList<kDim> spread = sample_.cage.points.colwise() - middle;
     constexpr int kSide = 6;
     for (int y = 0; y <= kSide; ++y) {
       for (int x = 0; x <= kSide; ++x) {
         const double a = 0.6 * x / kSide, b = 0.6 * y / kSide;
-        // Inside: a mean of control points with weights that are none below 0.
+        // Inside: a mean of control points with non-negative weights.
         const Vector<kDim> place =
             middle + 0.5 * (a - 0.3) * spread.col(0) + 0.5 * (b - 0.3) * spread.col(1);
         typename Mesh::Point point;
@@ -160,7 +160,7 @@ Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index fac
     edges.col(k - 1) =
         cage.points.col(cage.facets(k, facet)) - cage.points.col(cage.facets(0, facet));
   }
-  // What is left of the way from the centre is normal to the facet.
+  // What is left of the way from the center is normal to the facet.
   Vector<Dim> normal = middle - centre;
   normal -= edges * (edges.transpose() * edges).inverse() * (edges.transpose() * normal).eval();
   const Vector<Dim> place = middle + 0.1 * normal.normalized();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is converted to a mesh and back is what it was.
+// Conversion to a mesh and back is lossless.
 #include "flbc/openmesh/convert.h"
 
 #include <gtest/gtest.h>

@@ -263,7 +263,7 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
     return corners;
   };
   const int num_faces = static_cast<int>(mesh.n_faces());
-  // Every inner face is made anew at the end; collection then moves the last ones to the front.
+  // Every inner face is recreated at the end; collection then moves the last ones to the front.
   for (int f = 0; f < num_faces; ++f) {
     const auto face = mesh.face_handle(f);
     bool is_inner = true;

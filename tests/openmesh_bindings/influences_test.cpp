@@ -36,7 +36,7 @@ void expect_refused(const std::string& words, const Action& action) {
   }
 }
 
-// Weights of a vertex that tell it from others: up to `most` of n.
+// Distinct weights for every vertex: up to `most` of n.
 Eigen::VectorXd row_of(int key, Index n, int most) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
   for (int j = 0; j < key % (most + 1); ++j) row[(key + 3 * j) % n] = 1 + key + 0.125 * j;
@@ -246,7 +246,7 @@ TYPED_TEST(MeshWeights, SparsifyLeavesTheOthersIfAsked) {
   // Again, from what was left.
   options.weights = options.into;
   EXPECT_NO_THROW(openmesh::sparsify(this->mesh_, 4, options));
-  expect_refused("needs", [&] { openmesh::sparsify(this->mesh_, 2); });
+  expect_refused("are needed", [&] { openmesh::sparsify(this->mesh_, 2); });
   openmesh::set_weights(this->mesh_, this->weights_, "mine");
   options.weights = "mine";
   expect_refused("does not know the cage", [&] { openmesh::sparsify(this->mesh_, 5, options); });

@@ -17,7 +17,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-// A box without lid, in quadrangles, with thirds as coordinates.
+// A box without lid, in quadrilaterals, with thirds as coordinates.
 Mesh open_box() {
   Mesh mesh;
   std::vector<Mesh::VertexHandle> v;

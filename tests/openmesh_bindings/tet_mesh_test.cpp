@@ -118,7 +118,7 @@ TEST(TetMesh, FacesAndCells) {
   }
 }
 
-// Faces look out of their first cell, so the boundary is a closed surface that looks outwards.
+// Faces look out of their first cell, so the boundary is a closed surface that looks outward.
 TEST(TetMesh, BoundaryIsAClosedSurface) {
   for (const auto& [mesh, tunnels] : meshes()) {
     const auto tets = TetMesh::from(mesh);

@@ -88,7 +88,7 @@ PointList<Dim> awkward_points(const PointList<Dim>& control_points, Numbers& num
     if (k % 4 == 1) weights[numbers.below(n)] = 1;
     if (k % 4 == 2) weights(std::vector<int>{numbers.below(n), numbers.below(n)}).setConstant(0.5);
     if (k % 4 == 3) {
-      // On the side of the hull where one coordinate is largest, or 1e-15 of the size beside it.
+      // On the side of the hull where one coordinate is largest, or 1e-15 of the size outside it.
       const int axis = numbers.below(Dim);
       const double largest = control_points.row(axis).maxCoeff();
       const Eigen::VectorXd mixture = numbers.convex(n);

@@ -74,8 +74,8 @@ double way_round_hole(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double
   return shortest;
 }
 
-// Round the hole of a ring the way bends; in 3D, a way is what it is in the plane, and straight in
-// the third direction. Behind the bend the error is of the order of a cell.
+// Around the hole of a ring the path bends; in 3D, a way is what it is in the plane, and straight
+// in the third direction. Behind the bend the error is of the order of a cell.
 TEST_IN_2D_AND_3D(DistanceWeightsTest, GoRoundHoles) {
   const auto error_of = [](Index resolution) {
     const auto sample = make_sample<Dim>(Shape::kRing, resolution);
@@ -115,7 +115,7 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, GoRoundHoles) {
   EXPECT_LT(fine, coarse);
 }
 
-// Rounding in cells that are nearly flat must not pass for improvements, which would go on and on.
+// Rounding in nearly flat cells must not count as an improvement, which would never end.
 TEST_IN_2D_AND_3D(DistanceWeightsTest, EndSoonInFlatCells) {
   for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
     for (const double flatness : {1e-4, 1e-5, 1e-6}) {

@@ -12,7 +12,8 @@
 namespace flbc::testing {
 namespace {
 
-// Distances at the vertices of a sample of 8 cells a side: from one of so many, and their own.
+// Distances at the vertices of a sample of 8 cells per side: interpolated from a coarser mesh, and
+// exact.
 template <int Dim>
 struct Comparison {
   Sample<Dim> fine;

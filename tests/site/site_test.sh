@@ -5,11 +5,10 @@
 set -eu
 repository=$1 build=$2 site=$3
 python=/usr/bin/python3
-$python -c 'import markdown' 2>/dev/null || { echo "skipped: python3-markdown is missing"; exit 77; }
-command -v groff >/dev/null || { echo "skipped: groff is missing"; exit 77; }
-rm -rf "$site"
-mkdir -p "$site"
-$python -B "$repository/scripts/site/build_site.py" "$repository" "$build/help" "$site"
+for package in mkdocs mkdocs-material libjs-katex; do
+  dpkg-query -W "$package" >/dev/null 2>&1 || { echo "skipped: $package is missing"; exit 77; }
+done
+"$repository/scripts/site/build.sh" "$build/help" "$site"
 if [ -f "$build/docs/Doxyfile" ] && command -v doxygen >/dev/null; then
   doxygen "$build/docs/Doxyfile" >"$site/../doxygen.log" 2>&1
   cp -r "$build/docs/html" "$site/api"

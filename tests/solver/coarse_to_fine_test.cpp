@@ -238,7 +238,7 @@ TYPED_TEST(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
   EXPECT_GT(report.seconds.setup, 0);
 }
 
-// Without a usable coarse mesh the start is the ordinary one, to the bit.
+// Without a usable coarse mesh, the result is bit-identical to a cold start.
 TYPED_TEST(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);

@@ -125,7 +125,7 @@ TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
         const double primal = expected_primal(problem, textbook) / components;
         EXPECT_NEAR(step.primal, primal, 1e-6 * primal + 1e-12);
       }
-      // Not by standing still; but a simplex leaves nothing to choose.
+      // Not by stagnation, except on a simplex, whose weights are unique.
       if (sample.cage.size() == kDim + 1) continue;
       EXPECT_GT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-3);
     }
@@ -326,7 +326,7 @@ TYPED_TEST(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
   }
 }
 
-// The penalty of its own choice, by the sums that define it, judged in the same way.
+// The automatic penalty, computed from its definition.
 TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
@@ -347,7 +347,7 @@ TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
   }
 }
 
-// Weighted by the measure, the start is harmonic coordinates, whatever the vertices weigh.
+// Weighted by the measure, the start is harmonic coordinates, for any vertex weights.
 TYPED_TEST(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
@@ -389,7 +389,7 @@ TYPED_TEST(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// (5) of the paper, by the judge's own sum.
+// (5) of the paper, by an independent sum.
 TYPED_TEST(CompactSplittingTest, SquaredErrorIsTheMeanOverInteriorVertices) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);

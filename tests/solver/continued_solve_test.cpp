@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solver that goes on from where it stopped, and penalties in units of the cage.
+// A solver that resumes from where it stopped, and penalties in units of the cage.
 #include <cmath>
 #include <type_traits>
 

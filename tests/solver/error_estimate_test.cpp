@@ -139,7 +139,7 @@ TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
   EXPECT_LT(cold(2, 1e-10, -1), estimate);
 }
 
-// Errors that shrink as a power of k are k^2 / power^2 times the squared change. What rates tell of
+// Errors that shrink as a power of k are k^2 / power^2 times the squared change. What rates show of
 // them early is less, in 3D as in the models.
 TEST(ErrorEstimate, OfEarlyIterationsIsNoLessThanAPowerTells) {
   for (const auto start : {Origin::kCold, Origin::kCoarserMesh}) {

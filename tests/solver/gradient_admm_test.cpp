@@ -240,7 +240,7 @@ struct Run {
   }
 };
 
-// From harmonic coordinates, so many iterations together at each step.
+// From harmonic coordinates, with a given number of iterations per call.
 template <class Scalar, int Dim>
 Run run_in_steps(const LbcProblem<Dim>& problem, int threads, const std::vector<int>& steps,
                  double relaxation) {
@@ -267,7 +267,7 @@ void expect_same_bits(const LbcProblem<Dim>& problem, double relaxation) {
   EXPECT_FALSE(run_in_steps<Scalar>(problem, 1, {6}, relaxation) == expected);
 }
 
-// Parts of a mesh (of 512 cells at least) are swept by threads of their own.
+// Parts of a mesh (of 512 cells at least) are swept by separate threads.
 TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 16 : 6, 0.2);

@@ -19,10 +19,10 @@
 namespace flbc::testing {
 namespace {
 
-// The promise is kept up to this factor.
+// The tolerance is met up to this factor.
 constexpr double kAllowance = 3;
 
-// Iterations of kValue that bring it far nearer to the optimum than any promise here.
+// Iterations of kValue that bring it far closer to the optimum than any tolerance here.
 constexpr int kManyIterations = 3000;
 
 template <int Dim>
@@ -53,7 +53,7 @@ class GradientToleranceTest : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(GradientToleranceTest, Dimensions);
 
-// The ring has a hole, and so constraints of its own.
+// The ring has a hole, which adds period constraints.
 TYPED_TEST(GradientToleranceTest, HoldsOnSamples) {
   constexpr int kDim = TypeParam::value;
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {

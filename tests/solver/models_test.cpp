@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From cage to coordinates on real cages: every promised property, measured by the judge.
+// From cage to coordinates on real cages: every documented property, measured independently.
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -47,14 +47,14 @@ void expect_properties(const Model& model) {
   EXPECT_LT(solution.report.certificate.relative_gap, 0.01);
   const auto judgement = judge(cage, mesh, solution.weights);
   EXPECT_LT(judgement.partition_error, 1e-12);
-  // TetGen's points on facets lie beside them by up to 1e-9 of the cage's size.
+  // TetGen points on facets are off by up to 1e-9 of cage size.
   EXPECT_LT(judgement.reproduction_error, Dim == 2 ? 1e-12 : 1e-8);
   EXPECT_EQ(judgement.lagrange_error, 0);
   EXPECT_LT(judgement.linearity_error, 1e-9);
   EXPECT_EQ(judgement.control_points_found, cage.size());
   EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
   EXPECT_GE(judgement.min_weight, 0);
-  // Local by itself: a few control points matter to a vertex, whatever their number.
+  // Locality: few control points influence a vertex, for any number of control points.
   EXPECT_LT(solution.report.quality.mean_influences, 5.5);
   for (const char* extension : {"npy", "dmat", "mtx"}) {
     const auto path = scratch_path(std::string("weights.") + extension);

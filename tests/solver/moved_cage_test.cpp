@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Editing a rest cage: the same optima as from scratch, in fewer iterations, whatever the way.
+// Editing a rest cage: the same optima as from scratch, in fewer iterations, for any path.
 #include "flbc/solver.h"
 
 #include <chrono>
@@ -148,7 +148,7 @@ TYPED_TEST(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
   EXPECT_GE(solution.report.quality.min_weight, 0);
   EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
   for (int frame = 0; frame < 3; ++frame) coordinates.solve({10, 0});
-  EXPECT_TRUE(coordinates.solution().weights == at_once.solution().weights);  // to the bit
+  EXPECT_TRUE(coordinates.solution().weights == at_once.solution().weights);  // bit-identical
 
   Solver<kDim> released(sample.cage, sample.mesh, tight());
   released.solve();
@@ -214,7 +214,7 @@ TYPED_TEST(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
   EXPECT_TRUE(coordinates.mesh().points == points);
   EXPECT_TRUE(coordinates.cage().points == with_one_moved(sample.cage, 0.01));
   EXPECT_TRUE(coordinates.solution().weights == weights);
-  // And goes on as if nothing had happened.
+  // Then it continues normally.
   Solver<kDim> other(sample.cage, sample.mesh, tight());
   other.solve();
   other.move(with_one_moved(sample.cage, 0.01), {5, 0});
@@ -287,7 +287,7 @@ TYPED_TEST(MovedCageTest, FollowsOnSupports) {
   Solver<kDim> coordinates(sample.cage, sample.mesh, options);
   coordinates.solve();
   EXPECT_TRUE(coordinates.solution().weights ==
-              solve(sample.cage, sample.mesh, options).weights);  // to the bit
+              solve(sample.cage, sample.mesh, options).weights);  // bit-identical
   for (const double part : {0.004, 0.01}) {
     const auto warm = coordinates.move(with_one_moved(sample.cage, part));
     const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
@@ -335,7 +335,7 @@ TYPED_TEST(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
   expect_near_exact(coordinates.move(turned));
 }
 
-// A coarse mesh that is none of the cage's is not interpolated from: distances are exact then.
+// A coarse mesh of another cage is not used for interpolation; distances are then exact.
 TYPED_TEST(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
   constexpr int kDim = TypeParam::value;
   const auto sample = sample_of<kDim>();
@@ -356,7 +356,7 @@ TYPED_TEST(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
   EXPECT_THROW(Solver<kDim>(sample.cage, sample.mesh, interpolated), OptionError);
 }
 
-// Other methods start afresh.
+// Other methods start over.
 TYPED_TEST(MovedCageTest, EveryMethodFollows) {
   constexpr int kDim = TypeParam::value;
   const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 8 : 6, 0.2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Are the reference optima sound? The judge, the library's set-up and the optimality itself say so,
-// without the program that made them.
+// Checks the reference optima by independent measures, by the setup of the library, and by
+// optimality, without the program that made them.
 #include <algorithm>
 #include <cmath>
 #include <random>

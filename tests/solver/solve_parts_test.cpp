@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages of several parts: each part as if it were alone, whatever the numbering.
+// Cages of several parts: each part is solved as if it were alone, for any numbering.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -36,7 +36,7 @@ std::vector<Index> in_turns(Index own_size, Index other_size, bool first) {
   return numbers;
 }
 
-// Two samples beside each other, or one in the other's hole, as one cage and mesh.
+// Two disjoint samples, or one in the hole of the other, as one cage and mesh.
 template <int Dim>
 struct Pair {
   std::vector<Sample<Dim>> alone;

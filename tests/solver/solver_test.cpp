@@ -45,7 +45,8 @@ TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
   }
 }
 
-// It ends by the error of its weights: about as near the optimum as it was told, and not long after.
+// It ends by the error of its weights: about as near the optimum as requested, and without many
+// extra iterations.
 TYPED_TEST(SolverTest, GradientEndsByTheErrorOfItsWeights) {
   constexpr int kDim = TypeParam::value;
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {

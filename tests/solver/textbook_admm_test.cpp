@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of the library has to be right itself: the textbook solver.
+// Tests of the reference implementation, the textbook solver.
 #include <cmath>
 #include <stdexcept>
 #include <type_traits>

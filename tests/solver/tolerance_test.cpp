@@ -19,7 +19,7 @@
 namespace flbc::testing {
 namespace {
 
-// The promise is a mean squared error of `tolerance`, up to this factor.
+// The contract is a mean squared error of `tolerance`, up to this factor.
 constexpr double kAllowance = 3;
 
 template <class Dimension>
@@ -200,9 +200,9 @@ TEST(Tolerance3dTest, HoldsOnRoundCages) {
   }
 }
 
-// With many control points on a round cage weights stand still for long, far from the optimum,
-// while duals grow; then they converge slowly. The reference is told by one with half the
-// iterations how far it is from the optimum itself.
+// With many control points on a round cage, weights stagnate for long, far from the optimum, while
+// duals grow; then they converge slowly. The reference is checked by one with half the iterations
+// how far it is from the optimum itself.
 TEST(Tolerance2dTest, HoldsOnPolygonsOfManyCorners) {
   for (const Index corners : {30, 60}) {
     SCOPED_TRACE(corners);

@@ -96,7 +96,7 @@ Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>&
   return best;
 }
 
-// Judges the search of supports in a metric by trying all of them.
+// Checks the search of supports in a metric by trying all of them.
 template <int Dim>
 void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixXd& metric,
                           const PointList<Dim>& control_points) {
@@ -186,8 +186,8 @@ Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights
   const double cost = problem.cost(weights);
   Gains gains;
   for (Index a = 0; a < static_cast<Index>(weights.cols()); ++a) {
-    // Neighbours pull a row towards their own changes; how stiffly it is held in all, pin
-    // included, is what a change of this row alone costs.
+    // Neighbors pull a row toward their own changes; how stiffly it is held in all, pin included,
+    // is what a change of this row alone costs.
     Eigen::VectorXd pull = Eigen::VectorXd::Zero(weights.rows());
     for (const auto& [b, c] : problem.edges.ends) {
       if (a == b || a == c) pull += (weights - problem.weights).col(a == b ? c : b);
@@ -200,7 +200,7 @@ Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights
     better.col(a) =
         nearest_row<Dim>(metric, problem.control_points, problem.points.col(a), target, most);
     const double gain = cost - problem.cost(better);
-    EXPECT_GE(gain, -1e-9 * cost) << a;  // the judge is right
+    EXPECT_GE(gain, -1e-9 * cost) << a;  // the reference is correct
     gains.rows += gain > noticeable;
     gains.sum += gain;
   }

@@ -67,7 +67,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, SmallerErrorsOfGradientsThanPointByPoint
   const auto on_a_curve = problem_on_a_curve<Dim>(control_points, 300, 0);
   const auto on_a_mesh = problem_on_a_mesh<Dim>();
   for (const auto* problem : {&on_a_curve, &on_a_mesh}) {
-    // On the mesh most neighbours lie on the cage and stay.
+    // On the mesh most neighbors lie on the cage and stay.
     const double part = problem == &on_a_curve ? 0.7 : 0.97;
     const auto independent = independent_poses<Dim>(problem->control_points, 20);
     const auto smooth = smooth_poses<Dim>(problem->control_points, 20);
@@ -145,7 +145,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, PointsWithoutEdgesAreTakenOneByOne) {
 TEST_IN_2D_AND_3D(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
   Numbers numbers(31);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 12, -1, 1), 80, 0.1);
-  // Every edge with ends of its own.
+  // Every edge has separate ends.
   auto loose = problem;
   std::vector<Index> origin;
   for (auto& edge : loose.edges.ends) {

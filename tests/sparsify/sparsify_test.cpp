@@ -161,7 +161,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, IsNearTheBestOfAllSupports) {
     for (int v = 0; v < kPoints; ++v) {
       const double cost = (sparse.col(v) - weights.col(v)).squaredNorm();
       const double least = least_cost<Dim>(control_points, points.col(v), weights.col(v), most);
-      EXPECT_GE(cost, least - 1e-12) << v;  // the judge is right
+      EXPECT_GE(cost, least - 1e-12) << v;  // the reference is correct
       best += cost <= least + 1e-9;
       total += cost;
       least_total += least;
@@ -208,7 +208,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, LocalBarycentricCoordinates) {
 TEST_IN_2D_AND_3D(SparsifyTest, ThresholdDropsWhatIsBelow) {
   Numbers numbers(11);
   const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
-  // Small weights everywhere beside large ones on Dim + 4 control points.
+  // Small weights everywhere, and large ones on Dim + 4 control points.
   WeightMatrix weights = numbers.matrix(25, 50, 1e-6, 1e-4);
   for (int v = 0; v < 50; ++v) {
     for (int k = 0; k < Dim + 4; ++k) weights((7 * k + v) % 25, v) = numbers.uniform(0.1, 1);
@@ -257,7 +257,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, RefusesWhatCannotBe) {
   };
   EXPECT_NO_THROW(run(at_most(Dim + 1), weights));
   expect_error<OptionError>([&] { run(at_most(Dim), weights); },
-                            {"needs " + std::to_string(Dim + 1) + " control points"});
+                            {"at least " + std::to_string(Dim + 1) + " are needed"});
   expect_error<OptionError>([&] { run(at_most(8, 1), weights); }, {"threshold"});
   expect_error<OptionError>([&] { run(at_most(8, std::nan("")), weights); }, {"threshold"});
   expect_error<InputError>([&] { run(at_most(8), numbers.matrix(9, 3, 0, 1)); },

@@ -9,7 +9,7 @@
 namespace flbc::testing {
 namespace {
 
-// The coarse meshes have no vertices but the corners of the shape (and the centre of the star).
+// The coarse meshes have no vertices but the corners of the shape (and the center of the star).
 DomainMesh<2> coarse_polygon(Shape shape) {
   DomainMesh<2> mesh;
   if (shape == Shape::kBox) {
@@ -43,7 +43,7 @@ DomainMesh<2> coarse_polygon(Shape shape) {
 }
 
 // Prisms of height 1 over the triangles, each cut into tetrahedra along the monotone paths through
-// its vertices; since the paths follow the vertex order, neighbouring prisms agree.
+// its vertices; since the paths follow the vertex order, neighboring prisms agree.
 DomainMesh<3> extrude(const DomainMesh<2>& base) {
   const Index num_base = base.num_vertices();
   DomainMesh<3> mesh;

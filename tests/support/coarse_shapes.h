@@ -17,7 +17,7 @@ enum class Shape {
   kStar      //!< a fan of 2^Dim cells around the origin, irregular
 };
 
-//! A conforming mesh whose vertices are the corners of the shape (and the centre of the star). The
+//! A conforming mesh whose vertices are the corners of the shape (and the center of the star). The
 //! orientation of its cells is arbitrary.
 template <int Dim>
 DomainMesh<Dim> coarse_mesh(Shape shape);

@@ -7,7 +7,7 @@
 
 namespace flbc::testing {
 
-//! An axis-parallel box: 4 edges counter-clockwise in 2D, 12 triangles outwards in 3D. Corner k has
+//! An axis-parallel box: 4 edges counterclockwise in 2D, 12 triangles outward in 3D. Corner k has
 //! bit `axis` of k set where it is at the high side.
 template <int Dim>
 Cage<Dim> box_cage(const Vector<Dim>& low, const Vector<Dim>& high) {

@@ -32,7 +32,7 @@ inline std::string slurp(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-//! A folder of its own for every test, so that tests may run side by side.
+//! A separate directory for every test, so tests can run in parallel.
 class CommandLineTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }

@@ -19,7 +19,7 @@ using Exact = long double;  // 64 bits: products of three differences of doubles
 template <int Dim>
 using LongVector = Eigen::Matrix<Exact, Dim, 1>;
 
-//! How often the cage winds round a point: the sum of the angles at which its facets are seen.
+//! Winding number of the cage around a point: the sum of the angles subtended by its facets.
 template <int Dim>
 double winding_number(const Cage<Dim>& cage, const Vector<Dim>& point) {
   double sum = 0;

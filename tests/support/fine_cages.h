@@ -12,7 +12,7 @@
 
 namespace flbc::testing {
 
-//! The boundary of a mesh as a cage, oriented outwards.
+//! The boundary of a mesh as a cage, oriented outward.
 template <int Dim>
 Cage<Dim> boundary_as_cage(const DomainMesh<Dim>& mesh) {
   const auto topology = build_topology(mesh);

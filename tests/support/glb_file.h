@@ -49,7 +49,7 @@ class GlbFile {
     for (std::size_t k = 0; k < json["accessors"].size(); ++k) expect_sound_accessor(k);
   }
 
-  //! A column per element; normalised integers are divided by their unit.
+  //! A column per element; normalized integers are divided by their unit.
   Eigen::MatrixXd accessor(std::size_t k) const {
     const auto& accessor = json["accessors"][k];
     auto values = raw(k);

@@ -19,7 +19,7 @@
 
 namespace flbc::testing {
 
-//! A test with an empty folder of its own.
+//! A test with a separate empty directory.
 class FolderTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }

@@ -72,7 +72,7 @@ void judge_lagrange(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 }
 
 // Barycentric coordinates of the point in a facet, and how far it is from lying there: its distance
-// from the facet's plane plus what it stands out over the facet's edges.
+// from the plane of the facet plus its distance beyond the facet edges.
 template <int Dim>
 struct FacetFit {
   Vector<Dim> coordinates;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Measures coordinates by their values alone, with loops of its own that share no code with the
+//! Measures coordinates by their values alone, with independent loops that share no code with the
 //! library.
 #pragma once
 
@@ -25,12 +25,12 @@ struct Judgement {
                                //!< coordinates in their cage facets
   Index control_points_found = 0;        //!< control points at which there is a mesh vertex
   Index boundary_vertices_off_cage = 0;  //!< boundary vertices that lie on no cage facet
-  std::vector<Index> local_minima;  //!< per control point: interior vertices below all neighbours
-  std::vector<Index> local_maxima;  //!< per control point: interior vertices above all neighbours
+  std::vector<Index> local_minima;  //!< per control point: interior vertices below all neighbors
+  std::vector<Index> local_maxima;  //!< per control point: interior vertices above all neighbors
 };
 
 //! \param weights  n x V
-//! \param extremum_margin  an extremum counts if it differs by more than this from every neighbour
+//! \param extremum_margin  an extremum counts if it differs by more than this from every neighbor
 //! \throws std::invalid_argument if the sizes do not fit
 template <int Dim>
 Judgement<Dim> judge(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,

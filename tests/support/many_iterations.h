@@ -7,7 +7,7 @@
 
 namespace flbc::testing {
 
-//! Exactly so many iterations in double precision, whatever the error.
+//! A fixed number of iterations in double precision, independent of the error.
 inline SolverOptions many_iterations(int count) {
   SolverOptions options;
   options.precision = Precision::kDouble;

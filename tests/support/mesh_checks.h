@@ -27,7 +27,7 @@ MeshingOptions<Dim> vertices(Index count, const PointList<Dim>& embedded = Point
   return options;
 }
 
-//! Two runs give the same bits. \param make  gives a mesh
+//! Two runs are bit-identical. \param make  gives a mesh
 template <class Make>
 void expect_reproducible(const Make& make) {
   const auto first = make(), second = make();
@@ -52,7 +52,7 @@ double sum_of_facets(const PointList<Dim>& points, const FacetList<Dim>& facets)
   return sum;
 }
 
-//! Area or volume by the divergence theorem; positive for counter-clockwise loops and outward
+//! Area or volume by the divergence theorem; positive for counterclockwise loops and outward
 //! shells.
 template <int Dim>
 double enclosed_measure(const Cage<Dim>& cage) {
@@ -85,7 +85,7 @@ bool lies_in_one_facet(const Cage<Dim>& cage, const PointList<Dim>& points,
       if constexpr (Dim == 2) {
         has_all = (p - a).norm() + (p - b).norm() <= (b - a).norm() + tolerance;
       } else {
-        // Inside the prism over the triangle: heights over its plane and inwards from its edges.
+        // Inside the prism over the triangle: heights over its plane and inward from its edges.
         const Vector<3> c = cage.points.col(cage.facets(2, f));
         const Vector<3> normal = (b - a).cross(c - a).normalized();
         has_all = std::abs(normal.dot(p - a)) <= tolerance;
@@ -99,7 +99,7 @@ bool lies_in_one_facet(const Cage<Dim>& cage, const PointList<Dim>& points,
   return false;
 }
 
-//! The points are the mesh's vertices from `first` on, bit by bit.
+//! The points are exactly the vertices of the mesh from `first` on.
 template <int Dim>
 void expect_vertices(const DomainMesh<Dim>& mesh, Index first, const PointList<Dim>& points) {
   ASSERT_GE(mesh.num_vertices(), first + points.cols());

@@ -13,7 +13,7 @@
 
 namespace flbc::testing {
 
-//! A kind of file. OpenMesh writes no colours to .obj.
+//! A kind of file. OpenMesh writes no colors to .obj.
 struct ModelKind {
   const char* file;
   int options;

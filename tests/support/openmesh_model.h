@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Models written and read by OpenMesh alone, to judge what the project's own readers and writers
-//! do with them.
+//! Models written and read by OpenMesh alone, as a reference for what our readers and writers do
+//! with them.
 #pragma once
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -33,8 +33,8 @@ inline OpenMesh::IO::Options all_attributes() {
 }
 
 //! A box without lid, inside the tetrahedron of the origin and the three unit vectors: five
-//! quadrangles, and a triangle that sticks out of one. Coordinates are multiples of 1/16, so that
-//! single precision holds them and weights of the tetrahedron reproduce them exactly.
+//! quadrilaterals, and a triangle that sticks out of one. Coordinates are multiples of 1/16, so
+//! that single precision holds them and weights of the tetrahedron reproduce them exactly.
 inline OpenMeshModel box_with_attributes() {
   OpenMeshModel mesh;
   std::vector<OpenMesh::VertexHandle> v;
@@ -114,7 +114,7 @@ inline void expect_same_faces(const OpenMeshModel& a, const OpenMeshModel& b) {
   }
 }
 
-//! That two meshes have the same of what `options` names: colours and texture coordinates.
+//! That two meshes have the same of what `options` names: colors and texture coordinates.
 inline void expect_same_paint(const OpenMeshModel& a, const OpenMeshModel& b,
                               const OpenMesh::IO::Options& options = all_attributes()) {
   ASSERT_EQ(a.n_vertices(), b.n_vertices());

@@ -14,7 +14,7 @@
 namespace flbc::testing {
 namespace {
 
-// Reads what it is asked for and throws if that does not come next.
+// Reads an expected item and throws if another one follows.
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path), file_(path) {

@@ -23,7 +23,7 @@ struct ReferenceOptimum {
   };
 
   std::string name;
-  Cage<Dim> cage;  //!< oriented outwards
+  Cage<Dim> cage;  //!< oriented outward
   DomainMesh<Dim> mesh;
   Eigen::MatrixXd phi;    //!< n x F, in [0, 1]
   Variant unconstrained;  //!< weights may be negative

@@ -29,7 +29,7 @@ void orient(DomainMesh<Dim>& mesh) {
   }
 }
 
-// Boundary facets with the orientation that positive cells induce, which points outwards. Vertices
+// Boundary facets with the orientation that positive cells induce, which points outward. Vertices
 // inside drop out.
 template <int Dim>
 Cage<Dim> boundary_of(const DomainMesh<Dim>& mesh) {

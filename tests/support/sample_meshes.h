@@ -13,7 +13,7 @@
 
 namespace flbc::testing {
 
-//! A cage, oriented outwards, and a conforming mesh of its interior. The control points are mesh
+//! A cage, oriented outward, and a conforming mesh of its interior. The control points are mesh
 //! vertices (in no particular place) and every cage facet is a union of mesh facets.
 template <int Dim>
 struct Sample {

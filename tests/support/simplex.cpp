@@ -5,7 +5,7 @@
 
 namespace flbc::testing {
 
-// Apart from what uses it, because it takes longer to compile than all of that.
+// Compiled separately, because it takes longer to compile than its users.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.completeOrthogonalDecomposition().solve(b);
 }

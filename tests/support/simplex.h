@@ -15,7 +15,7 @@
 
 namespace flbc::testing {
 
-//! The x of least norm that minimises |a x - b|, for each column of b.
+//! The x of least norm that minimizes |a x - b|, for each column of b.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 //! Columns of `points` at the given vertices, in this order.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The paper's solver (sections 4.2.1 and 4.2.3) word for word: every auxiliary and dual variable
-//! is a matrix of its own. Slow and large; it exists to judge the library's solver, with which it
-//! shares no code.
+//! is a matrix of its own. Slow and large; it is the reference for the solver of the library, with
+//! which it shares no code.
 //!
 //! Problem (7)-(10) fixes slopes only: where the domain's boundary is not connected (a hole in 2D,
 //! a cavity in 3D) it is a relaxation, whose gradients may integrate to weights that miss the

@@ -51,7 +51,7 @@ Mesh make_squares(int n = 6) {
   return mesh;
 }
 
-//! A number of its own for every element of a kind, whatever its handle; at most 5000.
+//! A distinct number for every element of a kind; at most 5000.
 template <class Mesh>
 int key(const Mesh& mesh, OpenMesh::VertexHandle v) {
   return static_cast<int>(mesh.point(v)[0] + 100 * mesh.point(v)[1]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colourings of the model: a number from 0 to 1 at every point, and a legend of it.
+// Colorings of the model: a number from 0 to 1 at every point, and a legend of it.
 
 export const kColorings = {
   shaded: "Plain",

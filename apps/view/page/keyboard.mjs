@@ -13,7 +13,7 @@ export const kHelp = [
   ["Drag elsewhere", "turn (3D) or shift (2D) the view"],
   ["Right drag, wheel", "shift, zoom; with two fingers both"],
   ["G  R  S", "tools: move, rotate, scale the selection"],
-  ["X  Y  Z", "along or round one axis only; again: freely"],
+  ["X  Y  Z", "along or around one axis only; again: freely"],
   ["Arrows", "move the selection a little; Shift: more"],
   ["M", "mirror: off, x, y, z"],
   ["A  B", "select all or none; box"],

@@ -61,6 +61,6 @@ function quoted(text) {
 export function commandOf(viewer) {
   const { title, files } = viewer.content;
   const extension = /\.[^./]*$/.exec(files.model)?.[0] ?? ".obj";
-  return ["flbc deform", quoted(files.model), "--weights", quoted(files.weights), "--cage",
+  return ["flbc deform", quoted(files.model), "--weights", quoted(files.weights), "--pose",
           quoted(`${title}_pose.obj`), "-o", quoted(`${title}_posed${extension}`)].join(" ");
 }

@@ -24,7 +24,7 @@ namespace flbc {
 
 namespace {
 
-// Largest distance of a mirror image from the model, relative to the model's size.
+// Maximum distance of a mirror image from the model, relative to model size.
 constexpr double kSymmetryTolerance = 0.005;
 
 template <int Dim>
@@ -32,7 +32,7 @@ MirrorPlane plane_across(const Enclosure<Dim>& model, int axis) {
   return {axis, model.box().center()(axis)};
 }
 
-// The largest distance of mirrored vertices from the model.
+// The maximum distance of mirrored vertices from the model.
 template <int Dim>
 double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
                  const MirrorPlane& plane, double limit) {
@@ -46,8 +46,8 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
   return largest;
 }
 
-// The plane that is asked for, through the middle of the model; for kAuto that to which the model
-// is most nearly symmetric, if it is.
+// The requested plane through the center of the model. For kAuto, the plane of best symmetry if the
+// model is symmetric.
 template <int Dim>
 MirrorPlane find_symmetry(const PointList<Dim>& points, const FacetList<Dim>& facets,
                           CageSymmetry wanted) {
@@ -69,7 +69,7 @@ MirrorPlane find_symmetry(const PointList<Dim>& points, const FacetList<Dim>& fa
   return best;
 }
 
-// Coordinates in a facet of the centres of equal pieces.
+// Barycentric coordinates of the centers of equal pieces of a facet.
 template <int Dim>
 std::vector<Vector<Dim>> spread_coordinates() {
   constexpr int kPieces = 8;
@@ -88,7 +88,7 @@ std::vector<Vector<Dim>> spread_coordinates() {
   return all;
 }
 
-// Mean distance of the cage's surface (2D: lines) from the model, by points spread evenly over
+// Mean distance of the cage surface (2D: lines) from the model, at points evenly distributed on
 // every facet.
 template <int Dim>
 double mean_distance(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
@@ -143,15 +143,16 @@ Cage<Dim> simplex_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
   return cage;
 }
 
-// A box and a simplex round the given box, symmetric to its middle across every axis (the box) or
-// not at all (the simplex). \param offset  between it and them
+// A box and a simplex around the given box. The box is symmetric about the center along every axis;
+// the simplex is not. \param offset  between it and them
 template <int Dim>
 std::vector<Cage<Dim>> simple_cages(const Eigen::AlignedBox<double, Dim>& around, double offset) {
   const Vector<Dim> low = around.min().array() - offset, high = around.max().array() + offset;
   return {box_cage<Dim>(low, high), simplex_cage<Dim>(low, high)};
 }
 
-// Sizes relative to the model's, for a wrap with several times as many control points as wanted.
+// Sizes relative to model size, for a wrap with several times the requested number of control
+// points.
 template <int Dim>
 WrapSize wrap_size(double control_points) {
   if (Dim == 2) {
@@ -176,7 +177,7 @@ double total_measure(const Cage<Dim>& cage) {
   return sum;
 }
 
-// The longer the outline and the more of it there is to follow, the more control points.
+// Longer and more complex boundaries get more control points.
 template <int Dim>
 Index number_by_shape(const Cage<Dim>& wrap, double model_size) {
   if (Dim == 2) {
@@ -185,7 +186,7 @@ Index number_by_shape(const Cage<Dim>& wrap, double model_size) {
   return std::clamp(wrap.size() / 5, 50, 150);
 }
 
-// Makes a cage round a model whose size is about 1.
+// Makes a cage around a model of size about 1.
 template <int Dim>
 class Caging {
  public:
@@ -213,7 +214,7 @@ class Caging {
   }
 
  private:
-  // With its mirror image the model is symmetric whatever it was.
+  // Adding the mirror image makes the model symmetric.
   Enclosure<Dim> enclosed(const PointList<Dim>& points, const FacetList<Dim>& facets) const {
     const Cage<Dim> shape{points, facets};
     if (!plane_.is_there()) return {points, facets};
@@ -295,7 +296,7 @@ template <int Dim>
 ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
                                const CagingOptions& options) {
   check_input<Dim>(points, facets, options);
-  // A power of two, so that no digit is lost and what is checked exactly holds for the model.
+  // A power of two, so scaling is exact, and exact checks also hold for the original model.
   const double unit = std::exp2(std::ilogb(bounding_box_diagonal<Dim>(points)));
   CagingOptions scaled = options;
   scaled.offset /= unit;

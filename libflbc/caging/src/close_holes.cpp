@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestLoop = 64;
 
-// The open edges, each from its end to its beginning, so that a loop runs as new triangles must.
+// The open edges, reversed, so loops have the orientation of new triangles.
 std::map<Index, std::vector<Index>> open_edges(const CageDraft<3>& draft) {
   std::map<Index, std::vector<Index>> next;
   const auto ridges = collect_ridges(draft);
@@ -26,7 +26,7 @@ std::map<Index, std::vector<Index>> open_edges(const CageDraft<3>& draft) {
   return next;
 }
 
-// Loops that pass each control point once; others are left open.
+// Loops that visit each control point once; other loops are left open.
 std::vector<std::vector<Index>> open_loops(const CageDraft<3>& draft) {
   auto next = open_edges(draft);
   std::vector<std::vector<Index>> loops;
@@ -113,7 +113,7 @@ void close_holes(CageDraft<3>& draft) {
 }
 
 void close_holes(CageDraft<2>& draft) {
-  // Walks from every open end to the other end of its line.
+  // Connects every open end to the other end of its polyline.
   const auto ridges = collect_ridges(draft);
   std::vector<bool> is_closed(static_cast<std::size_t>(draft.points.cols()), false);
   const std::size_t count = draft.facets.size();

@@ -10,10 +10,10 @@ namespace flbc {
 
 namespace {
 
-// Weight of the squared distance from the vertices there were, against that from their planes.
+// Weight of the squared distance from original vertices, relative to that from their planes.
 constexpr double kWeightOfPoints = 3e-3;
 
-// Facets keep this part of the offset from the model.
+// Facets keep this fraction of the offset from the model.
 constexpr double kClearance = 0.3;
 
 template <int Dim>
@@ -63,7 +63,7 @@ Vector<Dim> Coarsening<Dim>::best_position(const Quadric<Dim>& quadric, bool is_
   return best;
 }
 
-// Moves the point out of the half-spaces under the planes of the old facets, one after the other.
+// Moves the point out of the half-spaces below the planes of the old facets, one at a time.
 template <int Dim>
 Vector<Dim> Coarsening<Dim>::outer_position(const Vector<Dim>& start,
                                             const Replacement<Dim>& change) const {
@@ -132,7 +132,7 @@ void Coarsening<Dim>::add_edges_at(Index vertex) {
   }
 }
 
-// \return whether the edge has been collapsed; if only its cost became known, it waits for its turn
+// \return whether the edge has been collapsed; if only its cost was updated, it is queued again
 template <int Dim>
 bool Coarsening<Dim>::take(Candidate candidate) {
   const auto plan = surface_.plan_collapse(candidate.a, candidate.b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fewer control points, by collapsing edges.
+// Reduces control points by collapsing edges.
 #pragma once
 
 #include <optional>
@@ -48,10 +48,10 @@ struct Quadric {
     return x.dot(matrix * x) - 2 * linear.dot(x) + constant;
   }
 
-  //! Where it is least; some point has been added, so that there is one such place.
+  //! The minimizer; unique because at least one point has been added.
   Vector<Dim> minimiser() const { return matrix.inverse() * linear; }
 
-  //! Where it is least among points whose coordinate `axis` has the given value.
+  //! The minimizer among points whose coordinate `axis` has the given value.
   Vector<Dim> minimiser(int axis, double value) const {
     auto rest = matrix;
     Vector<Dim> right = linear - value * matrix.col(axis);
@@ -63,22 +63,22 @@ struct Quadric {
   }
 };
 
-//! Collapses the edges of a surface that encloses a model one by one, always the one that departs
-//! least from the surface there was at first. What is enclosed stays so, which is checked exactly;
-//! where the best place for the new vertex does not allow it, places farther out are tried, last
-//! one outside of the planes of all facets round the edge, as in progressive hulls (Sander et al.,
+//! Collapses edges of a surface that encloses a model, always the one with the smallest deviation
+//! from the original surface. The model stays enclosed, which is checked exactly. If the best
+//! position of the new vertex violates this, positions farther out are tried. The last one is
+//! outside the planes of all facets around the edge, as in progressive hulls (Sander et al.,
 //! "Silhouette clipping", 2000; Sacht, Vouga and Jacobson, "Nested cages", 2015).
 template <int Dim>
 class Coarsening {
  public:
-  //! \param offset  distance that facets keep from the model where they can
+  //! \param offset  distance that facets keep from the model if possible
   Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane, const Enclosure<Dim>& enclosure,
              double offset);
 
-  //! Collapses edges until there are so few control points, or none can be collapsed.
+  //! Collapses edges until the number of control points is reached, or no edge can be collapsed.
   void reduce_to(Index control_points);
 
-  //! Moves vertices towards where they depart least from the surface there was at first.
+  //! Moves vertices toward the smallest deviation from the original surface.
   void relax();
 
   Index num_control_points() const { return surface_.num_control_points(); }
@@ -87,14 +87,14 @@ class Coarsening {
   Cage<Dim> surface() const { return surface_.surface(); }
 
  private:
-  // A collapse of an edge with its cost: at least that until it has been tried.
+  // A collapse of an edge with its cost, which is a lower bound until the collapse has been tried.
   struct Candidate {
     double cost;
     Index a, b;
     Index version_a, version_b;
     bool is_tried;
     Vector<Dim> position;
-    bool operator<(const Candidate& other) const {  // the least is taken first
+    bool operator<(const Candidate& other) const {  // smallest first
       if (cost != other.cost) return cost > other.cost;
       return a != other.a ? a > other.a : b > other.b;
     }
@@ -115,7 +115,7 @@ class Coarsening {
   EditableSurface<Dim> surface_;
   CollapseCheck<Dim> check_;
   double offset_;
-  Vector<Dim> origin_;  // of the quadrics' coordinates
+  Vector<Dim> origin_;  // of the coordinates of the quadrics
   std::vector<Quadric<Dim>> quadrics_;
   std::vector<Index> versions_;
   std::priority_queue<Candidate> candidates_;

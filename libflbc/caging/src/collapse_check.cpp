@@ -69,7 +69,7 @@ bool CollapseCheck<Dim>::keeps_shape(const Replacement<Dim>& change,
   return true;
 }
 
-// Half a surface touches its mirror image nowhere but in the plane.
+// Half a surface touches its mirror image only in the plane.
 template <int Dim>
 bool CollapseCheck<Dim>::keeps_half(const Replacement<Dim>& change,
                                     const Vector<Dim>& position) const {
@@ -108,7 +108,7 @@ bool CollapseCheck<Dim>::meets_surface(const Replacement<Dim>& change,
   return false;
 }
 
-// The facets as they are, and moved inwards by the clearance.
+// The facets, and the facets moved inward by the clearance.
 template <int Dim>
 bool CollapseCheck<Dim>::meets_model(const Replacement<Dim>& change,
                                      const Vector<Dim>& position) const {
@@ -122,7 +122,7 @@ bool CollapseCheck<Dim>::meets_model(const Replacement<Dim>& change,
   return false;
 }
 
-// Old and new facets together enclose what changes sides.
+// Old and new facets together enclose the region that changes sides.
 template <int Dim>
 bool CollapseCheck<Dim>::loses_parts(const Replacement<Dim>& change,
                                      const Vector<Dim>& position) const {

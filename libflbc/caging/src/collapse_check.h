@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a surface still encloses the model when a vertex moves.
+// Checks that a surface still encloses the model when a vertex moves.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace flbc {
 
-//! Facets that are there now and those that would take their place.
+//! The current facets and their replacements.
 template <int Dim>
 struct Replacement {
-  std::vector<Index> old_facets{};              //!< that vanish
-  std::vector<FacetCorners<Dim>> new_facets{};  //!< each has the vertex
+  std::vector<Index> old_facets{};              //!< facets to remove
+  std::vector<FacetCorners<Dim>> new_facets{};  //!< each contains the vertex
   std::vector<Index> predecessors{};            //!< the old facet of each new one
   Index vertex = -1;
   bool is_in_plane = false;
@@ -22,7 +22,7 @@ struct Replacement {
 template <int Dim>
 Replacement<Dim> replacement_of(const Collapse<Dim>& plan);
 
-//! The facets at a vertex, which moves.
+//! The facets at a moving vertex.
 template <int Dim>
 Replacement<Dim> replacement_of(const EditableSurface<Dim>& surface, Index vertex);
 
@@ -33,8 +33,8 @@ class CollapseCheck {
   CollapseCheck(const EditableSurface<Dim>& surface, const Enclosure<Dim>& enclosure,
                 double clearance);
 
-  //! Whether, with the vertex at the position, the surface does not intersect itself, encloses the
-  //! model strictly, turns no facet over and has no facet much flatter than before.
+  //! Whether the vertex position is valid: the surface does not intersect itself, strictly encloses
+  //! the model, inverts no facet, and makes no facet much flatter.
   bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
 
  private:
@@ -47,7 +47,7 @@ class CollapseCheck {
   const EditableSurface<Dim>& surface_;
   const Enclosure<Dim>& enclosure_;
   double clearance_;
-  PointList<Dim> representatives_;  // of the model's parts, on the plane's side
+  PointList<Dim> representatives_;  // of the parts of the model, on the side of the plane
 };
 
 }  // namespace flbc

@@ -17,7 +17,7 @@ bool has(const FacetCorners<Dim>& corners, Index vertex) {
   return (corners.array() == vertex).any();
 }
 
-// Whether some facet would stand there twice.
+// Whether a facet would be duplicated.
 template <int Dim>
 bool has_repeated(const std::vector<FacetCorners<Dim>>& facets) {
   std::set<std::array<Index, Dim>> seen;
@@ -70,7 +70,7 @@ std::vector<Index> EditableSurface<Dim>::neighbours(Index vertex) const {
   return found;
 }
 
-// The border may only run along edges of one facet, and no facet may lie in the plane.
+// The border may contain only edges of one facet, and no facet may lie in the plane.
 template <int Dim>
 bool EditableSurface<Dim>::keeps_border(const Collapse<Dim>& plan) const {
   if (!plan.is_in_plane) return true;
@@ -97,7 +97,7 @@ std::optional<Collapse<Dim>> EditableSurface<Dim>::plan_collapse(Index a, Index 
     if (!has<Dim>(facets_[f], a)) plan.ring.push_back(f);
   }
   if (is_in_plane(a) && is_in_plane(b) && (Dim == 2 || plan.dying.size() != 1)) return {};
-  // The link condition: the ends have no neighbours in common but those of the edge's own facets.
+  // The link condition: the ends share no neighbors except those in the facets of the edge.
   const auto near_a = neighbours(a), near_b = neighbours(b);
   std::vector<Index> common;
   std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(),

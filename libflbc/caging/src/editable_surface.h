@@ -13,14 +13,14 @@
 
 namespace flbc {
 
-//! The facets round an edge when its ends become one vertex.
+//! The facets around an edge whose ends are merged.
 template <int Dim>
 struct Collapse {
-  Index kept = -1, removed = -1;             //!< the ends; the vertex that stays has number `kept`
+  Index kept = -1, removed = -1;             //!< the ends; vertex `kept` remains
   bool is_in_plane = false;                  //!< the vertex must be in the mirror plane
-  std::vector<Index> dying{};                //!< facets that have both ends
-  std::vector<Index> ring{};                 //!< facets that have one of them
-  std::vector<FacetCorners<Dim>> corners{};  //!< of the ring's facets afterwards
+  std::vector<Index> dying{};                //!< facets with both ends
+  std::vector<Index> ring{};                 //!< facets with one end
+  std::vector<FacetCorners<Dim>> corners{};  //!< of the ring facets after the collapse
 };
 
 template <int Dim>
@@ -42,15 +42,15 @@ class EditableSurface {
   //! Ascending.
   std::vector<Index> neighbours(Index vertex) const;
 
-  //! Vertices of the closed surface, the mirror images included.
+  //! Vertices of the closed surface, including mirror images.
   Index num_control_points() const { return num_control_points_; }
 
-  //! The collapse of an edge; nothing if the surface were no manifold afterwards.
+  //! The collapse of an edge; empty if the surface would not stay manifold.
   std::optional<Collapse<Dim>> plan_collapse(Index a, Index b) const;
   void collapse(const Collapse<Dim>& plan, const Vector<Dim>& position);
   void move(Index vertex, const Vector<Dim>& position);
 
-  //! Corners of a facet, one of whose vertices is somewhere else.
+  //! Corners of a facet with one vertex moved.
   Simplex<Dim> facet_with(const FacetCorners<Dim>& corners, Index vertex,
                           const Vector<Dim>& position) const;
   Simplex<Dim> facet(Index number) const;

@@ -48,7 +48,7 @@ std::vector<Simplex<Dim>> collect_simplices(const PointList<Dim>& points,
   return simplices;
 }
 
-// Points at the same place are connected, though a soup gives them numbers of their own.
+// Points at the same position are connected, even if they have different indices in the soup.
 template <int Dim>
 PointList<Dim> collect_representatives(const PointList<Dim>& points, const FacetList<Dim>& facets) {
   UnionFind parts(static_cast<Index>(points.cols()));
@@ -70,7 +70,7 @@ PointList<Dim> collect_representatives(const PointList<Dim>& points, const Facet
   return representatives;
 }
 
-// Ends of the segments that are tried one after the other, none of them along an axis or diagonal.
+// Ends of segments to try in order; none is along an axis or diagonal.
 template <int Dim>
 Vector<Dim> direction(int attempt, int axis) {
   Vector<Dim> d;
@@ -159,7 +159,7 @@ bool Enclosure<Dim>::is_strictly_inside(const Cage<Dim>& cage) const {
 
 template <int Dim>
 double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
-  // Boxes around the point grow until they hold something.
+  // Boxes around the point grow until they contain something.
   double least = limit;
   for (double reach = limit / 1024;; reach *= 2) {
     reach = std::min(reach, limit);

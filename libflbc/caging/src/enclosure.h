@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether facets meet a model, and whether a cage encloses all of it.
+// Tests whether facets intersect a model, and whether a cage encloses it.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class OverlapTree {
     if (!boxes_.empty()) build(0, static_cast<Index>(boxes_.size()));
   }
 
-  //! Calls `visit` with the numbers of boxes that meet `query`, until it returns true.
+  //! Calls `visit` with the indices of boxes that intersect `query`, until it returns true.
   //! \return whether it did
   template <class Visit>
   bool any_of(const Box& query, const Visit& visit) const {
@@ -35,7 +35,7 @@ class OverlapTree {
  private:
   static constexpr Index kLeafSize = 4;
 
-  // The second child is the number of a node, the first is the next; leaves have none.
+  // The first child is the next node, the second child is given by index; leaves have none.
   struct Node {
     Box box;
     Index begin, end, second;
@@ -79,21 +79,20 @@ class OverlapTree {
   std::vector<Node> nodes_;
 };
 
-//! A model as a set of points, segments and triangles, for exact questions. A surface that meets
-//! none of them has each connected part of the model on one side, so that one point of every part
-//! decides the rest.
+//! A model as a set of points, segments, and triangles, for exact tests. If a surface does not
+//! intersect them, each connected part of the model is on one side, so one point per part decides.
 template <int Dim>
 class Enclosure {
  public:
   using Box = Eigen::AlignedBox<double, Dim>;
 
-  //! \param points  Dim x P \param facets  corners may repeat; points of no facet count as well
+  //! \param points  Dim x P \param facets  corners may repeat; points without a facet also count
   Enclosure(const PointList<Dim>& points, const FacetList<Dim>& facets);
 
-  //! Whether a facet has a point in common with the model.
+  //! Whether a facet intersects the model.
   bool meets(const Simplex<Dim>& facet) const;
 
-  //! Whether the cage meets the model nowhere and has all of it inside.
+  //! Whether the cage does not intersect the model and encloses all of it.
   bool is_strictly_inside(const Cage<Dim>& cage) const;
 
   //! One point of each connected part, in the order of the model's points.
@@ -102,7 +101,7 @@ class Enclosure {
   const std::vector<Simplex<Dim>>& simplices() const { return simplices_; }
   const Box& box() const { return box_; }
 
-  //! Distance from the model. \param limit  the answer where it is larger
+  //! Distance from the model. \param limit  upper bound of the result
   double distance(const Vector<Dim>& point, double limit) const;
 
  private:
@@ -112,9 +111,10 @@ class Enclosure {
   Box box_;
 };
 
-//! Whether a segment from the point to far away meets the facets an odd number of times. No if the
-//! point lies on one of them.
-//! \param directions_axis  the segment runs towards larger coordinates of this axis; any if -1
+//! Whether a segment from the point to infinity crosses the facets an odd number of times. False if
+//! the point lies on a facet.
+//! \param directions_axis  the segment points toward larger coordinates of this axis; -1: any
+//! direction
 template <int Dim>
 bool has_odd_crossings(const Vector<Dim>& point, const std::vector<Simplex<Dim>>& facets,
                        int directions_axis = -1);

@@ -15,7 +15,7 @@ namespace flbc {
 
 namespace {
 
-// Facets on the plane's side, with a new point wherever an edge crosses it.
+// Facets on one side of the plane, with a new point where an edge crosses it.
 template <int Dim>
 class Cut {
  public:
@@ -30,7 +30,7 @@ class Cut {
  private:
   bool is_kept(Index vertex) const { return points_(plane_.axis, vertex) > plane_.position; }
 
-  // Of the edge between two vertices on different sides.
+  // The crossing of the edge between two vertices on different sides.
   Index crossing(Index a, Index b) {
     const auto [entry, is_new] =
         crossings_.emplace(std::minmax(a, b), static_cast<Index>(points_.cols()));
@@ -44,7 +44,7 @@ class Cut {
     return entry->second;
   }
 
-  // The corners that are kept and the crossings, in order: a triangle or a quadrangle in 3D.
+  // The corners that are kept and the crossings, in order: a triangle or quadrilateral in 3D.
   void cut_facet(const FacetCorners<Dim>& corners) {
     std::vector<Index> polygon;
     for (int k = 0; k < (Dim == 2 ? 1 : 3); ++k) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages that are symmetric: half of the surface stands for all of it.
+// Symmetric cages, represented by half of the surface.
 #pragma once
 
 #include "flbc/cage.h"
 
 namespace flbc {
 
-//! A plane (2D: line) across an axis, on whose side of larger coordinates a half lies.
+//! A mirror plane (2D: line) normal to an axis. The kept half has larger coordinates.
 struct MirrorPlane {
-  int axis = -1;  //!< -1: there is none
+  int axis = -1;  //!< -1: none
   double position = 0;
 
   bool is_there() const { return axis >= 0; }
@@ -25,16 +25,16 @@ struct MirrorPlane {
   }
 };
 
-//! Points and facets together with their mirror images, which count as facets of their own.
+//! Points and facets together with their mirror images as separate facets.
 template <int Dim>
 Cage<Dim> with_mirror_image(const Cage<Dim>& shape, const MirrorPlane& plane);
 
-//! The part of a closed surface on the plane's side of larger coordinates; its border runs in the
-//! plane. \param nearest  vertices come no nearer to the plane than this without being in it
+//! The half of a closed surface with larger coordinates; its border is in the plane. \param nearest
+//! minimum distance of vertices from the plane unless they are in it
 template <int Dim>
 Cage<Dim> cut_half(const Cage<Dim>& surface, const MirrorPlane& plane, double nearest);
 
-//! The closed surface of which this is half.
+//! The closed surface with this half.
 template <int Dim>
 Cage<Dim> join_halves(const Cage<Dim>& half, const MirrorPlane& plane);
 

@@ -8,7 +8,7 @@ namespace flbc {
 
 namespace {
 
-// Whether a triangle runs from the smaller to the larger end of an edge.
+// Whether a triangle traverses an edge from its smaller to its larger end.
 bool runs_forward(const FacetCorners<3>& corners, const Ridge<3>& edge) {
   for (int k = 0; k < 3; ++k) {
     if (corners(k) == edge[0]) return corners((k + 1) % 3) == edge[1];
@@ -16,12 +16,12 @@ bool runs_forward(const FacetCorners<3>& corners, const Ridge<3>& edge) {
   return false;
 }
 
-// A shell with the triangles that run the other way than its first.
+// A shell, with its triangles of orientation opposite to the first.
 struct Shell {
   std::vector<Index> facets{}, reversed{};
 };
 
-// Walks across the edges at which two triangles meet.
+// Traverses edges shared by two triangles.
 Shell collect_shell(const CageDraft<3>& draft, const RidgeMap<3>& ridges, Index first,
                     std::vector<bool>& is_seen) {
   Shell shell;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed lines round a model in the plane, along the cells of a grid.
+// Wraps a model in the plane with closed lines along the cells of a grid.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,11 +11,11 @@ namespace flbc {
 
 namespace {
 
-// Largest number of cells along an axis, and their number per offset if that allows it.
+// Maximum number of cells along an axis, and number of cells per offset within this limit.
 constexpr double kMostCells = 600;
 constexpr double kCellsPerOffset = 2;
 
-// Cells that are marked or not, with an unmarked margin all round.
+// A grid of marked cells with an unmarked margin.
 class Grid {
  public:
   Grid(const Eigen::AlignedBox2d& box, double cell)
@@ -49,7 +49,7 @@ void for_each_cell(const Grid& grid, const Action& action) {
   }
 }
 
-// Unmarks cells that have an unmarked one within so many cells.
+// Unmarks cells within a given number of cells of an unmarked one.
 void erode(Grid& grid, double radius) {
   const auto reach = static_cast<Index>(radius);
   const Grid before = grid;
@@ -65,7 +65,7 @@ void erode(Grid& grid, double radius) {
   });
 }
 
-// Marks all cells that the margin cannot reach. \return whether there were any
+// Marks all cells that are not connected to the margin. \return whether there were any
 bool fill_holes(Grid& grid) {
   Grid outside = grid;
   std::vector<std::pair<Index, Index>> front{{0, 0}};
@@ -90,7 +90,7 @@ bool fill_holes(Grid& grid) {
   return has_filled;
 }
 
-// Cells that touch in a corner only get a neighbour in common. \return whether there were any
+// Adds a common neighbor to cells that touch only at a corner. \return whether there were any
 bool part_touching_corners(Grid& grid) {
   bool has_marked = false;
   for (Index j = 1; j < grid.height(); ++j) {

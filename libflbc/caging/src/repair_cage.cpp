@@ -34,7 +34,7 @@ void check_numbers_of(const Cage<Dim>& cage) {
   }
 }
 
-// Numbers of the control points that facets use; the others go.
+// Indices of the control points used by facets; others are removed.
 template <int Dim>
 RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
   std::vector<FacetCorners<Dim>> facets;
@@ -60,7 +60,7 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
   return repaired;
 }
 
-// As close as so many control points allow.
+// As close as this number of control points allows.
 template <int Dim>
 void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                   RepairedCage<Dim>& repaired) {

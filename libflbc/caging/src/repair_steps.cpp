@@ -41,7 +41,7 @@ bool has_repeated_corner(const FacetCorners<Dim>& corners) {
   return false;
 }
 
-// The corner between the other two, of a triangle whose corners lie on one line; -1 if they do not.
+// The middle corner of a triangle with collinear corners; -1 if they are not collinear.
 int middle_corner(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
   constexpr double kRelativeTolerance = 1e-10;
   Eigen::Matrix3d p;
@@ -57,7 +57,7 @@ int middle_corner(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
   return facet_normal<3>(p).norm() > tolerance * longest ? -1 : middle;
 }
 
-// The triangle that has the edge opposite to the middle corner is cut in two there.
+// Splits the triangle at the edge opposite to the middle corner.
 void cut_neighbour(CageDraft<3>& draft, std::size_t flat, int middle) {
   const auto corners = draft.facets[flat].corners;
   const Ridge<3> edge = ridge_of<3>(corners, middle);
@@ -89,7 +89,7 @@ void cut_at_flat_triangles(CageDraft<3>& draft) {
   drop(draft, is_dropped);
 }
 
-// Parts of the draft that are connected across ridges of two facets.
+// Parts of the draft connected by ridges with two facets.
 template <int Dim>
 std::vector<Index> collect_patches(const CageDraft<Dim>& draft, const RidgeMap<Dim>& ridges) {
   UnionFind patches(static_cast<Index>(draft.facets.size()));
@@ -103,7 +103,7 @@ std::vector<Index> collect_patches(const CageDraft<Dim>& draft, const RidgeMap<D
   return patch_of_facet;
 }
 
-// The smallest patch that is open somewhere and meets two others elsewhere; -1 if there is none.
+// The smallest patch that has an open border and meets two other patches elsewhere; -1: none.
 template <int Dim>
 Index find_flap(const std::vector<Index>& patch_of_facet, const RidgeMap<Dim>& ridges) {
   const std::size_t count = patch_of_facet.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The single repairs of which repair_cage() is made. Each says what it has done.
+// The steps of repair_cage(). Each reports its changes.
 #pragma once
 
 #include <string>
@@ -15,36 +15,36 @@ template <int Dim>
 struct CageDraft {
   struct Facet {
     FacetCorners<Dim> corners;
-    Index number;  //!< that it had at first; -1: it is new
+    Index number;  //!< original index; -1: new
   };
-  PointList<Dim> points;           //!< as they were
-  std::vector<Facet> facets;       //!< that are left
-  std::vector<Index> merged_into;  //!< the control point that stands for each one
+  PointList<Dim> points;           //!< original points
+  std::vector<Facet> facets;       //!< remaining facets
+  std::vector<Index> merged_into;  //!< per control point: the control point it was merged into
   std::vector<std::string> changes{};
 };
 
 template <int Dim>
 CageDraft<Dim> draft_of(const Cage<Dim>& cage);
 
-//! Control points nearer than a millionth of the cage's size become the first of them.
+//! Merges control points within 1e-6 of cage size into the first of them.
 template <int Dim>
 void merge_close_points(CageDraft<Dim>& draft);
 
-//! Facets with repeated corners go; triangles whose corners lie on one line go, and the one at
-//! their longest edge gets a corner there.
+//! Removes facets with repeated corners. Removes triangles with collinear corners, and splits the
+//! neighbor at their longest edge.
 template <int Dim>
 void drop_degenerate_facets(CageDraft<Dim>& draft);
 
-//! Of facets with the same corners only the first stays.
+//! Keeps only the first of facets with the same corners.
 template <int Dim>
 void drop_repeated_facets(CageDraft<Dim>& draft);
 
-//! Where more than two facets meet, those that belong to a part with an open border go, the
-//! smallest part first.
+//! Where more than two facets meet, removes facets of parts with an open border, smallest part
+//! first.
 template <int Dim>
 void drop_flaps(CageDraft<Dim>& draft);
 
-//! Neighbouring triangles become oriented alike, as most of their shell are. Nothing in 2D.
+//! Orients neighboring triangles consistently, like the majority of their shell. No effect in 2D.
 void orient_alike(CageDraft<2>& draft);
 void orient_alike(CageDraft<3>& draft);
 

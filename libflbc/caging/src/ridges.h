@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where facets meet: control points in 2D, edges in 3D.
+// Ridges, where facets meet: control points in 2D, edges in 3D.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace flbc {
 template <int Dim>
 using Ridge = std::array<Index, Dim - 1>;
 
-//! The facets at every ridge, by their places in the draft, ascending.
+//! The facets at every ridge, as indices in the draft, ascending.
 template <int Dim>
 using RidgeMap = std::map<Ridge<Dim>, std::vector<Index>>;
 

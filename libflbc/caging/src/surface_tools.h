@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small things that are asked of surfaces in the making.
+// Helper functions for surfaces.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace flbc {
 
-//! The facets as a cage of the points they use, numbered in their old order.
+//! The facets as a cage of the points they use, in the original order.
 template <int Dim>
 Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<Dim>>& facets) {
   std::vector<Index> number(static_cast<std::size_t>(points.cols()), -1);
@@ -31,8 +31,8 @@ Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<D
   return cage;
 }
 
-//! Normal of a facet as long as its measure (3D: twice that): to the right of an edge, towards the
-//! side from which a triangle's corners run counter-clockwise.
+//! Normal of a facet, with length equal to its measure (3D: twice that). It points to the right of
+//! an edge, or to the side from which a triangle is counterclockwise.
 template <int Dim>
 Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
   if constexpr (Dim == 2) {

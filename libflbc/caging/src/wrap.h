@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed surfaces (2D: lines) round a model, finer than a cage needs to be.
+// Closed surfaces (2D: lines) around a model, finer than the final cage.
 #pragma once
 
 #include "caging/enclosure.h"
@@ -7,18 +7,18 @@
 
 namespace flbc {
 
-//! How a wrap follows the model.
+//! Options of a wrap.
 struct WrapSize {
-  double alpha;   //!< gaps and hollows narrower than this are bridged
+  double alpha;   //!< narrower gaps and hollows are bridged
   double offset;  //!< distance from the model
 };
 
 //! Alpha wrapping of Portaneri et al. ("Alpha wrapping with an offset", 2022), by CGAL.
-//! \return normals outwards; without facets if nothing could be wrapped
+//! \return outward normals; no facets if wrapping failed
 Cage<3> wrap(const Enclosure<3>& model, const WrapSize& size);
 
-//! Outline of the cells of a grid that are nearer to the model than the offset. What it surrounds
-//! is filled. \return counter-clockwise
+//! Boundary of the grid cells within the offset of the model. Enclosed cells are filled. \return
+//! counterclockwise
 Cage<2> wrap(const Enclosure<2>& model, const WrapSize& size);
 
 }  // namespace flbc

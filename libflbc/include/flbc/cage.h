@@ -11,39 +11,41 @@
 
 namespace flbc {
 
-//! A closed polygon (2D: one or several closed polylines, the inner ones being holes) or a closed
-//! triangulated surface (3D). The coordinates do not depend on the orientation of loops or shells,
-//! as long as each is consistent.
+//! A closed polygon (2D: one or more closed polylines; inner ones are holes) or a closed
+//! triangulated surface (3D). Each loop or shell needs a consistent orientation; the coordinates do
+//! not depend on which.
 template <int Dim>
 struct Cage {
-  PointList<Dim> points;  //!< Dim x n, the control points c_1 .. c_n
+  PointList<Dim> points;  //!< Dim x n, control points c_1 .. c_n
   FacetList<Dim> facets;  //!< Dim x m, edges or triangles
 
-  //! Number of control points n.
+  //! Number n of control points.
   Index size() const { return static_cast<Index>(points.cols()); }
 };
 
-//! One defect of a cage or mesh, ready to be shown.
+//! One defect of a cage or mesh.
 struct Defect {
-  std::string message;            //!< what is wrong, with element numbers (from 0) and coordinates
-  std::vector<Index> vertices{};  //!< the vertices concerned
-  std::vector<Index> facets{};    //!< the facets concerned
+  std::string message;            //!< description with element numbers (from 0) and coordinates
+  std::vector<Index> vertices{};  //!< affected vertices
+  std::vector<Index> facets{};    //!< affected facets
 };
 
-//! Checks everything that can be decided without constructing intersections: number and finiteness
-//! of control points, a size from 1e-30 to 1e30 and a distance from the origin of at most 1e9 times
-//! the size, facet indices, duplicate and unreferenced points, edges of length zero and
-//! degenerate triangles, open or non-manifold edges and vertices, inconsistent orientation (3D).
-//! In 2D the orientation of the polyline's edges is free.
+//! Looks for every defect that can be found without computing intersections:
+//! - too few or non-finite control points;
+//! - a size outside 1e-30 to 1e30, or a distance from the origin above 1e9 times the size;
+//! - invalid facet indices, duplicate or unreferenced control points;
+//! - edges of length zero, degenerate triangles;
+//! - open or non-manifold edges and vertices;
+//! - inconsistent orientation (3D only).
 //! \param cage  any
-//! \param limit  largest number of defects to look for
-//! \return at most `limit` defects, the most fundamental first; empty for a sound cage.
+//! \param limit  maximum number of defects to return
+//! \return at most `limit` defects, the most fundamental first; empty for a valid cage
 template <int Dim>
 std::vector<Defect> find_defects(const Cage<Dim>& cage, std::size_t limit = 16);
 
-//! Checks that a cage is sound.
+//! Throws if a cage is defective.
 //! \param cage  any
-//! \throws InputError with the first defect found by find_defects().
+//! \throws InputError with the first defect that find_defects() finds
 template <int Dim>
 void validate(const Cage<Dim>& cage);
 

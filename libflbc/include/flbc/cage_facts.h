@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Sizes and parts of a sound cage, and which points lie outside it.
+//! Sizes and parts of a valid cage, and the points that lie outside it.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace flbc {
 
-//! Parts, sizes and lengths of a sound cage.
+//! Parts, sizes, and lengths of a valid cage.
 template <int Dim>
 struct CageFacts {
   Index parts = 0;              //!< outer loops (2D) or shells (3D)
@@ -18,47 +18,46 @@ struct CageFacts {
   double size = 0;              //!< diagonal of the bounding box
   double measure = 0;           //!< area (2D) or volume (3D) of the interior
   double shortest_edge = 0;     //!< length
-  Index shortest_ends[2] = {};  //!< the control points between which it runs
+  Index shortest_ends[2] = {};  //!< control points at its ends
 };
 
-//! Measures a cage, in its own units.
+//! Measures a cage, in its own units of length.
 //! \param cage  has passed validate() and does not intersect itself
 template <int Dim>
 CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 
-//! The place where a cage is nearest to itself: a thin wall, or a facet that is nearly a line.
-//! The thinner it is, the more cells a mesh of good quality needs.
+//! The place where a cage comes closest to itself: a thin wall, or a nearly degenerate facet. A
+//! thinner place needs more cells for the same mesh quality.
 struct ThinPlace {
-  double distance = 0;  //!< of the control point from the facet, in the cage's units
+  double distance = 0;  //!< from the control point to the facet, in cage units
   Index control_point = -1;
-  Index facet = -1;  //!< of which the control point is no corner; -1 if there is none
+  Index facet = -1;  //!< the control point is not one of its corners; -1: none
 };
 
-//! The smallest distance of a control point from a facet that it is no corner of. Takes time
-//! proportional to their numbers' product.
+//! The smallest distance from a control point to a facet of which it is not a corner. Time is
+//! proportional to the number of control points times the number of facets.
 //! \param cage  has passed validate()
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage);
 
-//! Where thinnest_place() is below this part of the cage's size, meshing may not end in time.
+//! If thinnest_place() is below this fraction of cage size, meshing may exceed its time limit.
 constexpr double kThin = 1e-3;
 
-//! Points outside a cage by more than kBoundaryTolerance of its size; those inside holes are
-//! outside.
+//! Points outside a cage by more than kBoundaryTolerance of its size. Points in holes are outside.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
 //! \return their indices, ascending
 template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points);
 
-//! A connected part of a cage's interior: an outer loop or shell with the holes or cavities in it.
+//! A connected part of the cage interior: an outer loop or shell with its holes or cavities.
 template <int Dim>
 struct CagePart {
-  Cage<Dim> cage;                     //!< control points and facets in the order of the whole cage
-  std::vector<Index> control_points;  //!< per control point: its number there, ascending
+  Cage<Dim> cage;                     //!< in the order of the whole cage
+  std::vector<Index> control_points;  //!< per control point: its index in the whole cage, ascending
 };
 
-//! Splits a cage into its parts. A loop or shell in a hole of another one is a part of its own.
+//! Splits a cage into its parts. A loop or shell in a hole of another one is a separate part.
 //! \param cage  has passed validate() and does not intersect itself
 //! \return at least one, in the order of their first control points
 template <int Dim>

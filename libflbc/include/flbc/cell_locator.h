@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which cell of a mesh contains a point.
+//! Finds the cell of a mesh that contains a point.
 #pragma once
 
 #include <memory>
@@ -13,24 +13,24 @@ namespace flbc {
 //! A place in a mesh: a cell and barycentric coordinates in it.
 template <int Dim>
 struct Location {
-  Index cell = -1;                                //!< -1 = nowhere in the mesh
-  Eigen::Matrix<double, Dim + 1, 1> coordinates;  //!< sum to 1; may be below 0 by the tolerance
+  Index cell = -1;                                //!< -1: outside the mesh
+  Eigen::Matrix<double, Dim + 1, 1> coordinates;  //!< sum to 1; may be negative within the
+                                                  //!< tolerance
 };
 
-//! Finds the cell that contains a point, by a uniform grid over the mesh. Keeps a reference to the
-//! mesh.
+//! Finds the cell that contains a point, with a uniform grid. Keeps a reference to the mesh.
 template <int Dim>
 class CellLocator {
  public:
   //! Builds the grid.
-  //! \param mesh  valid (normalize_and_validate), outlives the locator
+  //! \param mesh  valid (normalize_and_validate); must outlive the locator
   explicit CellLocator(const DomainMesh<Dim>& mesh);
   ~CellLocator();
 
-  //! The cell that contains the point or, if none does, the nearest one by its barycentric
-  //! coordinates among those whose bounding box holds the point.
+  //! Returns the cell that contains the point. If no cell does, returns the nearest one by
+  //! barycentric coordinates among the cells whose bounding box contains the point.
   //! \param point  in the units of the mesh
-  //! \param tolerance  how far outside, in units of the mesh, a point may lie
+  //! \param tolerance  maximum distance of a point outside the mesh, in units of the mesh
   //! \return cell -1 if the point is outside
   Location<Dim> locate(const Vector<Dim>& point, double tolerance) const;
 
@@ -43,9 +43,9 @@ class CellLocator {
 //! Locates points inside the cage.
 //! \param mesh  valid
 //! \param points  Dim x P, in the units of the mesh
-//! \return P places; points within tolerance of the mesh are in the nearest cell
-//! \throws InputError naming the first point that lies outside the mesh by more than 1e-6 of its
-//! size, and how many do
+//! \return P locations; a point within the tolerance outside the mesh is in the nearest cell
+//! \throws InputError if points lie outside the mesh by more than 1e-6 of its size, with the first
+//! such point and their number
 template <int Dim>
 std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh, const PointList<Dim>& points);
 

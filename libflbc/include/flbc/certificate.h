@@ -1,43 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! How far weights can be from the optimum, proved by duality.
+//! Bounds the distance of weights from the optimum by duality.
 #pragma once
 
 #include "flbc/lbc_problem.h"
 
 namespace flbc {
 
-//! Proof of how good weights are, by weak duality (certificate.h).
+//! Bound on the optimality gap of weights, by weak duality.
 struct Certificate {
-  double objective = 0;     //!< of the weights, made feasible and non-negative where they are not
-  double lower_bound = 0;   //!< of the objective of all feasible, non-negative weights
+  double objective = 0;     //!< of the weights after projection onto the feasible set
+  double lower_bound = 0;   //!< on the objective of all feasible, non-negative weights
   double relative_gap = 0;  //!< (objective - lower_bound) / objective
 };
 
-//! The Lagrangian dual function. For every cell field p with |p_s^i| <= phi_s^i A_s, any feasible w
-//! has an objective of at least
+//! The Lagrangian dual function, a lower bound on the objective. For every cell field p with
+//! |p_s^i| <= phi_s^i A_s, the objective of any feasible w is at least
 //!
 //!     sum_s sum_i p_s^i . grad w_i = sum_v sum_i w_i(v) (D p_i)(v),
 //!     (D p_i)(v) = sum over the cells s at v of p_s^i . grad(lambda_v),
 //!
-//! in which boundary vertices contribute what they do and every interior vertex at least the value
+//! Boundary vertices contribute fixed terms. Every interior vertex contributes at least the value
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
-//! Valid whatever the arguments are, with the rounding of the flux, of all sums and of the programs
-//! counted in; not that of the hat gradients and measures, some 1e-16 to 1e-15 relative
-//! (docs/method.md). Good if the flux is the dual of a solver that has nearly
-//! converged.
+//! The bound holds for all arguments. It accounts for rounding in the flux, the sums, and the
+//! linear programs, but not in the hat gradients and measures (1e-16 to 1e-15 relative,
+//! docs/explanation/method/certificate.md). It is tight if the flux is the dual of a nearly
+//! converged solver.
 //! \param problem  mesh, phi and boundary values
-//! \param flux  p, a vector per cell and control point, shortened to phi A where it is longer;
-//! vectors that are not finite count as 0
-//! \param weights  n x V, a guess at the optimum that saves time
+//! \param flux  p, a vector per cell and control point; longer vectors are shortened to phi A, and
+//! non-finite ones count as 0
+//! \param weights  n x V, an estimate of the optimum that saves time
 //! \return at least 0 and at most objective(problem.mesh, problem.phi, w) for all feasible w >= 0
 //! \throws InputError if sizes do not fit
 template <class Scalar, int Dim>
 double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
                    const WeightMatrix& weights);
 
-//! The bound together with the objective of the weights, made feasible if they are not: known
-//! values on the boundary, interior columns by project_non_negative().
+//! Computes the bound and the objective of the weights. Infeasible weights are first projected:
+//! boundary columns get their known values, interior columns go through project_non_negative().
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, as for lower_bound()
 //! \param weights  n x V, finite

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Whether cages, models and weights are what they must be, and where they are not.
+//! Measures weights and finds violations of what coordinates must satisfy.
 #pragma once
 
 #include <cstdint>
@@ -15,93 +15,93 @@
 
 namespace flbc {
 
-//! The largest or smallest value of something and where it is.
+//! An extreme value of a measure, and its location.
 template <int Dim>
 struct Extreme {
   double value = 0;                         //!< largest or smallest
-  Index point = -1;                         //!< -1 if there is nothing to measure
-  Index control_point = -1;                 //!< -1 if all control points together give the value
+  Index point = -1;                         //!< -1: nothing to measure
+  Index control_point = -1;                 //!< -1: the value depends on all control points
   Vector<Dim> place = Vector<Dim>::Zero();  //!< coordinates of the point
 };
 
-//! Measures that need the mesh of the cage's interior: local extrema, variation and locality.
+//! Measures that need the domain mesh: local extrema, variation, and locality.
 template <int Dim>
 struct MeshCheck {
   Index interior_vertices = 0;  //!< number of vertices off the boundary
-  //! Per control point, the interior vertices at which w_i is below, or above, its values at all
-  //! neighbours by more than 1e-6. By the paper's Conjecture 1 local barycentric coordinates
-  //! have none.
+  //! Per control point: number of interior vertices where w_i is lower by more than 1e-6 than at
+  //! all neighbors. Local barycentric coordinates have no local extrema (Conjecture 1 of the
+  //! paper).
   std::vector<Index> local_minima;
-  std::vector<Index> local_maxima;  //!< likewise
-  Extreme<Dim> deepest_minimum;     //!< the value is the distance from the neighbours
-  Extreme<Dim> highest_maximum;     //!< likewise
+  std::vector<Index> local_maxima;  //!< as for minima
+  Extreme<Dim> deepest_minimum;     //!< the value is the difference from the nearest neighbor
+  Extreme<Dim> highest_maximum;     //!< as for minima
   double total_variation = 0;       //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
-  double harmonic_total_variation = 0;  //!< that of harmonic coordinates on this mesh
-  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare; 0 for
-  //! meshes of several parts, each of which has its own phi.
+  double harmonic_total_variation = 0;  //!< of harmonic coordinates on this mesh
+  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare. 0 for
+  //! meshes of several parts, because each part has its own phi.
   double weighted_variation = 0;
-  double harmonic_weighted_variation = 0;  //!< that of harmonic coordinates on this mesh
-  double harmonic_mean_influences = 0;     //!< mean number of their |w_i| > 1e-4 per vertex
+  double harmonic_weighted_variation = 0;  //!< of harmonic coordinates on this mesh
+  double harmonic_mean_influences = 0;     //!< mean influences per vertex of harmonic coordinates
   double influence_ratio = 0;              //!< mean influences / those of harmonic coordinates
 };
 
-//! Measures of weights. Points with a weight that is not finite count in `non_finite` only.
+//! Measures of weights. Points with a non-finite weight count in `non_finite` only.
 template <int Dim>
 struct WeightCheck {
-  Quality quality{};         //!< as measure_quality() gives it
+  Quality quality{};         //!< as returned by measure_quality()
   Index points = 0;          //!< P
   Index control_points = 0;  //!< n
 
-  std::int64_t non_finite = 0;    //!< number of weights that are not finite
+  std::int64_t non_finite = 0;    //!< number of non-finite weights
   Extreme<Dim> first_non_finite;  //!< the first of them
-  std::int64_t negative = 0;      //!< number of weights below -1e-12, which is more than rounding
+  std::int64_t negative = 0;      //!< number of weights below -1e-12
   Extreme<Dim> min_weight;        //!< smallest weight
   Extreme<Dim> max_weight;        //!< largest weight
   Extreme<Dim> partition;         //!< largest |sum_i w_i - 1|
-  Extreme<Dim> reproduction;      //!< largest |sum_i w_i c_i - x| / size of the cage
+  Extreme<Dim> reproduction;      //!< largest |sum_i w_i c_i - x| / cage size
   Extreme<Dim> influences;        //!< largest number of |w_i| > 1e-4
 
-  Index control_points_found = 0;  //!< control points with which a point coincides
+  Index control_points_found = 0;  //!< control points that coincide with a point
   Extreme<Dim> lagrange;           //!< largest |w_i(c_j) - delta_ij| at those
-  Index points_on_cage = 0;        //!< the ones at control points included
+  Index points_on_cage = 0;        //!< including those at control points
   Extreme<Dim>
       linearity;  //!< largest deviation there from the barycentric coordinates in the facet
 
-  std::optional<MeshCheck<Dim>> mesh;  //!< if they are weights at the vertices of a mesh
+  std::optional<MeshCheck<Dim>> mesh;  //!< only for weights at the vertices of a mesh
 };
 
-//! Measures weights at any points. Those that lie on the cage, or coincide with a control point, up
-//! to 1e-10 of the cage's size are found by geometry.
+//! Measures weights at any points. A point within 1e-10 of cage size from the cage or from a
+//! control point counts as on it.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
 //! \param weights  n x P
-//! \throws InputError if the sizes do not belong together
+//! \throws InputError if the sizes do not match
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
                                const WeightMatrix& weights);
 
-//! Measures weights at the vertices of a mesh of the cage's interior; the boundary of the mesh is
-//! on the cage.
+//! Measures weights at the vertices of a domain mesh, whose boundary lies on the cage.
 //! \param cage  has passed validate()
-//! \param domain  mesh of the cage's interior, valid
+//! \param domain  valid domain mesh of the cage
 //! \param weights  n x V
-//! \throws InputError if sizes do not belong together or the mesh does not fill the interior of the
-//! cage (see boundary_values), SolverError if the harmonic coordinates for comparison fail
+//! \throws InputError if sizes do not match or the mesh does not fill the cage (see
+//! boundary_values); SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights);
 
-//! Local extrema up to this deep are within the accuracy of a solve: iterates to the default
-//! tolerance have extrema up to 1e-3, optima with true extrema have some of 9e-3 (conjecture1.csv).
+//! Local extrema up to this depth are within the accuracy of a solve. Iterates to the default
+//! tolerance have extrema up to 1e-3; true extrema of optima are 9e-3 deep (conjecture1.csv).
 constexpr double kSolverAccuracy = 2e-3;
 
-//! Errors above this are violations of what coordinates must satisfy.
+//! A property that fails by more than this is a violation.
 constexpr double kCheckTolerance = 1e-6;
 
-//! Properties of all coordinates of a cage that the weights lack: being finite, partition of unity,
-//! reproduction, Lagrange property and linearity on facets. Negative weights are no violation.
-//! \param check  as check_weights() gives it
-//! \return a sentence each, with place and value; empty if there are none
+//! Lists the properties that the weights violate. All coordinates must be finite and satisfy
+//! partition of unity, reproduction, the Lagrange property, and linearity on facets. Negative
+//! weights are not a violation.
+//! \param check  as returned by check_weights()
+//! \return one sentence per violation, with location and value; empty if there are none
 template <int Dim>
 std::vector<std::string> find_violations(const WeightCheck<Dim>& check);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Starting from the solution on coarser meshes of the same cage: which ones, and who makes them.
-//! solve() does it (solver.h); the types are here.
+//! Options of the multilevel start: solve() (solver.h) can start from the solution on coarser
+//! meshes of the same cage.
 #pragma once
 
 #include <functional>
@@ -12,30 +12,29 @@
 
 namespace flbc {
 
-//! Makes a mesh of a cage's interior with about so many vertices, as triangulate() and
-//! tetrahedralize() do (meshing.h). The cage is scaled; the mesh has to fill it as it is. With
-//! several threads it is called from a thread of its own, by one at a time.
+//! Makes a domain mesh with about the given number of vertices, for example with triangulate() or
+//! tetrahedralize() (meshing.h). The cage is scaled; the mesh must fill the scaled cage. A solve
+//! with several threads calls the mesher from another thread, but never concurrently.
 template <int Dim>
 using CoarseMesher = std::function<DomainMesh<Dim>(const Cage<Dim>& cage, Index vertices)>;
 
-//! Whether to start from coarser meshes.
+//! When to use a multilevel start.
 enum class CoarseToFine {
-  kAuto,  //!< where there is a mesher and it was measured to pay
-  kOn,    //!< also on meshes so small that it costs more than it saves; needs a mesher
+  kAuto,  //!< if there is a mesher and measurements show a gain
+  kOn,    //!< always, even on small meshes where it costs time; needs a mesher
   kOff    //!< never
 };
 
-//! Which coarser meshes to use.
+//! The meshes of a multilevel start.
 struct CoarseLevels {
-  //! Fewest vertices of a coarse mesh, >= 1. By default 500 for CoarseToFine::kOn, else where it was
-  //! measured to pay, which for small meshes means none at all.
+  //! Minimum number of vertices of a coarse mesh, >= 1. Default: 500 for CoarseToFine::kOn,
+  //! otherwise chosen by measurements, which means no coarse mesh for small meshes.
   std::optional<Index> coarsest{};
 
-  //! Vertices of a mesh relative to the next coarser one, >= 2. By default as it was measured to
-  //! pay.
+  //! Ratio of vertices between successive meshes, >= 2. Default: chosen by measurements.
   std::optional<double> factor{};
 
-  //! Tolerance on coarse meshes relative to the one wanted, > 0.
+  //! Tolerance on coarse meshes relative to the final tolerance, > 0.
   double looseness = 4;
 };
 

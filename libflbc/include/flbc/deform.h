@@ -7,29 +7,29 @@
 
 namespace flbc {
 
-//! Where points go when the control points move.
+//! Deforms points with the control points.
 //! \param weights  n x P
 //! \param control_points  Dim x n, in any units
-//! \param threads  maximum number of threads (0 = as many as OpenMP offers). Fewer than four million
-//! weights always use one thread, because waking others may cost more. The result does not depend
-//! on it
+//! \param threads  maximum number of threads (0 = as many as OpenMP offers). Fewer than four
+//! million weights always use one thread, because starting others costs more. The result does not
+//! depend on it
 //! \return Dim x P, in the units of the control points
-//! \throws InputError naming both numbers of control points if they differ
+//! \throws InputError if the numbers of control points differ, with both numbers
 template <int Dim>
 PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
                       int threads = 0);
 
-//! The same for weights without their zeros.
+//! The same for sparse weights.
 //! \param weights  of P points
 //! \param control_points  Dim x n, in any units
 //! \param threads  as above
 //! \return Dim x P, in the units of the control points
-//! \throws InputError naming both numbers of control points if they differ
+//! \throws InputError if the numbers of control points differ, with both numbers
 template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
                       int threads = 0);
 
-//! How far each point moved.
+//! The distance that each point moved.
 //! \param before  Dim x P
 //! \param after  Dim x P, in the same units
 //! \return P lengths

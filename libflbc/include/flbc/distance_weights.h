@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances inside the domain, and the weight functions phi_i of the problem (1) of the paper.
-//! They make variation of w_i cost more the farther it is from its control point, which keeps w_i
-//! local.
+//! Geodesic distances in the domain, and the functions phi_i of problem (1) of the paper. phi_i
+//! grows with the distance from control point i, so variation of w_i costs more far away. This
+//! keeps w_i local.
 #pragma once
 
 #include <utility>
@@ -13,14 +13,14 @@
 
 namespace flbc {
 
-//! n x V: column v holds the distances of point v from n sources, in single precision, as they are
-//! computed: they take as much memory as anything in a solve.
+//! n x V: column v holds the distances of vertex v from n sources. Single precision, because this
+//! is one of the largest arrays of a solve.
 using DistanceMatrix = Eigen::MatrixXf;
 
-//! Geodesic distances inside the domain, by fast marching (Sethian 1996) over the cells (Kimmel and
-//! Sethian 1998), which see the source as a point: exact to single precision where the way is
-//! straight, of first order in the size of the cells where it bends round the boundary. Time and
-//! memory grow with the mesh as its number of cells.
+//! Geodesic distances in the domain, by fast marching (Sethian 1996) over the cells (Kimmel and
+//! Sethian 1998) from point sources. They are exact to single precision where the shortest path is
+//! straight, and first-order accurate in cell size where it bends around the boundary. Time and
+//! memory are proportional to the number of cells.
 //! \param mesh  valid, V vertices
 //! \param topology  of the mesh
 //! \param sources  vertices of the mesh, one per control point
@@ -29,7 +29,7 @@ template <int Dim>
 DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
                                   const std::vector<Index>& sources);
 
-//! How phi_i grows with the relative distance d_i in [0, 1] from its control point.
+//! Growth of phi_i with the relative distance d_i in [0, 1] from control point i.
 enum class DistanceScheme {
   kSquare,      //!< d^2, the usual default
   kLinear,      //!< d
@@ -37,18 +37,18 @@ enum class DistanceScheme {
   kConstant     //!< 1, plain total variation
 };
 
-//! phi_i on each cell of a mesh, n x F. Made from distances it keeps these, which are a number per
-//! vertex instead of some six.
+//! phi_i on each cell of a mesh, n x F. If made from distances, it stores only the distances, which
+//! need about a sixth of the memory.
 class WeightFunctions {
  public:
-  //! None.
+  //! Empty.
   WeightFunctions() = default;
 
-  //! Given one by one. \param values  n x F, >= 0 and finite
+  //! Takes given values. \param values  n x F, >= 0 and finite
   WeightFunctions(Eigen::MatrixXd values) : values_(std::move(values)) {}
 
-  //! Divides by the largest distance over all control points, averages over each cell's vertices
-  //! and applies the scheme.
+  //! Divides distances by the largest one over all control points, averages them over the vertices
+  //! of each cell, and applies the scheme.
   //! \param scheme  growth with the distance
   //! \param distances  n x V in any unit, or empty for kConstant
   //! \param mesh  F cells, V vertices
@@ -57,16 +57,16 @@ class WeightFunctions {
   WeightFunctions(DistanceScheme scheme, DistanceMatrix distances, const DomainMesh<Dim>& mesh,
                   Index num_control_points);
 
-  //! n, 0 if there are none.
+  //! n, or 0 if empty.
   Eigen::Index rows() const { return cells_.cols() > 0 ? num_control_points_ : values_.rows(); }
 
-  //! F, 0 if there are none.
+  //! F, or 0 if empty.
   Eigen::Index cols() const { return cells_.cols() > 0 ? cells_.cols() : values_.cols(); }
 
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
 
-  //! Those it was made of, n x V; empty for kConstant, and if phi was given one by one.
+  //! The distances that phi was made from, n x V; empty for kConstant and for given values.
   const DistanceMatrix& distances() const { return distances_; }
 
   //! phi_i on one cell, in [0, 1] if made from distances. \param i  control point \param s  cell
@@ -74,17 +74,17 @@ class WeightFunctions {
     return cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);
   }
 
-  //! Of all control points on one cell, n numbers. \param s  cell
+  //! phi on one cell, one value per control point. \param s  cell
   Eigen::VectorXd col(Eigen::Index s) const;
 
-  //! All of them, n x F.
+  //! All values, n x F.
   Eigen::MatrixXd dense() const;
 
  private:
   double from_distances(Eigen::Index i, Eigen::Index s) const;
 
-  Eigen::MatrixXd values_;                                      // n x F, if given
-  DistanceMatrix distances_;                                    // n x V, else
+  Eigen::MatrixXd values_;                                      // n x F, if phi was given
+  DistanceMatrix distances_;                                    // n x V, otherwise
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;

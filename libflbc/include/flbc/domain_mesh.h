@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The mesh of the cage's interior on which the coordinates are piecewise linear, its facets, edges
-//! and connected parts.
+//! The domain mesh, on which the coordinates are piecewise linear, and its facets, edges, and
+//! parts.
 #pragma once
 
 #include <array>
@@ -39,11 +39,11 @@ struct MeshTopology {
   //! E.
   Index num_facets() const { return static_cast<Index>(facets.cols()); }
 
-  //! Whether the facet has a cell on one side only.
+  //! Whether only one cell has the facet.
   bool is_boundary(Index facet) const { return sides(1, facet) < 0; }
 };
 
-//! Enumerates facets in the order in which the cells first meet them.
+//! Enumerates facets in the order of their first occurrence in the cells.
 //! \param mesh  with indices in range
 //! \throws InputError if a facet belongs to more than two cells
 template <int Dim>
@@ -56,7 +56,7 @@ MeshTopology<Dim> build_topology(const DomainMesh<Dim>& mesh);
 template <int Dim>
 std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num_vertices);
 
-//! Signed area (2D) or volume (3D) of a cell, positive for the orientation demanded here.
+//! Signed area (2D) or volume (3D) of a cell; positive for cells of a valid mesh.
 //! \param mesh  with indices in range
 //! \param cell  in [0, F)
 //! \return in units of the mesh^Dim
@@ -65,10 +65,10 @@ double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 
 //! Reverses cells with negative measure, and checks the mesh.
 //! \param mesh  any
-//! \throws InputError naming the element if the mesh is empty, an index is out of range, a number
-//! is not finite, a cell has no measure, a vertex belongs to no cell, a facet to more than two
-//! cells or to two on the same side of it, or parts touch without a common facet. The mesh may
-//! have several parts that do not touch (mesh_parts()).
+//! \throws InputError naming the element if the mesh is empty, an index is out of range, a
+//! coordinate is not finite, a cell is degenerate, a vertex belongs to no cell, a facet belongs to
+//! more than two cells or to two cells on the same side, or parts touch without a common facet.
+//! Several parts that do not touch are valid (mesh_parts())
 template <int Dim>
 void normalize_and_validate(DomainMesh<Dim>& mesh);
 
@@ -76,7 +76,7 @@ void normalize_and_validate(DomainMesh<Dim>& mesh);
 template <int Dim>
 struct MeshPart {
   DomainMesh<Dim> mesh;
-  std::vector<Index> vertices;  //!< per vertex of the part: its number in the whole mesh
+  std::vector<Index> vertices;  //!< per vertex of the part: its index in the whole mesh
 };
 
 //! Number of parts that share no vertex.
@@ -90,14 +90,14 @@ Index count_parts(const DomainMesh<Dim>& mesh);
 template <int Dim>
 std::vector<MeshPart<Dim>> mesh_parts(const DomainMesh<Dim>& mesh);
 
-//! Joins parts; the cells of one follow those of the other.
-//! \param parts  whose lists of vertices hold each number from 0 to V - 1 once
+//! Joins parts. Cells are concatenated in the order of the parts.
+//! \param parts  their `vertices` together contain each index from 0 to V - 1 once
 template <int Dim>
 DomainMesh<Dim> join_parts(const std::vector<MeshPart<Dim>>& parts);
 
-//! Refuses meshes of several parts.
+//! Throws if a mesh has several parts.
 //! \param mesh  has passed normalize_and_validate()
-//! \throws InputError that names a vertex of each of two parts
+//! \throws InputError naming a vertex of each of two parts
 template <int Dim>
 void require_connected(const DomainMesh<Dim>& mesh);
 
@@ -106,36 +106,35 @@ struct EdgeList {
   //! The two points of each edge, in any order.
   std::vector<std::array<Index, 2>> ends{};
 
-  //! How much each edge counts, > 0; empty stands for 1 each. An edge that is listed twice counts
-  //! twice.
+  //! Weight of each edge, > 0; empty means 1 for each. An edge that is listed twice counts twice.
   std::vector<double> weights{};
 };
 
 //! Checks edges.
 //! \param edges  any
 //! \param num_points  P
-//! \throws InputError if an end of an edge is not in [0, P), or a weight that
-//! is not positive and finite, or if there is not one weight per edge
+//! \throws InputError if an end of an edge is not in [0, P), a weight is not positive and finite,
+//! or there is not one weight per edge
 void validate(const EdgeList& edges, Eigen::Index num_points);
 
-//! The edges of the cells, each once, ascending. Their weights make
+//! The edges of the cells, each once, ascending. With their weights,
 //!
 //!     sum over edges ab of k_ab |f(a) - f(b)|^2
 //!
-//! an approximation of the integral of |grad f|^2: each cell gives each of its edges an equal share
-//! of its area or volume, times its dimension, and k_ab is what an edge got in all, divided by its
-//! squared length. On regular cells these are the weights of linear finite elements (cotangents),
-//! but they are positive on all others, too, which minimizing edge by edge needs.
+//! approximates the integral of |grad f|^2. Each cell distributes its area or volume, times Dim,
+//! equally among its edges; k_ab is the sum for the edge, divided by its squared length. On regular
+//! cells these are the cotangent weights of linear finite elements. Unlike those they are positive
+//! on all cells, which edge-by-edge minimization requires.
 //! \param mesh  any cells and points
 //! \throws InputError if a vertex of a cell is not one of the points
 template <int Dim>
 EdgeList edges_of_cells(const DomainMesh<Dim>& mesh);
 
-//! The same for polygons, whose area is that of the fan around their first vertex, and for
-//! polylines.
+//! The same for polygons and polylines. The area of a polygon is that of the triangle fan at its
+//! first vertex.
 //! \param points  Dim x P
-//! \param polygons  the vertices of each in order, the first not repeated
-//! \param polylines  the vertices of each in order; closed if the last is the first
+//! \param polygons  vertices of each in order, the first not repeated
+//! \param polylines  vertices of each in order; closed if the last equals the first
 //! \throws InputError if a vertex of a polygon or polyline is not one of the points
 template <int Dim>
 EdgeList edges_of_polygons(const PointList<Dim>& points,

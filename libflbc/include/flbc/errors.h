@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The exceptions of the library. A solve that does not converge sets a status in the report
-//! instead.
+//! The exceptions of the library. A solve that does not converge does not throw; it sets the status
+//! in the report.
 #pragma once
 
 #include <stdexcept>
@@ -15,26 +15,26 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-//! A defect of the data: cage, mesh, model or weights. The text names file, element and coordinates
-//! as far as they are known.
+//! A defect of the input: cage, mesh, model, or weights. The message names file, element, and
+//! coordinates if known.
 class InputError : public Error {
  public:
   using Error::Error;
 };
 
-//! An option outside its valid range. The text names the option.
+//! An option outside its valid range. The message names the option.
 class OptionError : public Error {
  public:
   using Error::Error;
 };
 
-//! A mesh of the cage needs more vertices than requested. The text names the minimum.
+//! The domain mesh needs more vertices than requested. The message names the minimum.
 class TooFewVertices : public OptionError {
  public:
   using OptionError::OptionError;
 };
 
-//! A file that cannot be opened, read or written. The text names the file and the system's reason.
+//! A file that cannot be opened, read, or written. The message names the file and the system error.
 class IoError : public Error {
  public:
   using Error::Error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What a first program needs. The coordinates of a square:
+//! The headers of a typical program. Example: the coordinates of a square:
 //!
 //!     #include <flbc/flbc.h>
 //!
@@ -14,11 +14,14 @@
 //!
 //!     flbc::DomainMesh<2> mesh = flbc::triangulate(cage, {500});  // component cgal
 //!     flbc::Solution solution = flbc::solve(cage, mesh);          // n x V, a column per vertex
-//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // = mesh.points: move cage.points
+//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // move cage.points first
 //!
-//! Further headers: other coordinates (harmonic.h, mean_value.h), fewer influences (sparsify.h),
-//! checks (check.h, cage_facts.h), rest cages that are edited (editing.h), the parts of a solve
-//! (lbc_problem.h), and the optional component `caging` (cage_from_model.h, repair_cage.h).
+//! Further headers:
+//! - other coordinates: harmonic.h, mean_value.h
+//! - fewer influences: sparsify.h
+//! - checks: check.h, cage_facts.h
+//! - the discretized problem: lbc_problem.h
+//! - the optional component `caging`: cage_from_model.h, repair_cage.h
 #pragma once
 
 #include "flbc/cage.h"         // Cage, validate()
@@ -26,6 +29,6 @@
 #include "flbc/domain_mesh.h"  // DomainMesh
 #include "flbc/errors.h"       // InputError, OptionError, SolverError
 #include "flbc/meshing.h"      // triangulate(), tetrahedralize()
-#include "flbc/placement.h"    // weights at the vertices of a model
+#include "flbc/placement.h"    // place_points(), weights_at()
 #include "flbc/solver.h"       // solve(), SolverOptions, Solution
 #include "flbc/version.h"      // FLBC_VERSION

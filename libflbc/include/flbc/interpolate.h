@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights at any points inside, by linear interpolation.
+//! Weights at any point inside the cage, by linear interpolation.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace flbc {
 
-//! Weights at located points, by linear interpolation in the containing cell. Reproduction and
-//! partition of unity carry over exactly.
-//! \param mesh  the mesh of the weights, V vertices
+//! Interpolates weights linearly in the cell of each located point. This preserves reproduction and
+//! partition of unity exactly.
+//! \param mesh  mesh of the weights, V vertices
 //! \param weights  n x V
-//! \param places  cells and barycentric coordinates, as locate_points() gives them
-//! \return n x #places
+//! \param places  as returned by locate_points()
+//! \return n x number of `places`
 template <int Dim>
 WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
                          const std::vector<Location<Dim>>& places);
 
-//! The same at one place, n numbers.
+//! The same at one location: n weights.
 //! \tparam Weights  WeightMatrix or SparseWeights
 template <int Dim, class Weights>
 Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const Weights& weights,

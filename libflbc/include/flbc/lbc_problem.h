@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The discretised problem (7)-(10) of the paper, immutable once made.
+//! The discretized problem (7)-(10) of the paper.
 #pragma once
 
 #include <cstddef>
@@ -14,30 +14,31 @@
 
 namespace flbc {
 
-//! Everything the solvers read. Geometry is centered and scaled such that the diagonal of the
-//! cage's bounding box is the unit of length; weights do not depend on it.
+//! The input of all solver methods. The geometry is centered and scaled so that the bounding box of
+//! the cage has diagonal 1. Weights do not depend on the scale.
 template <int Dim>
 struct LbcProblem {
   Cage<Dim> cage;                //!< scaled, n control points
   DomainMesh<Dim> mesh;          //!< scaled, V vertices and F cells
   MeshTopology<Dim> topology;    //!< of the mesh
-  BoundaryValues<Dim> boundary;  //!< the weights that are known (properties 4 and 5 of the paper)
-  WeightFunctions phi;           //!< n x F: the weight functions of total variation
+  BoundaryValues<Dim> boundary;  //!< known weights (properties 4 and 5 of the paper)
+  WeightFunctions phi;           //!< n x F: weights of the total variation
   double scale = 1;              //!< scaled length / original length
 
   //! n.
   Index num_control_points() const { return cage.size(); }
 };
 
-//! Read access to one vector per cell and control point (gradients, duals), stored cell-major, then
-//! by component, then `stride` control points contiguous, of which the first n count.
+//! Read access to one vector per cell and control point, for gradients and duals. The order in
+//! memory is cell, component, control point; a row has `stride` entries, of which the first n are
+//! used.
 template <class Scalar, int Dim>
 struct CellFieldView {
   const Scalar* data;  //!< of the first cell
-  std::size_t stride;  //!< numbers from one component to the next, >= n
+  std::size_t stride;  //!< distance between components in entries, >= n
   Index n;             //!< number of control points
 
-  //! Dim x n, on one cell, in double precision.
+  //! The vectors on one cell in double precision, Dim x n.
   Eigen::Matrix<double, Dim, Eigen::Dynamic> cell(Index s) const {
     using Rows = Eigen::Matrix<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>;
     return Eigen::Map<const Rows, 0, Eigen::OuterStride<>>(
@@ -47,23 +48,22 @@ struct CellFieldView {
   }
 };
 
-//! One vector per control point on a cell or facet, n x Dim, computed on demand.
+//! Computes one vector per control point on a cell or facet, n x Dim.
 template <int Dim>
 using VectorsAt = std::function<Eigen::Matrix<double, Eigen::Dynamic, Dim>(Index)>;
 
-//! Sets a problem up: topology, boundary values, phi.
+//! Sets up a problem: topology, boundary values, and phi.
 //! \param cage  n control points
-//! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
+//! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
 //! \param scheme  growth of phi with the geodesic distance
-//! \throws InputError if mesh and cage do not belong together, naming the element, or the mesh has
+//! \throws InputError naming the element if the mesh does not match the cage, or if the mesh has
 //! several parts; SolverError if distances cannot be computed
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme);
 
-//! The same with facets that are known already, in the caller's order, as a half-edge mesh has
-//! them.
+//! The same with known facets in the caller's order, for example from a half-edge mesh.
 //! \param cage  n control points
-//! \param mesh  V vertices, a mesh of the cage's interior
+//! \param mesh  domain mesh of the cage, V vertices
 //! \param topology  of the mesh
 //! \param scheme  growth of phi with the geodesic distance
 //! \throws InputError, SolverError as above

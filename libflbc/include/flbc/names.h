@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Options and status in words, as the command line and the reports have them. Each enumeration has
-//! one table, read in both directions.
+//! Names of options and statuses, as used on the command line and in reports.
 #pragma once
 
 #include <optional>
@@ -14,21 +13,21 @@
 
 namespace flbc {
 
-//! The name of a value, as the program and its reports write it, such as "value" or "lbc2014".
+//! The name of a value, such as "value" or "lbc2014".
 //! \tparam Enum  Method, NonNegative, DistanceScheme, Distances, Recovery, Precision, ActiveSet,
 //! CoarseToFine, LinearSolver, SolveStatus, Criterion, or OutsidePoints
 template <class Enum>
 const char* name_of(Enum value);
 
-//! All names of an enumeration, the default first.
-//! \tparam Enum  one of those that name_of() takes
+//! All names of an enumeration, default first.
+//! \tparam Enum  as for name_of()
 template <class Enum>
 std::vector<std::string> names_of();
 
-//! The value that has a name, the inverse of name_of().
-//! \tparam Enum  one of those that name_of() takes
-//! \param name  as name_of() gives it
-//! \return nothing if no value has this name
+//! The value with a name; inverse of name_of().
+//! \tparam Enum  as for name_of()
+//! \param name  as returned by name_of()
+//! \return no value if the name is unknown
 template <class Enum>
 std::optional<Enum> value_named(const std::string& name);
 

@@ -11,116 +11,120 @@
 
 namespace flbc {
 
-//! How the coordinates are computed.
+//! Solver method, or other coordinates for comparison.
 enum class Method {
-  kAuto,      //!< the method recommended for most uses, at present kValue
-  kValue,     //!< splitting on the weights in the metric of the continuous problem: the fastest
-  kGradient,  //!< the paper's gradient ADMM, started from harmonic coordinates, over-relaxed
-  kPaper,  //!< the paper's gradient ADMM with its parameters (docs/method.md: what it leaves open)
-  kLbc2014,   //!< the original solver (section 3 of the paper; Zhang et al. 2014)
+  kAuto,      //!< recommended method, currently kValue
+  kValue,     //!< default method: weight-splitting ADMM in the metric of the continuous problem;
+              //!< fastest
+  kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
+  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
+              //!< (docs/benchmarks/paper_details.md)
+  kLbc2014,   //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
 };
 
-//! Treatment of w >= 0. On a mesh the optimum without it may be negative, in 3D noticeably.
+//! Enforcement of w >= 0. Without it, the optimum on a mesh may be negative, in 3D noticeably.
 enum class NonNegative {
-  kAuto,        //!< kConstraint where the method has it, kProject for kGradient, else kOff
-  kConstraint,  //!< a constraint of the iteration; delivered weights are then projected as well
-  kProject,     //!< each row is replaced by the nearest one that is feasible and not negative
-  kOff          //!< neither: the paper's problem
+  kAuto,        //!< kConstraint if the method supports it, kProject for kGradient, otherwise kOff
+  kConstraint,  //!< a constraint of the iteration; the final weights are also projected
+  kProject,     //!< replaces the weights of each vertex by the nearest feasible, non-negative ones
+  kOff          //!< not enforced, as in the paper
 };
 
-//! Numbers of the iteration. Setup and recovery always use double precision.
+//! Floating-point precision of the iteration. Setup and recovery always use double precision.
 enum class Precision {
-  kAuto,    //!< kSingle; Method::kValue stores duals of cells in half precision where that is safe
+  kAuto,    //!< kSingle; Method::kValue stores cell duals in half precision where that is safe
   kSingle,  //!< float
   kDouble   //!< double
 };
 
-//! Where the distances come from that the weight functions phi are made of.
+//! Source of the geodesic distances for the functions phi.
 enum class Distances {
-  kAuto,         //!< kInterpolated for Method::kValue, where it costs less and keeps the tolerance
-  kExact,        //!< the mesh itself
-  kInterpolated  //!< a coarser mesh of the cage, by their detours round the boundary; needs a
-                 //!< mesher
+  kAuto,         //!< kInterpolated for Method::kValue if it is faster and meets the tolerance
+  kExact,        //!< computed on the mesh itself
+  kInterpolated  //!< interpolated from a coarser mesh; needs a mesher
 };
 
-//! Whether an iteration works on all pairs of vertices and control points, or on the active set: the
-//! pairs whose weights may be positive at the optimum, which it finds, extends and checks.
+//! Whether the iteration works on the active set instead of all pairs of vertices and control
+//! points. The active set contains the pairs whose weights may be positive at the optimum. The
+//! solver finds, extends, and checks it.
 enum class ActiveSet {
-  kAuto,  //!< in 3D from 80 control points and 400,000 pairs on, unless a certificate is asked for
-  kOn,    //!< always; a certificate is left to some last iterations on all pairs
+  kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless a certificate is
+          //!< requested
+  kOn,    //!< always; a certificate takes some final iterations on all pairs
   kOff    //!< all pairs
 };
 
-//! How weights are recovered from gradients.
+//! Method of recovering weights from gradients.
 enum class Recovery {
-  kAuto,          //!< kBreadthFirst for Method::kPaper, else kLeastSquares
-  kBreadthFirst,  //!< integration from the boundary, level by level (4.2.2 of the paper)
-  kLeastSquares   //!< the weights whose gradients are nearest, by one Poisson solve
+  kAuto,          //!< kBreadthFirst for Method::kPaper, otherwise kLeastSquares
+  kBreadthFirst,  //!< integration from the boundary, level by level (section 4.2.2 of the paper)
+  kLeastSquares   //!< weights with the nearest gradients, by one Poisson solve
 };
 
-//! What the gradient methods alone read: kGradient and kPaper.
+//! Options of the gradient methods, kGradient and kPaper.
 struct GradientOptions {
-  //! How weights follow from gradients.
+  //! Method of recovering weights from gradients.
   Recovery recovery = Recovery::kAuto;
 };
 
-//! Options of solve(). The defaults suit every cage. An option that is not set is chosen by the
-//! method. Methods kHarmonic and kMeanValue read threads and non_negative alone.
+//! Options of solve(). The defaults suit every cage. The method chooses options that are not set.
+//! Methods kHarmonic and kMeanValue read only threads and non_negative.
 struct SolverOptions {
-  //! How the coordinates are computed.
+  //! Solver method, or other coordinates for comparison.
   Method method = Method::kAuto;
 
-  //! Growth of the weight functions phi.
+  //! Growth of the functions phi with distance.
   DistanceScheme phi = DistanceScheme::kSquare;
 
-  //! Where the distances behind phi come from, where solve() sets the problem up. kAuto
-  //! interpolates if the estimated effect on the weights stays within half the tolerance; the
-  //! report says how far phi is off.
+  //! Source of the distances for phi when solve() sets up the problem. kAuto interpolates if the
+  //! estimated effect on the weights is below half the tolerance. The report contains the estimated
+  //! error of phi.
   Distances distances = Distances::kAuto;
 
-  //! Of the iteration.
+  //! Precision of the iteration.
   Precision precision = Precision::kAuto;
 
-  //! Treatment of w >= 0; kConstraint is one of kValue and kLbc2014 only.
+  //! Enforcement of w >= 0; kConstraint is available only for kValue and kLbc2014.
   NonNegative non_negative = NonNegative::kAuto;
 
-  //! For the linear system of each iteration (kValue, kLbc2014) or of start and recovery
-  //! (kGradient, kPaper). kNone is for the gradient methods only.
+  //! Solver of the linear systems in each iteration (kValue, kLbc2014), or in start and recovery
+  //! (kGradient, kPaper). kNone is available only for the gradient methods.
   LinearSolver linear_solver = LinearSolver::kAuto;
 
-  //! Whether kValue starts from coarser meshes, for which solve() takes a mesher.
+  //! Whether kValue uses a multilevel start, which needs a mesher as an argument of solve().
   CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
 
-  //! Which coarser meshes.
+  //! Coarse meshes of the multilevel start.
   CoarseLevels coarse_levels{};
 
-  //! How accurate, > 0.
-  //! - kValue: mean squared error of the weights (the paper's (5)), as estimated from how much an
-  //!   iteration changes them; 1e-7 by default.
-  //! - kGradient: the same, of the optimum without non-negativity, as estimated from weights that
-  //!   are recovered every 32 iterations or so; 1e-6 by default.
-  //! - kPaper, kLbc2014: section 5 of the paper, norms at most N_p tolerance and 10 N_d tolerance;
-  //!   by default the paper's 1e-7.
+  //! Tolerance, > 0.
+  //! - kValue: estimated mean squared error of the weights (equation (5) of the paper). The
+  //!   estimate uses the change of the weights per iteration. Default: 1e-7.
+  //! - kGradient: the same, relative to the optimum without non-negativity. The estimate uses
+  //!   weights recovered about every 32 iterations. Default: 1e-6.
+  //! - kPaper, kLbc2014: section 5 of the paper: residual norms at most N_p * tolerance and 10 *
+  //!   N_d * tolerance. Default: 1e-7, as in the paper.
   std::optional<double> tolerance{};
 
-  //! Certified relative gap (certificate.h) that ends a run as well, whichever is met first; > 0,
-  //! or 0 for none. By default 1e-3 for kValue and kGradient where the tolerance is not set, else
-  //! none. On cages whose optimum is flat, such as round ones, it is met long before the tolerance.
-  //! Certified from iteration 500 on, each time a fifth later, for a few percent of the time.
-  //! Refused where weights may be negative, because the bound is that of non-negative ones.
+  //! Certified relative optimality gap (certificate.h) that also ends a run; > 0, or 0 for none.
+  //! The run ends when either the gap or the tolerance is met. Default: 1e-3 for kValue and
+  //! kGradient if the tolerance is not set, otherwise none. A flat optimum, for example of a round
+  //! cage, meets the gap long before the tolerance. The gap is evaluated at iteration 500 and then
+  //! after every 20% more iterations, which costs a few percent of the time. An error if weights
+  //! may be negative, because the bound holds for non-negative weights.
   std::optional<double> gap{};
 
-  //! Whether kValue works only where weights are.
+  //! Whether kValue works on an active set.
   ActiveSet active_set = ActiveSet::kAuto;
 
-  //! Largest number of iterations, >= 1; reaching it is reported, not an error.
+  //! Maximum number of iterations, >= 1. Reaching it is not an error; the status reports it.
   int max_iterations = 20000;
 
-  //! Penalty of the augmented Lagrangian, > 0, with the size of the cage (bounding_box_diagonal) as
-  //! the unit of length. By default chosen from the mesh, but for kPaper. published_penalty()
-  //! converts from the scale of the literature.
+  //! Penalty of the augmented Lagrangian, > 0. The unit of length is cage size
+  //! (bounding_box_diagonal). Default: chosen from the mesh, except for kPaper. published_penalty()
+  //! converts values from the literature.
   std::optional<double> penalty{};
 
   //! Over-relaxation in (0, 2), 1 = none.
@@ -129,28 +133,27 @@ struct SolverOptions {
   //! Iterations between two evaluations of the residuals, >= 1.
   int check_interval = 10;
 
-  //! Whether to compute a lower bound of the optimal objective as well; refused for kHarmonic and
+  //! Whether to compute a lower bound of the optimal objective; an error for kHarmonic and
   //! kMeanValue.
   bool certify = false;
 
-  //! Whether weights are delivered without their zeros (Solution::sparse_weights). With an active
-  //! set no n x V matrix is made then.
+  //! Whether to return sparse weights (Solution::sparse_weights). With an active set, no n x V
+  //! matrix is then allocated.
   bool sparse = false;
 
-  //! Number of threads, at most 1024; 0 = as many as OpenMP offers, but one where n V is below
-  //! 100,000.
+  //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
   int threads = 0;
 
-  //! Of kGradient and kPaper.
+  //! Options of kGradient and kPaper only.
   GradientOptions gradient{};
 };
 
-//! Refuses impossible options. solve() and Solver do this themselves, before anything else.
+//! Checks options. solve() and Solver call it first.
 //! \throws OptionError naming the field and its valid range
 void validate(const SolverOptions& options);
 
-//! The options with everything filled in that does not depend on the problem: all but the penalty
-//! and, for CoarseToFine::kAuto, the coarse levels.
+//! Replaces automatic options by the values that will be used. Options that depend on the problem
+//! stay automatic: the penalty and, for CoarseToFine::kAuto, the coarse levels.
 //! \param options  valid
 SolverOptions resolve(SolverOptions options);
 

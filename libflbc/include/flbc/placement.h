@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights at any points: inside the cage, within tolerance of it, or outside.
+//! Weights at any point: inside the cage, within a tolerance of it, or outside.
 #pragma once
 
 #include <vector>
@@ -14,12 +14,13 @@ namespace flbc {
 
 //! Treatment of points outside the cage.
 enum class OutsidePoints {
-  kFail,     //!< an InputError reports their number, the farthest one and its distance
-  kNearest,  //!< the weights of the nearest point of the cage: >= 0, with sum 1; they reproduce
-             //!< that point
-  kExtend    //!< those plus an affine function of the offset from it: the offset follows the affine
-             //!< map that fits the control points around best. The sum is 1 and the point is
-             //!< reproduced; weights may be negative. Continuous across the cage.
+  kFail,     //!< throws InputError with their number, the farthest one, and its distance
+  kNearest,  //!< uses the weights of the nearest point of the cage: non-negative, sum 1; they
+             //!< reproduce that nearest point
+  kExtend    //!< as kNearest, plus an affine function of the offset from the nearest point. The
+             //!< offset follows the affine map that best fits the nearby control points. The sum is
+             //!< 1 and the point is reproduced; weights may be negative. Continuous across the
+             //!< cage.
 };
 
 //! A point outside the cage and the nearest point of the cage.
@@ -31,42 +32,42 @@ struct PointBeside {
   double distance = 0;
 };
 
-//! Where points are.
+//! Locations of points relative to a cage.
 template <int Dim>
 struct Placement {
   OutsidePoints policy = OutsidePoints::kFail;
-  PointList<Dim> points;              //!< Dim x P, where the weights put them
-  std::vector<Location<Dim>> places;  //!< of P points, coordinates >= 0; cell -1: not inside
-  //! Outside by at most kBoundaryTolerance, and moved onto the cage; ascending.
+  PointList<Dim> points;              //!< Dim x P, as reproduced by the weights
+  std::vector<Location<Dim>> places;  //!< P locations, coordinates >= 0; cell -1: not inside
+  //! Points outside by at most kBoundaryTolerance, which were moved onto the cage; ascending.
   std::vector<PointBeside<Dim>> on_cage;
-  std::vector<PointBeside<Dim>> outside;  //!< by more; ascending
+  std::vector<PointBeside<Dim>> outside;  //!< points farther outside; ascending
 };
 
-//! Finds points with respect to a cage.
+//! Locates points relative to a cage.
 //! \param cage  n control points, has passed validate()
-//! \param mesh  valid, of the cage's interior
+//! \param mesh  valid domain mesh of the cage
 //! \param points  Dim x P, finite, in the units of the cage
 //! \param policy  how to handle points outside by more than kBoundaryTolerance
-//! \throws InputError if there are such and the policy is OutsidePoints::kFail
+//! \throws InputError if there are such points and the policy is OutsidePoints::kFail
 template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
-//! The nearest points of a cage.
+//! Finds the nearest points of a cage.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, finite, in the units of the cage
-//! \param which  of them, in [0, P)
-//! \return one for each of `which`
+//! \param which  indices of the points to use, in [0, P)
+//! \return one result per entry of `which`
 template <int Dim>
 std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                               const std::vector<Index>& which);
 
-//! Weights at placed points: linear in the cells and facets, and outside by the policy. Not
-//! negative where the mesh's are not, except for OutsidePoints::kExtend.
+//! Weights at placed points: linear in cells and facets; outside, by the policy. They are
+//! non-negative if the given weights are, except for OutsidePoints::kExtend.
 //! \param cage, mesh  as for place_points()
-//! \param weights  n x V, of the mesh's vertices
-//! \param placement  as place_points() gives it
+//! \param weights  n x V, at the vertices of the mesh
+//! \param placement  as returned by place_points()
 //! \tparam Weights  WeightMatrix or SparseWeights
 //! \return n x P
 template <int Dim, class Weights>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Penalties as the literature states them.
+//! Converts penalties from the literature.
 #pragma once
 
 #include "flbc/cage.h"
@@ -9,15 +9,15 @@
 
 namespace flbc {
 
-//! A penalty as publications state it, in the unit of SolverOptions::penalty. They mean it for a
-//! domain scaled such that its farthest vertex lies at radius 250: 10 for Method::kLbc2014 (Zhang
-//! et al. 2014), 100 in 2D and 10000 in 3D for Method::kPaper (section 5 of the paper).
+//! Converts a published penalty to the unit of SolverOptions::penalty. Publications state penalties
+//! for a domain whose farthest vertex lies at radius 250. They use 10 for Method::kLbc2014 (Zhang
+//! et al. 2014), and 100 in 2D and 10000 in 3D for Method::kPaper (section 5 of the paper).
 //!
 //! \param cage  n control points, in any unit of length
-//! \param mesh  of its interior, in the same unit
-//! \param method  whose penalty it is: they differ in how a penalty grows with lengths
+//! \param mesh  domain mesh of the cage, in the same unit
+//! \param method  method of the penalty; the scaling with length depends on it
 //! \param penalty  as published, > 0
-//! \throws OptionError unless it is positive and finite
+//! \throws OptionError if the penalty is not positive and finite
 template <int Dim>
 double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
                          double penalty);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From a cage and a mesh to local barycentric coordinates: solve() once, Solver again and again.
+//! Computes local barycentric coordinates from a cage and a domain mesh: solve() for a single
+//! solve, Solver for repeated solves.
 #pragma once
 
 #include <memory>
@@ -18,131 +19,131 @@ namespace flbc {
 //! Coordinates at the vertices of the domain mesh.
 struct Solution {
   WeightMatrix weights;            //!< n x V; empty if SolverOptions::sparse
-  SparseWeights sparse_weights{};  //!< the same for V points if SolverOptions::sparse, else none
-  SolveReport report{};            //!< how it went
+  SparseWeights sparse_weights{};  //!< weights of V points if SolverOptions::sparse, otherwise
+                                   //!< empty
+  SolveReport report{};            //!< report of the run
 };
 
-//! A mesher as an argument: any callable that a CoarseMesher can be made of, or {} for none.
+//! A mesher as an argument: any callable that converts to CoarseMesher, or {} for none.
 template <int Dim>
 using MesherArgument = std::common_type_t<CoarseMesher<Dim>>;
 
-//! Solves for the coordinates of a cage.
+//! Computes the coordinates of a cage.
 //!
-//! With a mesher, method kValue starts from weights and duals of a coarser mesh of the cage, which
-//! is solved in the same way, where options.coarse_to_fine and coarse_levels say so: by default
-//! where it was measured to pay. Distances may come from there, too (SolverOptions::distances). The
-//! result is the same up to the tolerance. A coarse mesh is left out if the mesher throws (the cage
-//! may be too fine for so few vertices) or does not make a clearly smaller mesh. The report is that
-//! of the given mesh and lists the coarser ones; their seconds, meshing included, count as part of
-//! the solve, and the observer is called on all of them.
+//! With a mesher, method kValue can use a multilevel start: it starts from weights and duals of a
+//! coarser mesh, which is solved in the same way. options.coarse_to_fine and coarse_levels control
+//! this. Distances may also come from the coarser mesh (SolverOptions::distances). The result is
+//! the same up to the tolerance. A coarse mesh is skipped if the mesher throws or returns a mesh
+//! that is not much smaller. The report describes the given mesh and lists the coarse meshes. Solve
+//! time includes time for coarse meshes and their meshing, and the observer is called on all
+//! meshes.
 //!
-//! If the cage's interior has several connected parts, each is solved on its own and is
-//! bit-identical to solving it alone: a point has weights for the control points of its own part,
-//! and exactly 0 for all others. Penalties refer to the size of the part, and
-//! Progress::finer_levels counts the parts that are still to come.
+//! If the cage has several parts, each is solved independently, and the result is bit-identical to
+//! solving that part alone. Weights are exactly 0 for control points of other parts. Penalties
+//! refer to the size of the part, and Progress::finer_levels counts the remaining parts.
 //! \param cage  n control points
-//! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
-//! \param mesher  makes the coarser meshes; {} for none
-//! \param observer  is told of the progress, and may stop the run
-//! \return the weights and how it went; not converging is a status in the report
-//! \throws InputError if mesh and cage do not belong together, or a coarse mesh does not belong to
-//! the cage; OptionError, SolverError
+//! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
+//! \param mesher  makes the coarse meshes; {} for none
+//! \param observer  receives progress and may stop the run
+//! \return weights and report; if the solve does not converge, the report has the status
+//! \throws InputError if the mesh or a coarse mesh does not match the cage; OptionError,
+//! SolverError
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const SolverOptions& options = {}, const MesherArgument<Dim>& mesher = {},
                const Observer& observer = {});
 
-//! The same where the mesh's facets are known already, as a half-edge mesh knows them.
-//! \param topology  of the mesh; with several parts, facets are enumerated anew
+//! The same with known facets, for example from a half-edge mesh.
+//! \param topology  of the mesh; ignored if the cage has several parts
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
                const MesherArgument<Dim>& mesher, const Observer& observer = {});
 
-//! Solves a problem that make_problem() has set up; several solves with different options may share
-//! it. Parameters and errors as above.
+//! Solves a problem from make_problem(). Several solves with different options may share it.
+//! Parameters and errors are as above.
 //! \param problem  made with options.phi; kHarmonic and kMeanValue need no phi
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
 
-//! How much one solve may cost, so that a user who drags a control point gets a result per frame.
-//! At least one iteration is made.
+//! Limits the cost of one solve, for example to get one result per frame while a user drags a
+//! control point. A solve makes at least one iteration.
 struct Budget {
-  int iterations = 0;  //!< largest number, >= 1; 0 = as options say
-  double seconds = 0;  //!< no iteration begins later, setup included; 0 = no limit. Results then
-                       //!< depend on how fast the machine is.
+  int iterations = 0;  //!< maximum number, >= 1; 0 = as in the options
+  double seconds = 0;  //!< no iteration starts after this time, setup included; 0 = no limit.
+                       //!< Results then depend on machine speed.
 };
 
-//! Keeps a problem and its iteration: to solve to another tolerance, some iterations at a time, or
-//! for another rest shape of the cage, always from where the last solve ended.
+//! Keeps a problem and the state of its iteration, so each solve resumes from the last one. Use it
+//! to change the tolerance, to run a few iterations at a time, or to change the rest cage.
 //!
-//! When control points move, the mesh follows by weights of its own: x' = C' w. These are the
-//! coordinates of the first shape when it first moves, or of the one that anchor() chose. Where vertices go then
-//! depends on where the control points are, and not on how they came there or how exactly the
-//! shapes in between were solved; vertices on the cage stay on it. Facets of the cage that pass
-//! through each other without turning a cell over are not noticed.
+//! When control points move, mesh vertices follow by their weights: x' = C' w. These weights are
+//! the coordinates of the first rest cage at its first move, or of the rest cage at the last
+//! anchor(). Vertex positions therefore depend only on the control points, not on the path or on
+//! the accuracy of solves in between. Vertices on the cage stay on it. Self-intersections of the
+//! cage that do not invert a cell are not detected.
 template <int Dim>
 class Solver {
  public:
-  //! Sets the problem up.
-  //! \param cage  n control points, whose interior is connected
-  //! \param mesh  V vertices, a mesh of the cage's interior (see normalize_and_validate)
-  //! \param options  of all solves until set_options(); its solutions are never sparse
-  //! \param mesher  makes coarser meshes to start from; one of them then moves along, and distances
-  //! come from there where SolverOptions::distances allow. {} for none
-  //! \throws InputError if mesh and cage do not belong together; OptionError
+  //! Sets up the problem.
+  //! \param cage  n control points, with a connected interior
+  //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
+  //! \param options  of all solves until set_options(); solutions are never sparse
+  //! \param mesher  makes meshes for a multilevel start; {} for none. One of them also moves with
+  //! the cage, and provides distances if SolverOptions::distances allows it
+  //! \throws InputError if the mesh does not match the cage; OptionError
   Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {},
          const MesherArgument<Dim>& mesher = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  //! Solves; bit-identical to solve() the first time, afterwards from the last state. A run in
-  //! parts is bit-identical to one in one piece if options give the penalty. Methods that do not
-  //! iterate start afresh.
+  //! Solves. The first result is bit-identical to flbc::solve(); later calls resume from the last
+  //! state. If the options set the penalty, an interrupted run is bit-identical to an uninterrupted
+  //! one. Methods that do not iterate start over.
   //! \param budget  of this solve
-  //! \return the solution, which stays until the next solve; its report is of this solve alone, with
-  //! status kIterationLimit where the budget ended it
-  //! \throws OptionError, SolverError; the solution is then as it was, and the next solve starts
-  //! afresh
+  //! \return the solution, valid until the next solve. Its report covers only this solve; the
+  //! status is kIterationLimit if the budget ended it
+  //! \throws OptionError, SolverError; then the solution is unchanged, and the next solve starts
+  //! over
   const Solution& solve(const Budget& budget = {}, const Observer& observer = {});
 
-  //! Moves the control points there, the mesh with them, and solves. kValue starts from the duals
-  //! of the shape before, other methods afresh. Solves for the present shape first if that has no
-  //! solution. After any exception everything is as it was.
+  //! Moves the control points and the mesh, and solves. kValue starts from the duals of the
+  //! previous rest cage, other methods start over. If the current rest cage has no solution, it is
+  //! solved first. An exception leaves the object unchanged.
   //! \param control_points  Dim x n, in the units of the cage
   //! \throws InputError if their number differs, one is not finite, the cage becomes defective, or
-  //! a cell would turn over, naming the cell and its place; OptionError for an impossible budget;
+  //! a cell would be inverted, naming the cell and its location; OptionError for an invalid budget;
   //! SolverError
   const Solution& move(const PointList<Dim>& control_points, const Budget& budget = {},
                        const Observer& observer = {});
 
-  //! From now on the mesh follows by the present coordinates, from the present shape. For edits so
-  //! large that cells would turn over on the direct way; the mesh of a cage that is moved back is
-  //! then no longer exactly what it was.
+  //! Makes the mesh follow by the current coordinates of the current rest cage. Use it for large
+  //! edits that would otherwise invert cells. Moving the cage back then no longer restores the mesh
+  //! exactly.
   void anchor();
 
-  //! Changes the options from the next solve on. It continues from the last state unless method,
-  //! precision, non_negative, linear_solver, penalty or active_set differ.
-  //! \param options  with the phi of the problem
-  //! \throws OptionError; options are then as they were
+  //! Changes the options of the following solves. The next solve resumes from the last state unless
+  //! method, precision, non_negative, linear_solver, penalty, or active_set differ.
+  //! \param options  with the same phi
+  //! \throws OptionError; then options are unchanged
   void set_options(const SolverOptions& options);
 
-  //! The next solve starts afresh.
+  //! Makes the next solve start over.
   void restart();
 
-  //! As given.
+  //! The current options, as given.
   const SolverOptions& options() const;
 
-  //! As they are now.
+  //! The current cage and mesh.
   const Cage<Dim>& cage() const;
   const DomainMesh<Dim>& mesh() const;
 
-  //! The problem that is solved; without phi until a method that minimizes has solved it.
+  //! The current problem; without phi until the first solve with a method that uses it.
   const LbcProblem<Dim>& problem() const;
 
-  //! Of the last solve; without weights before the first.
+  //! The solution of the last solve; without weights before the first.
   const Solution& solution() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights without their zeros.
+//! Sparse weights: the nonzero weights of each point.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,31 @@
 
 namespace flbc {
 
-//! Weights without their zeros, point by point: the form for many poses of local coordinates, and
-//! the one that skinning takes.
+//! Sparse weights, stored point by point: efficient for many poses, and the input of skinning.
 class SparseWeights {
  public:
   //! No points.
   SparseWeights() = default;
 
-  //! Keeps weights with |w| > threshold as they are; nothing is scaled, so that with threshold 0
-  //! nothing is lost, and with a larger one the sum of the weights falls short of 1 by what was
-  //! dropped.
+  //! Keeps weights with |w| > threshold, without scaling them. With threshold 0 this is lossless.
+  //! With a larger threshold the sum is no longer exactly 1.
   //! \param weights  n x P
   //! \param threshold  >= 0
-  //! \throws OptionError if the threshold is negative or no number
+  //! \throws OptionError if the threshold is negative or NaN
   SparseWeights(const WeightMatrix& weights, double threshold = 0);
 
-  //! Takes weights as they are.
+  //! Takes given arrays.
   //! \param num_control_points  n
-  //! \param starts  P + 1 numbers, the first one 0, ascending
-  //! \param control_points  starts[P] of them in [0, n), ascending for each point
-  //! \param values  as many, finite
-  //! \throws InputError naming the point where something does not fit
+  //! \param starts  P + 1 ascending numbers, the first is 0
+  //! \param control_points  starts[P] indices in [0, n), ascending for each point
+  //! \param values  starts[P] finite weights
+  //! \throws InputError naming the first invalid point
   SparseWeights(Index num_control_points, std::vector<std::int64_t> starts,
                 std::vector<std::uint32_t> control_points, std::vector<double> values);
 
-  //! Asks for the weights of one point after the other.
+  //! Calls a function for the weights of each point.
   //! \param num_control_points  n \param num_points  P
-  //! \param of_point  n numbers, of which zeros are left out; is asked by several threads
+  //! \param of_point  returns n weights; called by several threads
   static SparseWeights of(Index num_control_points, Index num_points,
                           const std::function<Eigen::VectorXd(Index)>& of_point);
 
@@ -47,13 +45,13 @@ class SparseWeights {
   //! n.
   Index num_control_points() const { return num_control_points_; }
 
-  //! P + 1 values: the weights of point p are numbers starts[p] up to starts[p + 1].
+  //! P + 1 offsets: the weights of point p are entries starts[p] to starts[p + 1] - 1.
   const std::vector<std::int64_t>& starts() const { return starts_; }
 
-  //! The control points they belong to, ascending for each point.
+  //! The control point of each weight, ascending for each point.
   const std::vector<std::uint32_t>& control_points() const { return control_points_; }
 
-  //! Their values.
+  //! The weights.
   const std::vector<double>& values() const { return values_; }
 
   //! Calls action(i, weight) for the weights of a point, by ascending control point i.
@@ -65,10 +63,10 @@ class SparseWeights {
     }
   }
 
-  //! All weights of a point, n numbers. \param point  in [0, P)
+  //! All n weights of a point, zeros included. \param point  in [0, P)
   Eigen::VectorXd at(Index point) const;
 
-  //! With their zeros, n x P.
+  //! The dense matrix, n x P.
   WeightMatrix dense() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Few influences per point: weights for engines that read at most K of them, and small files.
+//! Limits influences per point, for engines with a maximum number and for small files.
 #pragma once
 
 #include <functional>
@@ -13,87 +13,87 @@
 
 namespace flbc {
 
-//! Limits on the number and size of a point's weights.
+//! Limits on the number and size of the weights of a point.
 struct SparsifyOptions {
   //! Maximum influences per point, >= Dim + 1: fewer cannot reproduce a point inside the hull.
   Index max_influences = std::numeric_limits<Index>::max();
-  //! In [0, 1). Weights below it are dropped first, as far as the rest still reproduces the point.
-  //! The weights that remain are moved for that and may come to lie below it.
+  //! Threshold in [0, 1). Smaller weights are dropped first, if the rest can still reproduce the
+  //! point. The adjusted remaining weights may end up below the threshold.
   double threshold = 0;
-  //! Called by the calling thread with the progress in [0, 1]; must not throw.
+  //! Called on the calling thread with the progress in [0, 1]; must not throw.
   std::function<void(double done)> progress{};
 };
 
 //! Checks options.
 //! \param options  any
-//! \throws OptionError naming the option that is out of range
+//! \throws OptionError naming the invalid option
 template <int Dim>
 void validate(const SparsifyOptions& options);
 
-//! Replaces every column by one with at most `max_influences` weights other than 0, with w >= 0,
-//! sum w = 1 and sum w c = x. Sum and reproduction hold to 1e-13, the latter relative to the size
-//! of the control points. |w - given|^2 is the expected squared error of the point under random
-//! independent displacements of the control points; it is the least for the influences kept. They
-//! are chosen by removing the cheapest one repeatedly, and by exchange with others that were given
-//! 1e-3 or more. This is usually, but not always, the best choice. Columns that satisfy all this
-//! are unchanged. Without options the result is that of project_non_negative. The given weights may
-//! be negative and need not reproduce.
+//! Replaces every column by one with at most `max_influences` nonzero weights, w >= 0, sum w = 1,
+//! and sum w c = x. The sum holds to 1e-13, and reproduction to 1e-13 of the size of the control
+//! points. Columns that satisfy the limits are unchanged. With default options the result equals
+//! that of project_non_negative(). The given weights may be negative and need not reproduce points.
+//! For the chosen influences, the weights minimize |w - given|^2. This is the expected squared
+//! error of the point under random independent displacements of the control points. Influences are
+//! chosen by repeatedly removing the cheapest one, and by exchange with others whose given weight
+//! is at least 1e-3. The choice is usually, but not always, the best one.
 //! \param control_points  Dim x n, finite
-//! \param points  Dim x P, inside the convex hull of the control points, in their units
+//! \param points  Dim x P, inside the convex hull of the control points, in the same units
 //! \param weights  n x P, finite
-//! \param options  as validate() demands
+//! \param options  valid
 //! \tparam Weights  WeightMatrix or SparseWeights
 //! \return n x P
-//! \throws OptionError as validate(), InputError if sizes do not fit, if a number is not finite or
-//! if a point lies outside the convex hull of the control points, naming the first such point
+//! \throws OptionError as validate(); InputError if sizes do not match, a value is not finite, or a
+//! point lies outside the convex hull of the control points, naming the first such point
 template <int Dim, class Weights>
 Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const Weights& weights, const SparsifyOptions& options);
 
-//! Makes weights sparse as sparsify() does, under the same constraints and with the same exactness,
-//! but not point by point: what becomes least is the error of the differences along the edges, so
-//! that no seams appear where neighbors keep different influences (after Landreneau and Schaefer,
-//! "Poisson-Based Weight Reduction of Animated Meshes", 2010; there influences are dropped in the
-//! order of their cost). With d_a the new less the given weights of point a and C_p pose p, it is
+//! Reduces influences under the same constraints and with the same accuracy as sparsify(), but
+//! jointly for all points. It minimizes the error of differences along edges, so that no seams
+//! appear where neighbors keep different influences. The method follows Landreneau and Schaefer,
+//! "Poisson-Based Weight Reduction of Animated Meshes", 2010, which drops influences in order of
+//! cost. Let d_a be the new minus the given weights of point a, and C_p pose p. The energy is
 //!
 //!     mean_p ( sum_ab k_ab |C_p (d_a - d_b)|^2 + sum_a m_a / r^2 |C_p d_a|^2 )
 //!
-//! over edges ab and points a, with m_a = sum_b k_ab |x_a - x_b|^2 / 2 and r a twentieth of the
-//! size of the points, or five edges of mean length if that is more: the second term is small and
-//! keeps points in their places. To the mean over the given poses a tenth of what a pose of
-//! independent_poses() and one of smooth_poses() cost together on average is added, for the control
-//! points that the given ones do not move; without given poses all of that is what counts.
+//! over edges ab and points a, with m_a = sum_b k_ab |x_a - x_b|^2 / 2. The length r is 1/20 of the
+//! size of the points, or five mean edge lengths if that is larger. The second term is small and
+//! limits absolute displacements. A tenth of the mean energy of a pose from independent_poses()
+//! plus one from smooth_poses() is added, for control points that the given poses do not move.
+//! Without given poses, the energy consists of these random poses only.
 //!
-//! Found by block coordinate descent: point by point, a row's weights are exchanged for the best
-//! ones while its neighbors are fixed. The result is a local minimum, and not above what
-//! sparsify() gives. Points without edges get the weights of sparsify(), points given with at most
-//! Dim influences keep them, since these lie on the cage and follow its facet; points that coincide
-//! and have the same weights are given the same. The same result for any number of threads.
+//! The solver is block coordinate descent: it optimizes the weights of one point while its
+//! neighbors are fixed. The result is a local minimum whose energy is not above that of sparsify().
+//! Points without edges get the weights of sparsify(). Points with at most Dim given influences
+//! keep them, because they lie on the cage and follow its facet. Coincident points with equal
+//! weights get equal results. The result does not depend on the number of threads.
 //! \param control_points  Dim x n, finite
-//! \param points  Dim x P, inside the convex hull of the control points, in their units
-//! \param edges  between the points, weights of any unit
+//! \param points  Dim x P, inside the convex hull of the control points, in the same units
+//! \param edges  between the points, with weights in any unit
 //! \param weights  n x P, as for sparsify()
 //! \param poses  Dim x n each, displaced control points, may be empty
 //! \param options  as for sparsify()
 //! \return n x P
-//! \throws OptionError and InputError as sparsify(), InputError also for edges and poses that do
-//! not fit
+//! \throws OptionError and InputError as sparsify(); InputError also for edges and poses of wrong
+//! size
 template <int Dim>
 WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                const EdgeList& edges, const WeightMatrix& weights,
                                const std::vector<PointList<Dim>>& poses,
                                const SparsifyOptions& options);
 
-//! The energy that reduce_by_poisson() minimizes, for any weights, with displacements in units of a
-//! tenth of the cage's size.
+//! The energy that reduce_by_poisson() minimizes, for any weights. The unit of displacements is a
+//! tenth of cage size.
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P
 //! \param edges  between the points
-//! \param before  n x P, the weights given
-//! \param after  n x P, the weights to judge
+//! \param before  n x P, given weights
+//! \param after  n x P, new weights
 //! \param poses  Dim x n each, may be empty
 //! \return >= 0
-//! \throws InputError if weights, edges or poses do not fit
+//! \throws InputError if sizes of weights, edges, or poses do not match
 template <int Dim>
 double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& points,
                     const EdgeList& edges, const WeightMatrix& before, const WeightMatrix& after,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Types of the whole library: points are columns.
-//! Eigen's matrices cross the interface, and how Eigen allocates them depends on the instruction
-//! set and on AddressSanitizer: give a program such flags (-march=native) only if the library was
-//! compiled with them too.
+//! Basic types of the library. Points are columns.
+//! Eigen matrices cross the library interface, and Eigen allocates them differently depending on
+//! the instruction set and on AddressSanitizer. Use such flags (-march=native) for a program only
+//! if the library was compiled with them.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@ using Index = std::int32_t;
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1>;
 
-//! Dim x #points, a point per column.
+//! Dim x #points, one point per column.
 template <int Dim>
 using PointList = Eigen::Matrix<double, Dim, Eigen::Dynamic>;
 
-//! Dim x #facets, the vertices of an edge (2D) or triangle (3D) per column.
+//! Dim x #facets, each column has the vertices of an edge (2D) or triangle (3D).
 template <int Dim>
 using FacetList = Eigen::Matrix<Index, Dim, Eigen::Dynamic>;
 
-//! (Dim + 1) x #cells, the vertices of a triangle (2D) or tetrahedron (3D) per column.
+//! (Dim + 1) x #cells, each column has the vertices of a triangle (2D) or tetrahedron (3D).
 template <int Dim>
 using CellList = Eigen::Matrix<Index, Dim + 1, Eigen::Dynamic>;
 
@@ -35,16 +35,16 @@ using CellList = Eigen::Matrix<Index, Dim + 1, Eigen::Dynamic>;
 //! With the control points C as columns, reproduction reads C W = X.
 using WeightMatrix = Eigen::MatrixXd;
 
-//! How Method::kValue and kLbc2014 solve the linear system of each iteration, and Method::kGradient
-//! those of its start and its recovery.
+//! Solver of the linear systems in each iteration (Method::kValue, kLbc2014), or in start and
+//! recovery (Method::kGradient).
 enum class LinearSolver {
-  kAuto,       //!< by what is faster: kMultigrid for kValue and kGradient on large meshes, else
+  kAuto,       //!< the faster one: kMultigrid for kValue and kGradient on large meshes, otherwise
                //!< kDirect
-  kDirect,     //!< one factorisation, exact solves
-  kMultigrid,  //!< time and memory grow as the mesh: a cycle of algebraic multigrid per iteration;
-               //!< for kGradient conjugate gradients with such cycles
-  kNone  //!< kGradient and kPaper only: no global system. The start is the least-norm solution
-         //!< of the local constraints, the recovery breadth-first, as in the paper
+  kDirect,     //!< one factorization, exact solves
+  kMultigrid,  //!< time and memory proportional to the mesh: one algebraic multigrid cycle per
+               //!< iteration; for kGradient, conjugate gradients preconditioned by such cycles
+  kNone  //!< no global system; kGradient and kPaper only. The start is the least-norm solution of
+         //!< the local constraints, and recovery is breadth-first, as in the paper
 };
 
 }  // namespace flbc

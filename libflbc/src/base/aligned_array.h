@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! One block of numbers, aligned for vector instructions and zero at first.
+//! An array aligned for vector instructions, initially zero.
 #pragma once
 
 #include <cstdlib>
@@ -16,7 +16,8 @@ class AlignedArray {
   explicit AlignedArray(std::size_t size) : size_(size) {
     constexpr std::size_t kAlignment = 64;
     if (size == 0) return;
-    // Memory fresh from the system is zero already, and belongs to the thread that uses it first.
+    // New memory from the system is already zero, and is placed near the thread that touches it
+    // first.
     const std::size_t room = size + kAlignment / sizeof(Scalar);
     void* const block = std::calloc(room, sizeof(Scalar));
     if (block == nullptr) throw std::bad_alloc();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Numbers too small to matter, made zero.
+//! Flushes denormal numbers to zero.
 #pragma once
 
 #ifdef __SSE__
@@ -9,8 +9,8 @@
 
 namespace flbc {
 
-//! Within its scope the calling thread takes denormal numbers for zero. Where weights are flat the
-//! iteration's state dies out through the denormal range, in which every operation is many times
+//! Within its scope, the calling thread treats denormal numbers as zero. Where weights are flat,
+//! the state of the iteration decays through the denormal range, where operations are many times
 //! slower.
 class FlushDenormals {
  public:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Explicit instantiation for both dimensions, and both types of numbers.
+//! Explicit instantiation for both dimensions and both scalar types.
 #pragma once
 
-//! Instantiates a function template of the dimension; it must not be overloaded.
+//! Instantiates a function template for both dimensions; it must not be overloaded.
 #define FLBC_INSTANTIATE_FUNCTION(name) \
   template decltype(name<2>) name<2>;   \
   template decltype(name<3>) name<3>;
 
-//! The same for templates of the type of numbers and the dimension.
+//! The same for templates of scalar type and dimension.
 #define FLBC_INSTANTIATE_SCALAR_FUNCTION(name)        \
   template decltype(name<float, 2>) name<float, 2>;   \
   template decltype(name<float, 3>) name<float, 3>;   \

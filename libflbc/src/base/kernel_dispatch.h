@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which of the copies of an inner loop, compiled for several instruction sets, this processor is
-//! given.
+//! Selects the copy of an inner loop for this processor, from copies for several instruction sets.
 //!
 //! A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it
 //! by FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the
-//! set's name, has a table `kKernel<...>` in the namespace of that name and hands it out by
+//! set's name, has a table `kKernel<...>` in the namespace of that name and exports it by
 //! FLBC_DEFINE_KERNEL.
 #pragma once
 
@@ -21,7 +20,7 @@ enum class InstructionSet { baseline, avx2, avx512 };
 template <class Kernel, InstructionSet set>
 const Kernel& kernel_for();
 
-//! The tables this processor can run, the best one first.
+//! The tables this processor can run, best first.
 template <class Kernel>
 struct KernelList {
   const Kernel* kernels[3];
@@ -29,7 +28,7 @@ struct KernelList {
 };
 
 #ifdef __x86_64__
-//! Whether the processor converts from and to half precision. Asked for by hand, because clang's
+//! Whether the processor converts from and to half precision. Queried directly, because clang's
 //! __builtin_cpu_supports does not know "f16c".
 inline bool has_f16c() {
   unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;

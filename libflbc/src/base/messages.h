@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Numbers, points and lists as messages to the user have them.
+//! Formats numbers, points, and lists for messages.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace flbc {
 
-//! A number as a user would write it: 6 significant digits.
+//! A number with 6 significant digits.
 inline std::string format_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! OpenMP in one place: the number of threads, and sums that do not depend on it.
+//! OpenMP helpers: the number of threads, and sums that do not depend on it.
 #pragma once
 
 #include <omp.h>
@@ -12,9 +12,9 @@
 
 namespace flbc {
 
-//! How many threads share so many numbers, which an iteration passes over a few times. Threads that
-//! wait for each other every few microseconds gain little, and lose much where other programs keep
-//! the cores busy. \param wanted  by the user; 0 = by this rule
+//! Number of threads for an array of the given size that an iteration reads a few times. Threads
+//! that synchronize every few microseconds gain little, and lose much on busy cores. \param wanted
+//! number set by the user; 0 = automatic
 inline int threads_for(int wanted, Index rows, Index columns) {
   constexpr double kFewest = 1e5;
   if (wanted > 0) return wanted;
@@ -43,7 +43,7 @@ Sum parallel_sum(Index count, Sum zero, const Body& body) {
   constexpr Index kBlock = 64;
   const Index num_blocks = (count + kBlock - 1) / kBlock;
   std::vector<Sum> partial(num_blocks, zero);
-  // Waking threads up costs about as much as a few blocks of work.
+  // Starting threads costs about as much as a few blocks of work.
 #pragma omp parallel for schedule(static) if (num_blocks >= 8)
   for (Index block = 0; block < num_blocks; ++block) {
     partial[block] = body(block * kBlock, std::min(count, (block + 1) * kBlock));
@@ -53,8 +53,9 @@ Sum parallel_sum(Index count, Sum zero, const Body& body) {
   return sum;
 }
 
-//! The first of the numbers [0, count) that a predicate holds for, count if it holds for none. Asks
-//! in parallel, and of all up to that number at least. \param holds  bool(Index); must not throw
+//! The first index in [0, count) for which a predicate holds, or count if there is none. Evaluates
+//! the predicate in parallel, at least for all indices up to the result. \param holds  bool(Index);
+//! must not throw
 template <class Predicate>
 Index first_where(Index count, const Predicate& holds) {
   constexpr Index kFewest = 1000;

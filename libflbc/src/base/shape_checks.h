@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Whether weights, points, control points and poses belong together.
+//! Checks that sizes of weights, points, control points, and poses match.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ inline void check_size(const SparseWeights& weights, Eigen::Index num_control_po
   check_size(weights.num_control_points(), weights.num_points(), num_control_points, num_points);
 }
 
-//! \throws InputError naming the first pose that has not `n` control points or is not finite
+//! \throws InputError naming the first pose that is not finite or does not have `n` control points
 template <int Dim>
 void check_poses(const std::vector<PointList<Dim>>& poses, Eigen::Index n) {
   for (std::size_t k = 0; k < poses.size(); ++k) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Several control points side by side, for the inner loops. The compiler maps a pack to the
-//! registers there are. Everything has internal linkage, so that the copies compiled for several
-//! instruction sets cannot be linked into one another.
+//! Packs of control points for the inner loops. The compiler maps a pack to the available
+//! registers. Everything has internal linkage, so copies for different instruction sets cannot be
+//! mixed by the linker.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace flbc {
 namespace {
 
-//! Rows are aligned to as many numbers as they are padded to.
+//! The alignment of rows equals their padding.
 template <class Scalar, int Lanes>
 struct PackOf {
   using type [[gnu::vector_size(Lanes * sizeof(Scalar)),
@@ -37,7 +37,7 @@ inline void store_pack(Scalar* to, PackN<Scalar, Lanes> value) {
   *reinterpret_cast<PackN<Scalar, Lanes>*>(to) = value;
 }
 
-//! As many numbers as fill the widest registers, if that is more than rows are padded to.
+//! The number of values in the widest registers, if larger than the padding of rows.
 #ifdef __AVX512F__
 constexpr int kWideLanes = 16;
 #else
@@ -70,8 +70,8 @@ inline PackN<Scalar, Lanes> inverse_square_root_exact(PackN<Scalar, Lanes> pack)
 }
 
 //! 1 / sqrt(x) for normal x > 0, to rounding of the Scalar or about 1e-7 relative in single
-//! precision: the processor's estimate and one Newton step take a fraction of the time of a root
-//! and a division.
+//! precision: the processor estimate plus one Newton step is several times faster than a root and a
+//! division.
 template <class Scalar, int Lanes>
 inline PackN<Scalar, Lanes> inverse_square_root(PackN<Scalar, Lanes> pack) {
   if constexpr (sizeof(Scalar) == 8) {
@@ -80,7 +80,7 @@ inline PackN<Scalar, Lanes> inverse_square_root(PackN<Scalar, Lanes> pack) {
     PackN<float, Lanes> estimate;
 #if defined(__AVX512F__) && defined(__AVX512VL__)
     if constexpr (Lanes == 16) {
-      // The form without a mask trips a warning inside GCC 12's own header.
+      // The form without a mask causes a warning in a header of GCC 12.
       estimate = (PackN<float, Lanes>)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)pack);
     } else {
       estimate = (PackN<float, Lanes>)_mm256_rsqrt14_ps((__m256)pack);

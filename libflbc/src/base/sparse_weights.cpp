@@ -10,7 +10,7 @@
 namespace flbc {
 namespace {
 
-// Below this many points waking threads up takes longer than collecting their weights.
+// Below this number of points, starting threads takes longer than collecting their weights.
 constexpr Eigen::Index kParallelPoints = 2000;
 
 [[noreturn]] void refuse(Index point, const char* what) {
@@ -38,7 +38,7 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
   for (Eigen::Index p = 0; p < count; ++p) {
     std::int64_t entry = starts_[p];
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      if (std::abs(weights(i, p)) <= threshold) continue;  // what is no number stays
+      if (std::abs(weights(i, p)) <= threshold) continue;  // keeps NaN
       control_points_[entry] = static_cast<std::uint32_t>(i);
       values_[entry++] = weights(i, p);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! How far a long computation is, told from its loops to whoever asked.
+//! Reports progress from inner loops to the caller.
 #pragma once
 
 #include <omp.h>
@@ -13,11 +13,11 @@
 
 namespace flbc {
 
-//! Told the part in [0, 1] of a stage that is done; empty for nobody.
+//! Receives the progress of a stage in [0, 1]; may be empty.
 using TellPart = std::function<void(double done)>;
 
-//! While it lives, the loops that this thread runs tell `tell` how far they are; before and after,
-//! whoever was told before.
+//! During its lifetime, loops on this thread report progress to `tell`; afterwards, the previous
+//! callback is restored.
 class StageScope {
  public:
   explicit StageScope(TellPart tell)
@@ -35,7 +35,7 @@ class StageScope {
   const TellPart* before_;
 };
 
-//! While it lives, what is told is the part [begin, end] of the stage around it.
+//! During its lifetime, progress is mapped to the part [begin, end] of the enclosing stage.
 class StagePart : public StageScope {
  public:
   StagePart(double begin, double end) : StageScope(mapped(begin, end)) {}
@@ -48,18 +48,19 @@ class StagePart : public StageScope {
   }
 };
 
-//! Counts the rounds of a loop that several threads share. Only the thread that made it tells.
+//! Counts the iterations of a loop shared by several threads. Only the thread that created it
+//! reports progress.
 class LoopProgress {
  public:
-  //! \param rounds  of the loop, > 0
+  //! \param rounds  number of loop iterations, > 0
   explicit LoopProgress(Index rounds) : tell_(StageScope::present()), rounds_(rounds) {}
   ~LoopProgress() {
-    if (tell_ && *tell_) (*tell_)(1);  // others may have done the last rounds, or all
+    if (tell_ && *tell_) (*tell_)(1);  // other threads may have finished the loop
   }
   LoopProgress(const LoopProgress&) = delete;
   LoopProgress& operator=(const LoopProgress&) = delete;
 
-  //! To be called by any thread of the team after so many rounds.
+  //! Called by any thread of the team after a number of iterations.
   void add(Index rounds) {
     if (!tell_ || !*tell_) return;
     const Index done = done_ += rounds;

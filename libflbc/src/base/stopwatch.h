@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Wall-clock time of the stages.
+//! Wall-clock time.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disjoint sets of the numbers 0 .. size-1.
+// Disjoint sets of the integers 0 .. size-1.
 #pragma once
 
 #include <numeric>
@@ -15,7 +15,7 @@ class UnionFind {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
-  //! The representative of the set of `element`; halves the path on its way.
+  //! The representative of the set of `element`; halves the path.
   Index find(Index element) {
     while (parent_[element] != element) {
       parent_[element] = parent_[parent_[element]];
@@ -24,7 +24,7 @@ class UnionFind {
     return element;
   }
 
-  //! The smaller representative stays one, so that results do not depend on the order of calls.
+  //! The smaller representative is kept, so results do not depend on the order of calls.
   void unite(Index a, Index b) {
     const Index root_a = find(a), root_b = find(b);
     if (root_a < root_b) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Dense and sparse weights by the same code: the weights of one point, and weights made of those
-//! of single points.
+//! Common access to dense and sparse weights: the weights of one point, and construction from
+//! points.
 #pragma once
 
 #include <type_traits>
@@ -34,7 +34,7 @@ inline void add_column(const SparseWeights& weights, Index point, double factor,
   weights.visit(point, [&](Index i, double weight) { sum[i] += factor * weight; });
 }
 
-//! \param of_point  gives the n weights of a point; several threads call it
+//! \param of_point  returns the n weights of a point; called by several threads
 //! \return n x num_points
 template <class Weights, class OfPoint>
 Weights weights_of_points(Index n, Index num_points, const OfPoint& of_point) {

@@ -38,13 +38,13 @@ class DefectList {
   std::vector<Defect> defects_;
 };
 
-// Below this part of the cage's size a length counts as zero.
+// A length below this fraction of cage size counts as zero.
 constexpr double kRelativeTolerance = 1e-10;
 
-// Meshers multiply up to five lengths, which must stay within the range of numbers.
+// Meshers multiply up to five lengths; the product must not overflow or underflow.
 constexpr double kSmallestSize = 1e-30;
 constexpr double kLargestSize = 1e30;
-// Beyond this many times its size from the origin, a cage's coordinates have too few digits left.
+// At a larger distance from the origin, relative to cage size, coordinates have too few digits.
 constexpr double kFarthest = 1e9;
 
 template <int Dim>
@@ -197,13 +197,13 @@ void check_repetition(const Cage<Dim>& cage, DefectList& found) {
   }
 }
 
-// A triangle that has an edge, and whether it runs along it from the smaller to the larger index.
+// A triangle at an edge, and whether it traverses the edge from the smaller to the larger index.
 struct Incidence {
   Index triangle;
   bool is_forward;
 };
 
-// Ordered, so that the defects come out in the same order everywhere.
+// Ordered, so the order of defects is reproducible.
 using EdgeMap = std::map<std::pair<Index, Index>, std::vector<Incidence>>;
 
 EdgeMap collect_edges(const Cage<3>& cage) {
@@ -241,8 +241,8 @@ void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
   found.add({text, {a, b}, triangles});
 }
 
-// Triangles that share an edge at a vertex are of one fan; two cones that touch in their tips are
-// two.
+// Triangles that share an edge at a vertex belong to one fan; two cones that touch at their tips
+// are two fans.
 void check_fans(const Cage<3>& cage, const EdgeMap& edges, DefectList& found) {
   UnionFind fans(static_cast<Index>(3 * cage.facets.cols()));  // corner k of triangle t: 3 t + k
   const auto corner = [&](Index triangle, Index vertex) {
@@ -278,7 +278,7 @@ void check_fans(const Cage<3>& cage, const EdgeMap& edges, DefectList& found) {
   }
 }
 
-// How the facets meet. 2D: two edges at each control point.
+// Checks how facets meet. 2D: two edges at each control point.
 void check_connections(const Cage<2>& cage, DefectList& found) {
   std::vector<std::vector<Index>> edges_at(static_cast<std::size_t>(cage.size()));
   for (Index edge = 0; edge < cage.facets.cols(); ++edge) {
@@ -311,7 +311,7 @@ void check_connections(const Cage<3>& cage, DefectList& found) {
     check_edge(cage, ends, incidences, found);
     is_manifold = is_manifold && incidences.size() == 2;
   }
-  // Fans end at open edges and merge at non-manifold ones: those have been reported already.
+  // Fans end at open edges and merge at non-manifold edges, which have already been reported.
   if (is_manifold) check_fans(cage, edges, found);
 }
 
@@ -324,7 +324,7 @@ std::vector<Defect> find_defects(const Cage<Dim>& cage, std::size_t limit) {
   check_finiteness(cage, found);
   check_extent(cage, found);
   check_indices(cage, found);
-  if (!found.empty()) return found.take();  // the checks below rely on sound numbers
+  if (!found.empty()) return found.take();  // the checks below need valid indices
   check_coincidence(cage, found);
   check_references(cage, found);
   check_flatness(cage, found);

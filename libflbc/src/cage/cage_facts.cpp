@@ -14,7 +14,7 @@
 namespace flbc {
 namespace {
 
-// The part of a cage that has these facets.
+// The part of a cage with these facets.
 template <int Dim>
 CagePart<Dim> extract(const Cage<Dim>& cage, const std::vector<Index>& facets) {
   CagePart<Dim> part;
@@ -48,7 +48,7 @@ class Nesting {
     }
   }
 
-  // Shells do not meet, so one corner decides.
+  // Shells do not intersect, so one corner decides.
   bool encloses(std::size_t outer, std::size_t inner) const {
     return outer != inner && shells_[outer].locate(corners_[inner]) == Containment::kInside;
   }
@@ -58,8 +58,7 @@ class Nesting {
   std::vector<Vector<Dim>> corners_;
 };
 
-// Per shell the outer one that bounds the same part: itself, or of those around a hole the
-// innermost.
+// Per shell, the outer shell of its part: the shell itself, or the innermost shell around a hole.
 template <int Dim>
 std::vector<std::size_t> outer_shells(const OrientedCage<Dim>& oriented) {
   const Nesting<Dim> nesting(oriented);
@@ -126,7 +125,7 @@ template <int Dim>
 std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& points) {
   const CageLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
-  std::vector<char> is_outside(num_points);  // not bool: neighbours are written at the same time
+  std::vector<char> is_outside(num_points);  // not bool: neighbors are written concurrently
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < num_points; ++p) {
     is_outside[p] = locator.locate(points.col(p)) == Containment::kOutside;

@@ -11,8 +11,8 @@ namespace flbc {
 
 namespace {
 
-// No axis and no common diagonal: the points of grids and of boxes do not project onto each other,
-// which keeps the sweep below from comparing all with all.
+// No axis and no common diagonal: points of grids and boxes do not project onto each other, so the
+// sweep below does not compare all pairs.
 template <int Dim>
 Vector<Dim> sweep_direction() {
   Vector<Dim> direction;

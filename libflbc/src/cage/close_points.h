@@ -11,8 +11,8 @@
 namespace flbc {
 
 //! Pairs (i, j), i < j, of points whose distance is at most `tolerance`. Each point is paired with
-//! at most one of those before it, so a heap of k coinciding points gives k - 1 pairs and not k^2
-//! / 2. \return at most `limit` pairs, ascending by j
+//! at most one earlier point, so k coincident points give k - 1 pairs instead of k^2 / 2. \return
+//! at most `limit` pairs, ascending by j
 template <int Dim>
 std::vector<std::array<Index, 2>> find_close_pairs(const PointList<Dim>& points, double tolerance,
                                                    std::size_t limit);

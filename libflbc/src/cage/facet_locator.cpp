@@ -6,7 +6,7 @@
 namespace flbc {
 namespace {
 
-constexpr double kRounding = 1e-12;  // a coordinate below it is taken for zero
+constexpr double kRounding = 1e-12;  // a smaller coordinate counts as zero
 
 }  // namespace
 
@@ -38,15 +38,15 @@ FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
     if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
       continue;
     }
-    // One step of refinement: on needles the pseudo-inverse alone would be too inexact.
+    // One refinement step, because the pseudo-inverse alone is too inaccurate on needles.
     Vector<Dim> coordinates = Vector<Dim>::Unit(0);
     for (int step = 0; step < 2; ++step) {
       coordinates.template tail<Dim - 1>() +=
           facet.to_coordinates * (point - facet.corners * coordinates);
       coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
     }
-    // Coordinates outside the facet or due to rounding are cut off, so that a point on an edge or
-    // at a corner has exact zeros elsewhere.
+    // Negative coordinates and rounding errors are clamped, so a point on an edge or at a corner
+    // has exact zeros elsewhere.
     coordinates = (coordinates.array() < kRounding).select(0, coordinates);
     coordinates /= coordinates.sum();
     const double distance = (facet.corners * coordinates - point).norm();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which facet of a cage a point lies on, and where.
+// Locates points on the facets of a cage.
 #pragma once
 
 #include <limits>
@@ -14,28 +14,28 @@ template <int Dim>
 struct FacetPlace {
   Index facet = -1;
   Vector<Dim> coordinates;                                    //!< in the facet, >= 0, sum to 1
-  double distance = std::numeric_limits<double>::infinity();  //!< of the point from the place
+  double distance = std::numeric_limits<double>::infinity();  //!< between the point and the place
 };
 
-//! Finds points that lie on a cage up to rounding. Takes time proportional to the number of facets,
-//! though only few operations for facets that are not near.
+//! Finds points that lie on a cage up to rounding. Time is proportional to the number of facets,
+//! with few operations for distant facets.
 template <int Dim>
 class FacetLocator {
  public:
-  //! \param tolerance  largest distance from the cage, in its units; small against its facets
+  //! \param tolerance  maximum distance from the cage, in its units; small compared to its facets
   FacetLocator(const Cage<Dim>& cage, double tolerance);
 
-  //! The nearest place, of equally near ones that on the facet with the least number. \return facet
-  //! -1 if the point is farther away than the tolerance
+  //! The nearest place; ties go to the facet with the smallest index. \return facet -1 if the point
+  //! is farther away than the tolerance
   FacetPlace<Dim> locate(const Vector<Dim>& point) const;
 
-  //! The same whatever its distance, among facets in whose boxes the point is, widened by the
-  //! tolerance. \return facet -1 if it is in none
+  //! The same for any distance, among the facets whose box, enlarged by the tolerance, contains the
+  //! point. \return facet -1 if there is none
   FacetPlace<Dim> nearest(const Vector<Dim>& point) const;
 
  private:
   struct Facet {
-    Vector<Dim> low, high;  // bounding box, widened by the tolerance
+    Vector<Dim> low, high;  // bounding box, enlarged by the tolerance
     Eigen::Matrix<double, Dim, Dim> corners;
     Eigen::Matrix<double, Dim - 1, Dim> to_coordinates;  // pseudo-inverse of the edge vectors
   };

@@ -12,7 +12,7 @@
 namespace flbc {
 namespace {
 
-// The edges of a loop may be given in any direction; afterwards they run one after the other.
+// Orients the edges of a loop consistently; the input may have any directions.
 void align_edges(Cage<2>& cage) {
   std::vector<std::array<Index, 2>> edges_at(cage.size(), {-1, -1});
   for (Index edge = 0; edge < cage.facets.cols(); ++edge) {
@@ -35,8 +35,8 @@ void align_edges(Cage<2>& cage) {
   }
 }
 
-// Signed measure of the cone or pyramid over a facet. An apex near by keeps the sum accurate when
-// the cage is far from the origin.
+// Signed measure of the cone or pyramid over a facet. A nearby apex keeps the sum accurate if the
+// cage is far from the origin.
 template <int Dim>
 double cone_measure(const Cage<Dim>& cage, Index facet, const Vector<Dim>& apex) {
   Eigen::Matrix<double, Dim, Dim> edges;
@@ -44,7 +44,8 @@ double cone_measure(const Cage<Dim>& cage, Index facet, const Vector<Dim>& apex)
   return edges.determinant() / (Dim == 2 ? 2 : 6);
 }
 
-// Is the shell enclosed by an odd number of others? Shells do not meet, so one corner decides.
+// Whether an odd number of other shells enclose the shell. Shells do not intersect, so one corner
+// decides.
 template <int Dim>
 bool is_in_others(const OrientedCage<Dim>& oriented, Index shell, Index facet_of_shell) {
   const auto& all = oriented.cage;

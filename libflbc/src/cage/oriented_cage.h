@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cages turned so that the interior lies on the same side of all facets.
+// Cages oriented so that the interior is on the same side of all facets.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ namespace flbc {
 //! A cage with its parts.
 template <int Dim>
 struct OrientedCage {
-  //! Outer loops run counter-clockwise, outer shells have their normals outwards; holes and
-  //! cavities are the other way round.
+  //! Outer loops are counterclockwise, and outer shells have outward normals; holes and cavities
+  //! have the opposite orientation.
   Cage<Dim> cage;
   std::vector<Index> shell_of_facet;  //!< loop or shell of each facet, in the order of facets
   std::vector<bool> is_hole;          //!< per shell: whether an odd number of others enclose it

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kFullSolidAngle = 12.566370614359172;  // 4 pi
 
-// Does the ray from p in the direction of the first axis cross the segment? Half-open in the second
-// coordinate, so that a ray through a corner counts the corner's two edges consistently.
+// Whether the ray from p along the first axis crosses the segment. Half-open in the second
+// coordinate, so a ray through a corner counts its two edges consistently.
 bool crosses_ray(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
   if ((a.y() > p.y()) == (b.y() > p.y())) return false;
   const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
@@ -105,7 +105,7 @@ bool CageLocator<Dim>::is_on_cage(const Vector<Dim>& point) const {
 template <int Dim>
 bool CageLocator<Dim>::is_enclosed(const Vector<Dim>& point) const {
   if constexpr (Dim == 2) {
-    // Crossings, not winding numbers: the edges of a loop need not run in one direction.
+    // Counts crossings instead of winding numbers, because loops need not be oriented consistently.
     bool is_odd = false;
     for (Index edge = 0; edge < cage_.facets.cols(); ++edge) {
       is_odd ^= crosses_ray(point, cage_.points.col(cage_.facets(0, edge)),
@@ -113,8 +113,8 @@ bool CageLocator<Dim>::is_enclosed(const Vector<Dim>& point) const {
     }
     return is_odd;
   } else {
-    // Winding numbers shell by shell: a ray could graze an edge, and shells may be oriented
-    // inwards or outwards.
+    // Uses winding numbers per shell, because a ray could graze an edge, and shells may have either
+    // orientation.
     std::vector<double> angles(static_cast<std::size_t>(num_shells_), 0.0);
     for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
       angles[shell_of_facet_[facet]] += solid_angle(point, cage_.points.col(cage_.facets(0, facet)),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Is a point inside a cage, and how far from a facet? Holes and cavities are outside.
+//! Tests whether a point is inside a cage, and computes distances to facets. Holes and cavities are
+//! outside.
 #pragma once
 
 #include <vector>
@@ -16,13 +17,12 @@ enum class Containment { kInside, kOutside, kOnCage };
 template <int Dim>
 std::vector<Index> facet_shells(const Cage<Dim>& cage);
 
-//! Locates points with respect to a cage that has passed validate(). A point is inside if an odd
-//! number of loops or shells enclose it, whatever their orientation. Takes time proportional to the
-//! number of facets.
+//! Locates points relative to a valid cage. A point is inside if an odd number of loops or shells
+//! enclose it, in any orientation. Time is proportional to the number of facets.
 template <int Dim>
 class CageLocator {
  public:
-  //! \param tolerance  a point no farther than this from a facet is on the cage
+  //! \param tolerance  maximum distance from a facet for a point on the cage
   CageLocator(const Cage<Dim>& cage, double tolerance);
 
   Containment locate(const Vector<Dim>& point) const;
@@ -37,8 +37,8 @@ class CageLocator {
   double tolerance_ = 0;
 };
 
-//! From a point to an edge (2D) or a triangle (3D), which may be degenerate.
-//! \param corners  of the facet, a column each
+//! Distance from a point to an edge (2D) or a triangle (3D), which may be degenerate.
+//! \param corners  of the facet, one per column
 template <int Dim>
 double distance_to_facet(const Vector<Dim>& point, const Eigen::Matrix<double, Dim, Dim>& corners);
 template <>

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// A sum with a bound of the rounding errors that are in it.
+// A sum with a bound on its rounding error.
 struct Rounded {
   double value = 0;
   double magnitude = 0;  // sum of the absolute values of all terms
@@ -43,14 +43,14 @@ struct LongRounded {
     magnitude += other.magnitude;
     return *this;
   }
-  // However the terms were grouped, each took part in less than `count` additions.
+  // For any grouping, each term takes part in fewer than `count` additions.
   long double rounded_down(Index count) const {
     constexpr auto kLongEpsilon = std::numeric_limits<long double>::epsilon();
     return value - 2 * static_cast<long double>(count) * kLongEpsilon * magnitude;
   }
 };
 
-// The flux in double precision, shortened so that it obeys |p| <= phi A whatever it was.
+// The flux in double precision, shortened so that |p| <= phi A.
 template <class Scalar, int Dim>
 class AdmissibleFlux {
  public:
@@ -72,7 +72,7 @@ class AdmissibleFlux {
 
   // Adds p_s^i . grad(lambda).
   void add(Index s, const CellGeometry<Dim>& geometry, int corner, Index i, Rounded& sum) const {
-    // Shorter than allowed by a hair, so that rounding does not make it longer.
+    // Slightly shorter than the limit, so that rounding cannot make it longer.
     const double radius = (1 - 4 * kEpsilon) * problem_.phi(i, s) * geometry.measure;
     const Scalar* p = flux_.data + static_cast<std::size_t>(s) * Dim * flux_.stride + i;
     double length2 = 0, product = 0, magnitude = 0;
@@ -83,8 +83,8 @@ class AdmissibleFlux {
       product += term;
       magnitude += std::abs(term);
     }
-    // Squares below the range of numbers must not pass for zero; those above it, and what is no
-    // number, make the flux zero.
+    // Squares that underflow must not count as zero; squares that overflow, or NaN, make the flux
+    // zero.
     constexpr double kLeastRadius = 1e-140;
     if (!(length2 < std::numeric_limits<double>::infinity()) || !(radius > kLeastRadius)) return;
     const double factor = length2 > radius * radius ? radius / std::sqrt(length2) : 1;
@@ -123,7 +123,7 @@ double boundary_share(const LbcProblem<Dim>& problem, const AdmissibleFlux<Scala
   return share;
 }
 
-// D p(v), rounded down: weights >= 0 make of it no more than they would of the exact value.
+// D p(v), rounded down, so that its product with weights >= 0 does not exceed the exact value.
 template <class Scalar, int Dim>
 void vertex_costs(const AdmissibleFlux<Scalar, Dim>& flux, Index vertex, std::vector<Rounded>& sums,
                   Eigen::VectorXd& costs) {
@@ -151,7 +151,7 @@ void check_flux_and_weights(const LbcProblem<Dim>& problem, const CellFieldView<
 template <int Dim>
 WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   problem.boundary.impose_on(weights);
-  const StageScope silent({});  // the bound that follows tells how far it is
+  const StageScope silent({});  // progress is reported by the bound below
   project_non_negative(problem.cage.points, problem.mesh.points, weights,
                        problem.boundary.interior_vertices());
   return weights;
@@ -165,7 +165,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
   check_flux_and_weights(problem, flux, weights);
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
   LoopProgress progress(problem.mesh.num_vertices());
-  // In long double, so that the sum over vertices has next to no error.
+  // In long double, so that the sum over vertices has negligible error.
   const auto sum =
       parallel_sum(problem.mesh.num_vertices(), LongRounded{}, [&](Index begin, Index end) {
         VertexLinearProgram<Dim> program(problem.cage.points);
@@ -185,7 +185,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
         return block;
       });
   const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()));
-  // Every objective is at least 0, and numbers without meaning prove nothing more.
+  // Every objective is at least 0, and a non-finite bound proves nothing more.
   if (!(bound > 0) || !std::isfinite(bound)) return 0;
   return std::nextafter(bound, 0);
 }

@@ -21,7 +21,7 @@ template <int Dim>
 PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
                       int threads) {
   check_pose(weights.rows(), control_points.cols());
-  // A coordinate per column: the sums then run over contiguous numbers.
+  // One coordinate per column, so sums run over contiguous values.
   const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
   const Eigen::Index count = weights.cols();
   PointList<Dim> points(Dim, count);

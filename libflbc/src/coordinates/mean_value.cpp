@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The weight of c_i, before division by their sum, is the integral of phi_i(p) / |p - x| over all
-// directions from x, where p is what is seen of the cage in a direction and phi_i the barycentric
-// coordinate of p in its facet. The facets' shares are computed here.
+// directions from x, where p is the point of the cage in that direction, and phi_i the barycentric
+// coordinate of p in its facet. This file computes the contributions of facets.
 #include "flbc/mean_value.h"
 
 #include <algorithm>
@@ -22,8 +22,9 @@
 namespace flbc {
 namespace {
 
-constexpr double kOnCage = 1e-12;   // of the cage's size: a point that near is on it
-constexpr double kInPlane = 1e-18;  // of the cage's size: the facet is seen from its side
+constexpr double kOnCage = 1e-12;   // fraction of cage size within which a point is on the cage
+constexpr double kInPlane = 1e-18;  // fraction of cage size within which a point is in the facet
+                                    // plane
 
 template <int Dim>
 struct Facet;
@@ -34,8 +35,8 @@ struct Facet<2> {
 
   Facet(const Eigen::Matrix2d& facet_corners, double) : corners(facet_corners) {}
 
-  // tan(alpha / 2) / r at both ends, alpha the angle under which the edge is seen. Which of two
-  // expressions for the tangent is used depends on which is free of cancellation.
+  // tan(alpha / 2) / r at both ends, where alpha is the angle subtended by the edge. Of two
+  // expressions for the tangent, the one without cancellation is used.
   Vector<2> share(const Vector<2>& x) const {
     const Vector<2> to_a = corners.col(0) - x;
     const Vector<2> to_b = corners.col(1) - x;
@@ -48,18 +49,18 @@ struct Facet<2> {
   }
 };
 
-// In 3D the integral over directions becomes h times that of phi_i / r^4 over the triangle, h the
-// height of its plane over x. The integral of 1 / r^4 is `density`; what the slope of phi_i adds
-// comes from the triangle's edges by the divergence theorem. Unlike the formula with the
-// spherical triangle's angles this one keeps its accuracy where the triangle is seen from its side.
+// In 3D, the integral over directions equals h times the integral of phi_i / r^4 over the triangle,
+// where h is the distance of its plane from x. The integral of 1 / r^4 is `density`. The slope of
+// phi_i contributes edge terms by the divergence theorem. Unlike the formula with spherical angles,
+// this one stays accurate for points near the plane of the triangle.
 template <>
 struct Facet<3> {
   Eigen::Matrix3d corners;
   Eigen::Matrix3d along;    // unit vectors; edge k is opposite to corner k
-  Eigen::Matrix3d inwards;  // unit normals of the edges, in the plane, towards corner k
+  Eigen::Matrix3d inwards;  // unit normals of the edges, in the plane, toward corner k
   Vector<3> lengths;        // of the edges
   Vector<3> heights;        // of the corners over the edges
-  Vector<3> normal;         // unit, outwards
+  Vector<3> normal;         // unit, outward
   double in_plane;
 
   Facet(const Eigen::Matrix3d& facet_corners, double size)
@@ -73,13 +74,13 @@ struct Facet<3> {
     for (int k = 0; k < 3; ++k) inwards.col(k) = normal.cross(along.col(k));
   }
 
-  // An edge as seen from x, over whose plane x has its foot.
+  // Geometry of an edge relative to x and its foot point in the plane of the triangle.
   struct Edge {
-    double angle;     // under which it is seen
+    double angle;     // subtended angle
     double inverse;   // integral of 1 / r^2 along it
-    double inside;    // distance of the foot from the edge's line, positive inwards
-    double distance;  // of x from the edge's line
-    double from, to;  // where the edge begins and ends on its line, from the point next to x
+    double inside;    // distance of the foot point from the edge line, positive inward
+    double distance;  // of x from the edge line
+    double from, to;  // edge ends on its line, measured from the point nearest to x
   };
 
   Edge see_edge(int k, const Eigen::Matrix3d& to, double height) const {
@@ -105,8 +106,8 @@ struct Facet<3> {
       for (const Edge& e : edges) sum += e.inside / e.distance * e.angle;
       return sum / (2 * square);
     }
-    // The same with each angle less the one under which the foot of x sees the edge. Those add up
-    // to zero, and here nothing is small but through its factor height^2, which is divided out.
+    // The same with each angle reduced by the angle at the foot point of x. Those angles sum to
+    // zero, and every small term has the factor height^2, which cancels.
     double sum = 0;
     for (const Edge& e : edges) {
       const double off = std::abs(e.inside);
@@ -122,7 +123,8 @@ struct Facet<3> {
     return -sum / 2;
   }
 
-  // Is x so near to the plane, and its foot so far outside the triangle, that terms cancel?
+  // Whether terms cancel, because x is near the plane and its foot point is far outside the
+  // triangle.
   static bool is_seen_from_side(const std::array<Edge, 3>& edges, double height) {
     if (edges[0].inside >= 0 && edges[1].inside >= 0 && edges[2].inside >= 0) return false;
     for (const Edge& e : edges) {

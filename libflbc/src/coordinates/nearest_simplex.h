@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which of many segments or triangles is nearest to a point.
+//! Finds the nearest of many segments or triangles to a point.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace flbc {
 
-//! A binary tree of boxes round elements, halved at the median of their middles.
+//! A binary tree of boxes around elements, split at the median of their centers.
 template <int Dim>
 class BoxTree {
  public:
-  //! \param low, high  Dim x E, the corners of the elements' boxes
+  //! \param low, high  Dim x E, the corners of the boxes of the elements
   BoxTree(PointList<Dim> low, PointList<Dim> high)
       : low_(std::move(low)), high_(std::move(high)), order_(low_.cols()) {
     std::iota(order_.begin(), order_.end(), 0);
@@ -26,7 +26,7 @@ class BoxTree {
   }
 
   //! \param distance_to  of an element from the point: distance_to(element) -> double
-  //! \return the nearest element, of equally near ones that with the least number; -1 for none
+  //! \return the nearest element; ties go to the smallest index; -1 if there is none
   template <class DistanceTo>
   Index nearest(const Vector<Dim>& point, const DistanceTo& distance_to) const {
     Search<DistanceTo> search{*this, point, distance_to};
@@ -118,8 +118,8 @@ class NearestSimplex {
   NearestSimplex(const PointList<Dim>& points, const FacetList<K>& corners)
       : points_(points), corners_(corners), tree_(extreme(false), extreme(true)) {}
 
-  //! \param place  its weights are for the simplex's corners
-  //! \return the simplex, of equally near ones that with the least number
+  //! \param place  its weights refer to the corners of the simplex
+  //! \return the simplex; ties go to the smallest index
   Index operator()(const Vector<Dim>& point, HullPoint<Dim>& place) const {
     const Index simplex = tree_.nearest(
         point, [&](Index e) { return nearest_point_in_hull<Dim>(corners_of(e), point).distance; });

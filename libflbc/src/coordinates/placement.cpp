@@ -23,17 +23,16 @@
 namespace flbc {
 namespace {
 
-// The linear part of the affine map that fits displacements of control points in the sense of
-// least squares: the columns of G with sum_i G_i = 0 and sum_i c_i G_i^T = I that have the least
-// norm.
+// The linear part of the affine least-squares fit of control point displacements: the G of least
+// norm with sum_i G_i = 0 and sum_i c_i G_i^T = I.
 template <int Dim>
 struct AffineFit {
   std::vector<Index> control_points;
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients;  //!< G, a row per control point
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients;  //!< G, one row per control point
 };
 
-// Least extent of the control points, relative to their largest, squared: flatter ones would turn
-// small displacements across into large ones of what is far from their plane.
+// Minimum ratio of smallest to largest extent of the control points, squared. Flatter sets would
+// amplify small displacements far from their plane.
 constexpr double kLeastExtent = 0.04;
 
 template <int Dim>
@@ -51,12 +50,12 @@ bool surrounds(const PointList<Dim>& offsets) {
   return extents.minCoeff() > kLeastExtent * extents.maxCoeff();
 }
 
-// Fits with a control point and its neighbours on the cage, and theirs, and so on, until they
-// surround it well enough: where facets lie in one plane neighbours alone do not.
+// Fits a control point together with its neighbors on the cage. Neighbors of neighbors are added
+// until the set is not too flat, for example in coplanar facets.
 template <int Dim>
 class AffineFitter {
  public:
-  // \param cage  has passed validate(), outlives the fitter
+  // \param cage  valid; must outlive the fitter
   explicit AffineFitter(const Cage<Dim>& cage) : cage_(cage), neighbors_(cage.size()) {
     for (Index f = 0; f < cage.facets.cols(); ++f) {
       for (int j = 0; j < Dim; ++j) {
@@ -94,7 +93,7 @@ class AffineFitter {
   std::vector<std::vector<Index>> neighbors_;
 };
 
-constexpr double kRounding = 1e-12;  // of the cage's size: a point that near a cell is in it
+constexpr double kRounding = 1e-12;  // fraction of cage size within which a point is in a cell
 
 template <int Dim>
 Vector<Dim> place_on_cage(const Cage<Dim>& cage, const PointBeside<Dim>& beside) {
@@ -136,7 +135,7 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
       "model with flbc cage");
 }
 
-// Weights at placed points, one after the other.
+// Evaluates the weights of one placed point at a time.
 template <int Dim, class Weights>
 class WeightsAt {
  public:

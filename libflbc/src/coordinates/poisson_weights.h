@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Harmonic coordinates and least-squares recovery with a Poisson problem that is reused.
+//! Harmonic coordinates and least-squares recovery with a shared Poisson problem.
 #pragma once
 
 #include "flbc/lbc_problem.h"
@@ -9,19 +9,20 @@
 
 namespace flbc {
 
-//! harmonic_coordinates() of harmonic.h. \param poisson  of the problem's mesh
+//! harmonic_coordinates() of harmonic.h. \param poisson  on the mesh of the problem
 template <int Dim>
 WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem,
                                   const DirichletProblem<Dim>& poisson);
 
-//! integrate_least_squares() of recovery.h. \param poisson  of the problem's mesh
+//! integrate_least_squares() of recovery.h. \param poisson  on the mesh of the problem
 template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients,
                                      const DirichletProblem<Dim>& poisson);
 
-//! Projects interior columns on sum and reproduction (8): single precision gradients satisfy them
-//! to about 1e-7 only, and errors add up over many cells. Boundary columns are exact and stay.
+//! Projects interior columns onto partition of unity and reproduction (8). Single precision
+//! gradients satisfy them only to about 1e-7, and errors accumulate over many cells. Boundary
+//! columns are exact and unchanged.
 template <int Dim>
 void project_interior(const LbcProblem<Dim>& problem, WeightMatrix& weights) {
   const BarycentricConstraints<Dim> constraints(problem.cage.points);

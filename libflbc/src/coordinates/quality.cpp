@@ -17,7 +17,7 @@
 namespace flbc {
 namespace {
 
-// sum_s A_s f(s, |grad w|_s), where |grad w|_s has an entry per control point.
+// sum_s A_s f(s, |grad w|_s), where |grad w|_s has one entry per control point.
 template <int Dim, class Function>
 double integrate_gradient_lengths(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
                                   const Function& function) {
@@ -32,7 +32,7 @@ double integrate_gradient_lengths(const DomainMesh<Dim>& mesh, const WeightMatri
   });
 }
 
-// Gradients of the weights of a cell that are not zero there.
+// Gradients of the nonzero weights of a cell.
 template <int Dim>
 class SparseGradients {
  public:
@@ -40,7 +40,7 @@ class SparseGradients {
       : gradients_(GradientRows::Zero(num_control_points, Dim)),
         is_touched_(num_control_points, 0) {}
 
-  // Calls action(i, grad w_i) for the control points with a weight at a corner.
+  // Calls action(i, grad w_i) for the control points with a nonzero weight at a corner.
   template <class Action>
   void visit(const DomainMesh<Dim>& mesh, Index s, const CellGeometry<Dim>& geometry,
              const SparseWeights& weights, const Action& action) {
@@ -62,7 +62,7 @@ class SparseGradients {
 
  private:
   using GradientRows = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
-  GradientRows gradients_;        // zero but during a visit
+  GradientRows gradients_;        // zero except during a visit
   std::vector<char> is_touched_;  // by control point
   std::vector<Index> touched_;
 };

@@ -12,17 +12,18 @@
 
 namespace flbc {
 
-//! Threads for a deformation by so many weights. Waking others takes microseconds on cores at rest
-//! and milliseconds on busy ones, so they come in where one thread alone would take longer.
-//! \param wanted  at most so many; 0 = as many as OpenMP offers
+//! Number of threads for a deformation with the given number of weights. Starting threads takes
+//! microseconds on idle cores and milliseconds on busy ones, so they are used only if one thread
+//! would take longer.
+//! \param wanted  maximum number; 0 = as many as OpenMP offers
 inline int deform_threads(std::size_t num_weights, int wanted) {
   constexpr std::size_t kWorthThreads = 4'000'000;
   if (num_weights < kWorthThreads) return 1;
   return wanted > 0 ? wanted : omp_get_max_threads();
 }
 
-//! Control points whose coordinates are padded with zeros to an even number, so that a sum of them
-//! takes vector instructions. Coordinates add up in the order of the weights, as without.
+//! Control points with coordinates padded to an even number, for vector instructions. The order of
+//! summation is unchanged.
 template <int Dim>
 class PaddedPoints {
  public:
@@ -31,7 +32,7 @@ class PaddedPoints {
     points_.template topRows<Dim>() = points;
   }
 
-  //! \param of  the control points that the weights belong to
+  //! \param of  control points of the weights
   Vector<Dim> sum(const double* weights, const std::uint32_t* of, std::ptrdiff_t count) const {
     Eigen::Matrix<double, kRows, 1> sum = Eigen::Matrix<double, kRows, 1>::Zero();
     for (std::ptrdiff_t j = 0; j < count; ++j) sum += weights[j] * points_.col(of[j]);

@@ -22,7 +22,7 @@
 namespace flbc {
 namespace {
 
-// Takes the value if it is the first or larger; the first of equal ones stays.
+// Keeps the larger value; the first of equal values is kept.
 template <int Dim>
 void keep_larger(Extreme<Dim>& best, const Extreme<Dim>& other) {
   if (other.point >= 0 && (best.point < 0 || other.value > best.value)) best = other;
@@ -35,7 +35,7 @@ void keep_smaller(Extreme<Dim>& best, const Extreme<Dim>& other) {
 
 constexpr double kExtremumMargin = 1e-6;
 
-// Extrema found in a part of the mesh; parts are added up in the order of vertices.
+// Extrema found in a part of the mesh; parts are summed in the order of vertices.
 template <int Dim>
 struct Extrema {
   Eigen::Matrix<Index, Eigen::Dynamic, 1> minima, maxima;  // n
@@ -54,7 +54,7 @@ struct Extrema {
   }
 };
 
-// Each neighbour once, because cells share them.
+// Each neighbor once, because cells share them.
 template <int Dim>
 void collect_neighbours(const DomainMesh<Dim>& mesh, const VertexCells& around, Index vertex,
                         std::vector<Index>& neighbours) {
@@ -140,13 +140,13 @@ MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& dom
   return check;
 }
 
-constexpr double kCoincidence = 1e-10;  // of the cage size: a point that near is at the place
-constexpr double kRounding = 1e-12;     // a weight not more than this below 0 is not negative
+constexpr double kCoincidence = 1e-10;  // fraction of cage size within which points coincide
+constexpr double kRounding = 1e-12;     // tolerance for negative weights
 
-// Counts and extremes of weights; those of parts are added up in the order of points.
+// Counts and extremes of weights; parts are summed in the order of points.
 template <int Dim>
 struct WeightExtremes {
-  WeightCheck<Dim> check;  // of which these are a part
+  WeightCheck<Dim> check;  // check to which these extremes belong
   std::int64_t influences = 0, finite_points = 0;
 
   WeightExtremes& operator+=(const WeightExtremes& other) {
@@ -198,8 +198,8 @@ template <int Dim>
 struct KnownWeights {
   Index point;
   Eigen::Matrix<Index, Dim, 1> control_points;
-  Vector<Dim> values;          //!< of these; the others' are 0
-  Index coinciding_with = -1;  //!< the control point that lies there, if one does
+  Vector<Dim> values;          //!< their weights; all others are 0
+  Index coinciding_with = -1;  //!< the control point at this point; -1: none
 };
 
 template <int Dim>
@@ -250,8 +250,8 @@ std::vector<KnownWeights<Dim>> find_points_on_cage(const Cage<Dim>& cage,
   return known;
 }
 
-// The mesh may have been made by anyone: its boundary vertices are on the cage by topology and are
-// measured there even if rounding in a file has moved them a little.
+// The mesh may come from a file with rounded coordinates, so boundary vertices are identified by
+// topology and measured as points on the cage.
 template <int Dim>
 std::vector<KnownWeights<Dim>> to_known_weights(const BoundaryValues<Dim>& boundary) {
   std::vector<KnownWeights<Dim>> known;
@@ -340,7 +340,7 @@ std::vector<std::string> find_violations(const WeightCheck<Dim>& check) {
   }
   const auto add = [&](const Extreme<Dim>& error, const std::string& before,
                        const std::string& after) {
-    // An error that is no number is a violation, too.
+    // NaN is also a violation.
     if (error.point < 0 || error.value <= kCheckTolerance) return;
     violations.push_back(before + format_number(error.value) + after);
   };

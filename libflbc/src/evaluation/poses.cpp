@@ -10,10 +10,11 @@
 namespace flbc {
 namespace {
 
-// How far poses displace, relative to the cage's size.
+// Displacement of poses relative to cage size.
 constexpr double kDisplacement = 0.1;
 
-// Numbers in [-1, 1]. The standard's distributions differ between libraries, its engines do not.
+// Random numbers in [-1, 1]. Standard distributions differ between libraries; standard engines do
+// not.
 class Numbers {
  public:
   double next() { return 2 * (static_cast<double>(engine_()) / 4294967295.0) - 1; }

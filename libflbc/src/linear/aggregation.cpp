@@ -8,7 +8,7 @@
 namespace flbc {
 namespace {
 
-// Couplings weaker than that, relative to the diagonal, hold nothing together.
+// Weaker couplings, relative to the diagonal, do not form groups.
 constexpr double kStrong = 0.02;
 
 class StrongCouplings {
@@ -33,7 +33,7 @@ class StrongCouplings {
 
 constexpr Index kNone = -1;
 
-// Groups of an unknown and all that are coupled to it, as long as these are free.
+// Forms groups of an unknown and all unknowns coupled to it, if all are ungrouped.
 void found_groups(const StrongCouplings& couplings, std::vector<Index>& group, Index& num_groups) {
   for (Index row = 0; row < static_cast<Index>(group.size()); ++row) {
     bool free = group[row] == kNone;
@@ -81,7 +81,7 @@ RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
   join_groups(couplings, group);
   group_the_rest(couplings, group, num_groups);
   const Eigen::VectorXd diagonal = matrix.diagonal();
-  // Gershgorin's bound of the largest eigenvalue of D^-1 A.
+  // Gershgorin bound of the largest eigenvalue of D^-1 A.
   double largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
   for (Index row = 0; row < static_cast<Index>(matrix.rows()); ++row) {

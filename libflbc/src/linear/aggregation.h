@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Coarser unknowns for a matrix, by smoothed aggregation (Vanek, Mandel, Brezina 1996).
+//! Coarse unknowns of a matrix, by smoothed aggregation (Vanek, Mandel, Brezina 1996).
 #pragma once
 
 #include "linear/row_matrix.h"
@@ -8,7 +8,7 @@
 namespace flbc {
 
 //! P = (I - omega D^-1 A) P_0, where P_0 is 1 for the members of each group of unknowns that are
-//! strongly coupled: functions that are constant on groups, made smooth.
+//! strongly coupled: smoothed piecewise constant functions.
 //! \param matrix  A, symmetric, N x N \return N x groups
 RowMatrix smoothed_prolongation(const RowMatrix& matrix);
 

@@ -16,7 +16,7 @@ namespace flbc::dense {
 
 using PivotedQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 
-// One instantiation for all sizes, without memory from the heap.
+// One instantiation for all sizes, without heap allocation.
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
 
@@ -97,8 +97,8 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a) {
   return u * svd.matrixV().transpose();
 }
 
-// Two reflections: the first one takes one direction to the other, the second one leaves it there.
-// Where the directions are nearly opposite, any normal of the second will do.
+// Two reflections: the first maps one direction to the other, the second keeps it. If the
+// directions are nearly opposite, any normal of the second works.
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const auto reflection = [](const Eigen::Vector3d& normal) -> Eigen::Matrix3d {
     return Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
@@ -109,7 +109,7 @@ Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vecto
   Eigen::Vector3d across = a.cross(b);
   if (across.norm() < 1e-12) across = b.unitOrthogonal();
   across.normalize();
-  across -= across.dot(b) * b;  // the product of nearly parallel vectors has few digits
+  across -= across.dot(b) * b;  // cross products of nearly parallel vectors lose digits
   return reflection(across.normalized()) * reflection((a - b).normalized());
 }
 

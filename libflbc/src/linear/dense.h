@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Decompositions of small dense matrices. They stand behind functions because compiling them takes
-//! far longer than what uses them.
+//! Decompositions of small dense matrices. They are compiled separately, because they take long to
+//! compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ template <int N>
 Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
                                             const Eigen::Matrix<double, N, 1>& right_side);
 
-//! a^T b of matrices of few columns. N = 3, 4.
+//! a^T b of matrices with few columns. N = 3, 4.
 template <int N>
 Eigen::Matrix<double, N, N> gram(const Eigen::Matrix<double, Eigen::Dynamic, N>& a,
                                  const Eigen::Matrix<double, Eigen::Dynamic, N>& b);
@@ -22,12 +22,12 @@ Eigen::Matrix<double, N, N> gram(const Eigen::Matrix<double, Eigen::Dynamic, N>&
 template <int N>
 Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns);
 
-//! Orthonormal eigenvectors of a symmetric matrix, a column each. N = 2, 3.
+//! Orthonormal eigenvectors of a symmetric matrix, one per column. N = 2, 3.
 template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric);
 
-//! The x of least norm that minimises |a x - b|, for each column of b. \param threshold  pivots
-//! below this, relative to the largest, are taken for zero
+//! The x of least norm that minimizes |a x - b|, for each column of b. \param threshold  smaller
+//! pivots, relative to the largest, count as zero
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                               double threshold = 1e-15);
 
@@ -37,14 +37,14 @@ Eigen::VectorXd solve_normal_equations(const Eigen::MatrixXd& a, const Eigen::Ve
 //! An orthonormal basis of the span of independent columns.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 
-//! How far the columns are from depending on each other: the last pivot of an orthogonal
-//! decomposition, at most sqrt(columns) times the least singular value for few columns.
+//! A measure of linear independence of the columns: the last pivot of an orthogonal decomposition.
+//! For few columns it is at most sqrt(columns) times the smallest singular value.
 double least_pivot(const Eigen::MatrixXd& columns);
 
-//! The rotation R that maximises trace(R^T a).
+//! The rotation R that maximizes trace(R^T a).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a);
 
-//! The least rotation that turns one direction into another.
+//! The smallest rotation that maps one direction to another.
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace flbc::dense

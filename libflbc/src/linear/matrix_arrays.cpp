@@ -19,7 +19,7 @@ SweepArrays<Scalar>::SweepArrays(const RowMatrix& matrix)
   off_diagonal.values.resize(matrix.nonZeros() - num_rows);
 #pragma omp parallel for schedule(static)
   for (Index row = 0; row < num_rows; ++row) {
-    Index place = matrix.outerIndexPtr()[row] - row;  // every row before has a diagonal
+    Index place = matrix.outerIndexPtr()[row] - row;  // each previous row has a diagonal entry
     for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
       const auto column = static_cast<Index>(it.col());
       if (column == row) {

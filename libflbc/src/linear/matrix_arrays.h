@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Sparse matrices as the plain arrays that inner loops take.
+//! Sparse matrices as plain arrays for inner loops.
 #pragma once
 
 #include <vector>
@@ -24,11 +24,11 @@ struct MatrixArrays {
 template <class Scalar>
 struct SweepArrays {
   MatrixArrays<Scalar> off_diagonal;
-  std::vector<Index> upper;  //!< where the entries right of the diagonal begin in each row
+  std::vector<Index> upper;  //!< start of the entries right of the diagonal in each row
   std::vector<Scalar> inverse_diagonal;
 
   SweepArrays() = default;
-  //! \param matrix  with a diagonal without gaps
+  //! \param matrix  with a full diagonal
   explicit SweepArrays(const RowMatrix& matrix);
 };
 

@@ -9,10 +9,10 @@
 namespace flbc {
 namespace {
 
-// Small enough for a factor that costs next to nothing.
+// Small enough for a cheap factor.
 constexpr Index kCoarsest = 2000;
 
-// Columns into the order of the direct solver, which has its own.
+// Permutes columns to the order of the direct solver.
 RowMatrix with_columns_at(const RowMatrix& matrix, const std::vector<Index>& position) {
   std::vector<Index> rows(matrix.rows());
   std::iota(rows.begin(), rows.end(), 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! An approximate solver for sparse symmetric positive definite systems with many right-hand sides
-//! at once, in time and memory proportional to the size of the matrix: what a direct solver is for
-//! large meshes.
+//! at once, in time and memory proportional to the size of the matrix. It replaces the direct
+//! solver on large meshes.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@
 namespace flbc {
 
 //! One symmetric cycle B^-1 b of algebraic multigrid: a Gauss-Seidel sweep, the solution on coarser
-//! unknowns, the sweep in reverse. It is linear, and 0 < B^-1 A <= 1 in the energy norm: in place
-//! of an exact solve in a splitting method it keeps convergence.
+//! unknowns, the sweep in reverse. It is linear, and 0 < B^-1 A <= 1 in the energy norm, so a
+//! splitting method still converges if it replaces the exact solve.
 template <class Scalar>
 class Multigrid {
  public:
@@ -31,11 +31,11 @@ class Multigrid {
   Index size() const { return size_; }
 
   //! One cycle for the columns begin .. end - 1, multiples of 8, in the calling thread and in
-  //! place. Slices of several threads must not overlap. A column's result is the same, to the last
-  //! bit, whatever the slice. \param rows  size() rows of `stride` numbers, aligned to 64 bytes
+  //! place. Slices of several threads must not overlap. The result of a column is bit-identical for
+  //! any slice. \param rows  size() rows of `stride` values, aligned to 64 bytes
   void cycle_slice(Scalar* rows, std::size_t begin, std::size_t end);
 
-  //! Stored numbers of all matrices, relative to those of the given one.
+  //! Stored values of all matrices, relative to the given matrix.
   double operator_complexity() const { return complexity_; }
 
  private:
@@ -43,7 +43,7 @@ class Multigrid {
     SweepArrays<Scalar> matrix;
     MatrixArrays<Scalar> prolongation;
     Index coarse_size;
-    AlignedArray<Scalar> right_side;  // none on the finest level
+    AlignedArray<Scalar> right_side;  // empty on the finest level
     AlignedArray<Scalar> solution;
 
     LevelData(const RowMatrix& fine, const RowMatrix& to_fine);

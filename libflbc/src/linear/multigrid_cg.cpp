@@ -14,20 +14,20 @@ namespace {
 constexpr double kReduction = 1e-14;  // of the squared error, estimated as r . B^-1 r
 constexpr int kMostSteps = 200;
 
-// A thread's columns on their way. Every column has scalars of its own, and they are zero once it
-// has arrived: it stays as it is, whatever the others in its slice do.
+// The state of the columns of one thread. Each column has its own scalars, which are zero after
+// convergence, so the column no longer changes.
 struct ColumnSlice {
   const RowMatrix& matrix;
   Multigrid<double>& multigrid;
   std::size_t stride;
   Slice slice;
-  // Solution, residual, direction and its product.
+  // Solution, residual, direction, and its product.
   double* x;
   double* r;
   double* p;
   double* q;
 
-  // From the right-hand side in x to the solution there.
+  // Solves in place: x is the right-hand side, then the solution.
   void solve() {
     const std::size_t count = slice.end - slice.begin;
     std::vector<double> energy(count), first(count), step(count);
@@ -60,7 +60,7 @@ struct ColumnSlice {
     }
   }
 
-  // body(place of the number, column within the slice)
+  // body(position of the value, column within the slice)
   template <class Body>
   void for_numbers(const Body& body) const {
     for (Index row = 0; row < matrix.rows(); ++row) {

@@ -20,21 +20,20 @@ class MultigridCg {
   //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }
 
-  //! The row of every unknown: its own.
+  //! The row of every unknown: the identity.
   const std::vector<Index>& position() const { return position_; }
 
-  //! Solves for all columns, in place and in parallel, until the error of each has shrunk to about
-  //! 1e-7 of what it was with zero, in the energy norm. A column's result is the same, to the last
-  //! bit, for any number of threads. The hierarchy is made by the first solve, and kept; not for
-  //! several threads at a time.
-  //! \param rows  size() rows of `stride` numbers, aligned to 64 bytes
+  //! Solves for all columns, in place and in parallel, until the energy norm of each error is about
+  //! 1e-7 of its initial value at zero. The result is bit-identical for any number of threads. The
+  //! first solve builds the hierarchy; not thread-safe.
+  //! \param rows  size() rows of `stride` values, aligned to 64 bytes
   //! \param stride  a multiple of 8
   void solve(double* rows, std::size_t stride) const;
 
  private:
   RowMatrix matrix_;
   std::vector<Index> position_;
-  mutable std::optional<Multigrid<double>> multigrid_;  // of the stride that was solved for last
+  mutable std::optional<Multigrid<double>> multigrid_;  // for the last stride
   mutable std::size_t stride_ = 0;
 };
 

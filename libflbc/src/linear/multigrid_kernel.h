@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The inner loops of the multigrid cycle on plain arrays. The same source is compiled for several
-//! instruction sets; there is no Eigen here, whose inline functions could clash.
+//! instruction sets; it does not use Eigen, whose inline functions could clash.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +25,12 @@ struct Level {
   std::int32_t size;
   std::int32_t coarse_size;
   Rows<Scalar> off_diagonal;       // L + L^T
-  const std::int32_t* upper;       // where the entries right of the diagonal begin in each row
+  const std::int32_t* upper;       // start of the entries right of the diagonal in each row
   const Scalar* inverse_diagonal;  // D^-1
   Rows<Scalar> prolongation;       // size x coarse_size
 };
 
-//! Arrays of rows of `stride` numbers, of which the columns begin .. end - 1, multiples of 8, are
-//! worked on.
+//! Arrays of rows of `stride` values; the loops process columns begin .. end - 1, multiples of 8.
 template <class Scalar>
 struct Vectors {
   Scalar* right_side;
@@ -46,8 +45,8 @@ struct Kernel {
   using Sweep = void (*)(const Level<Scalar>&, const Vectors<Scalar>&);
   //! solution = (L + D)^-1 right_side, coarse = P^T (right_side - A solution).
   Sweep descend;
-  //! solution += P coarse, then a Gauss-Seidel sweep in the opposite order. The solution comes to
-  //! stand in place of right_side, too.
+  //! solution += P coarse, then a Gauss-Seidel sweep in the opposite order. The solution also
+  //! overwrites right_side.
   Sweep ascend;
 };
 

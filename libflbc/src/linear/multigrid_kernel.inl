@@ -22,7 +22,7 @@ inline PackN<Scalar, Lanes> subtract_row(const Rows<Scalar>& rows, std::int32_t 
   return sum;
 }
 
-// Calls a step for the columns of a slice, as many at a time as registers hold well.
+// Calls a step for the columns of a slice, in packs that fit the registers.
 template <class Scalar, class Step>
 inline void for_packs(const Vectors<Scalar>& vectors, Step step) {
   std::size_t i = vectors.begin;
@@ -40,7 +40,7 @@ void clear_coarse(const Level<Scalar>& level, const Vectors<Scalar>& vectors) {
   }
 }
 
-// A Gauss-Seidel sweep from zero: what is right of the diagonal has no part in it yet.
+// A Gauss-Seidel sweep from zero; entries right of the diagonal do not contribute yet.
 template <class Scalar>
 void smooth_forward(const Level<Scalar>& level, const Vectors<Scalar>& vectors) {
   const Rows<Scalar>& rows = level.off_diagonal;
@@ -55,7 +55,7 @@ void smooth_forward(const Level<Scalar>& level, const Vectors<Scalar>& vectors) 
   }
 }
 
-// After that sweep, the residual is what is right of the diagonal.
+// After that sweep, the residual consists of the entries right of the diagonal.
 template <class Scalar>
 void restrict_residual(const Level<Scalar>& level, const Vectors<Scalar>& vectors) {
   const Rows<Scalar>& rows = level.off_diagonal;

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kSliceUnit = 16;
 
-// Where the numbers of a panel are found in the factor.
+// Location of the values of a panel in the factor.
 struct PanelSource {
   const Supernode* supernode;
   Index offset;  // of its first column in the supernode
 };
 
 // Splits the supernodes into panels of about equal width.
-// \param rows  of all supernodes, which the panels refer to
+// \param rows  of all supernodes; referenced by the panels
 std::vector<PanelSource> split(const SparseFactor& factor, std::vector<panel::Panel>& panels,
                                std::vector<Index>& rows) {
   std::vector<PanelSource> sources;
@@ -43,7 +43,7 @@ std::vector<PanelSource> split(const SparseFactor& factor, std::vector<panel::Pa
   return sources;
 }
 
-// D^-1 and -B D^-1 in place of D and B, in the order in which the kernel reads them.
+// Stores D^-1 and -B D^-1 instead of D and B, in the order in which the kernel reads them.
 template <class Scalar>
 void copy_inverted(const PanelSource& source, const panel::Panel& panel, Scalar* entries) {
   using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The inner loops of the triangular solves on plain arrays. The same source is compiled for
-//! several instruction sets; nothing here may depend on headers whose inline functions could then
-//! clash, so there is no Eigen.
+//! several instruction sets; it must not use headers whose inline functions could clash, such as
+//! Eigen.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@
 
 namespace flbc::panel {
 
-//! Columns in a panel: with so many the rows of a panel stay in the nearest cache while it is used,
+//! Columns in a panel. With this number, the rows of a panel stay in the L1 cache while it is used,
 //! and most of a supernode is used once per 16 columns.
 constexpr int kMaxWidth = 16;
 
-//! A few neighbouring columns of the factor, inverted in themselves: D is their diagonal block and
-//! B what is below it, and stored are D^-1 and -B D^-1. Then both substitutions are nothing but
-//! products, with no division and no chain of results that wait for each other.
+//! A few neighboring columns of the factor, with diagonal block D and the block B below it. The
+//! stored values are D^-1 and -B D^-1. Both substitutions are then products, without divisions or
+//! sequential dependencies.
 struct Panel {
-  std::size_t entries;  //!< where its numbers begin: the lower triangle of D^-1, row by row without
-                        //!< what is above the diagonal, then -B D^-1, row by row
-  std::size_t below;    //!< where the list of the rows of B begins
+  std::size_t entries;  //!< start of its values: the lower triangle of D^-1 by rows, then -B D^-1
+                        //!< by rows
+  std::size_t below;    //!< start of the list of rows of B
   std::int32_t num_below;  //!< number of rows of B
   std::int32_t first;      //!< first column
   std::int32_t width;      //!< 1 .. kMaxWidth columns
@@ -38,7 +38,7 @@ struct Panels {
 };
 
 //! The loops for one instruction set: solve L Y = B and L^T X = Y in place, for the columns begin
-//! .. end - 1 (multiples of 8) of rows of `stride` numbers.
+//! .. end - 1 (multiples of 8) of rows of `stride` values.
 template <class Scalar>
 struct Kernel {
   using Sweep = void (*)(const Panels<Scalar>&, Scalar* rows, std::size_t stride, std::size_t begin,

@@ -3,14 +3,14 @@
 //! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
 //! compiled with the flags of that set (see libflbc/CMakeLists.txt).
 //!
-//! The operations on one column of the right-hand side do not depend on the columns beside it, nor
-//! on where the slice it belongs to begins.
+//! The operations on one column of the right-hand side do not depend on neighboring columns or on
+//! the start of its slice.
 #include "linear/panel_kernel.h"
 
 #include <utility>
 
-// Widths are known at compile time, so that sums can stay in registers. The sanitizers' checks of
-// every access would make of that more code than a compiler can digest.
+// Widths are known at compile time, so sums can stay in registers. With sanitizers this would
+// generate too much code for the compiler.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define FLBC_UNROLL _Pragma("GCC unroll 1")
 #else
@@ -32,14 +32,14 @@ constexpr int kAccumulators = 12;
 #endif
 constexpr int kRowBlock = 4;
 
-// A register's worth of a row. Rows are padded to 8 numbers and aligned no better.
+// One register of a row. Rows are padded and aligned to 8 values.
 template <class Scalar, int Bytes>
 struct RegisterOf {
   static constexpr int kAlignment = Bytes < 8 * int(sizeof(Scalar)) ? Bytes : 8 * sizeof(Scalar);
   using type [[gnu::vector_size(Bytes), gnu::aligned(kAlignment), gnu::may_alias]] = Scalar;
 };
 
-// Count registers side by side.
+// Count adjacent registers.
 template <class Scalar, int Bytes, int Count>
 struct Chunk {
   using Register = typename RegisterOf<Scalar, Bytes>::type;
@@ -136,7 +136,7 @@ template <class Piece, int Width, int Begin, int End, class Scalar>
   for (int k = Begin; k < End; ++k) sum[k - Begin].store(own + k * stride);
 }
 
-// As many unknowns at a time as there are registers for. A later part needs no y of an earlier one.
+// As many unknowns at a time as fit the registers. Later parts do not need y of earlier ones.
 template <class Piece, int Width, int Begin = 0, class Scalar>
 inline void backward_piece(const Scalar* entries, const std::int32_t* below, std::int32_t num_below,
                            Scalar* own, const Scalar* column, std::size_t stride) {
@@ -150,9 +150,9 @@ inline void backward_piece(const Scalar* entries, const std::int32_t* below, std
   }
 }
 
-// Applies a step to the columns begin .. end - 1 in pieces of two registers, one, or, where a
-// register holds more than 8 numbers, a half. Two at once in single precision only: double serves
-// set-up, and its copies would double the time this file takes to compile.
+// Applies a step to the columns begin .. end - 1 in pieces of two registers, one, or half a
+// register if it holds more than 8 values. Two registers are used only in single precision: double
+// is used only in setup, and its copies would double the compile time of this file.
 template <class Scalar, class Step>
 [[gnu::always_inline]] inline void for_pieces(std::size_t begin, std::size_t end, Step step) {
   using Single = Chunk<Scalar, kRegisterBytes, 1>;
@@ -190,7 +190,7 @@ void solve_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<S
   });
 }
 
-// The steps for every width, so that a panel's numbers stay in registers.
+// The steps for every width, so the values of a panel stay in registers.
 template <class Scalar>
 struct Steps {
   void (*of_width[kMaxWidth])(const Panels<Scalar>&, const Panel&, const Slice<Scalar>&);

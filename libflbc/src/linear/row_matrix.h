@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Sparse matrices by rows, put together by all threads.
+//! Sparse matrices by rows, assembled by all threads.
 #pragma once
 
 #include <omp.h>
@@ -17,12 +17,13 @@ namespace flbc {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
 
-//! One thread's row: sums by column.
+//! The row of one thread: sums by column.
 class RowSum {
  public:
   explicit RowSum(Index num_columns) : mark_(num_columns, -1), sum_(num_columns) {}
 
-  //! Begins a row. \param mark  no other row's \param columns  room for its columns, none to count
+  //! Begins a row. \param mark  unique per row \param columns  output for its columns, or null to
+  //! count
   void begin(Index mark, Index* columns) {
     now_ = mark;
     columns_ = columns;
@@ -51,15 +52,14 @@ class RowSum {
   Index count_ = 0;
 };
 
-//! Sums by row and column, the same for any number of threads.
-//! \param emit  (row, add): calls add(column, value) for the parts of a row, in an order that does
-//! not depend on anything else; is called twice for each row, by several threads, and must not
-//! throw
+//! Sums by row and column, bit-identical for any number of threads.
+//! \param emit  (row, add): calls add(column, value) for the parts of a row in a fixed order;
+//! called twice for each row, by several threads; must not throw
 template <class Emit>
 RowMatrix assemble_rows(Index num_rows, Index num_columns, const Emit& emit) {
-  constexpr Index kFewest = 1000;  // rows that are worth waking threads up
+  constexpr Index kFewest = 1000;  // minimum number of rows for several threads
   const int threads = num_rows < kFewest ? 1 : omp_get_max_threads();
-  // Memory is asked for outside the parallel loops, which must not throw.
+  // Memory is allocated outside the parallel loops, which must not throw.
   std::vector<RowSum> sums(threads, RowSum(num_columns));
   const auto sum_up = [&](Index row, Index mark, Index* columns) -> RowSum& {
     RowSum& sum = sums[omp_get_thread_num()];

@@ -23,14 +23,14 @@ namespace {
 
 #ifdef FLBC_WITH_CHOLMOD
 
-// CHOLMOD's workspace and, once there is one, its factor.
+// CHOLMOD workspace, and the factor after factorization.
 struct CholmodFactor {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
 
   CholmodFactor() {
     cholmod_start(&common);
-    common.print = 0;  // it would report failures on standard output
+    common.print = 0;  // otherwise CHOLMOD prints errors to standard output
     common.supernodal = CHOLMOD_SUPERNODAL;
     // Solves with a dozen or more right-hand sides are fast on narrower columns than CHOLMOD
     // assumes: merging supernodes less saves a tenth of their time.
@@ -46,7 +46,7 @@ struct CholmodFactor {
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 };
 
-// CHOLMOD reads the matrix where it is.
+// CHOLMOD reads the matrix without copying.
 cholmod_sparse view_lower_triangle(const Eigen::SparseMatrix<double>& matrix) {
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
@@ -103,20 +103,20 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
 
 using Factor = Eigen::SparseMatrix<double>;
 
-// A supernode while it grows: neighbouring columns, each the parent of the one before it in the
-// elimination tree, so that the rows of the last column and the columns themselves are all rows.
+// A growing supernode: neighboring columns, each the parent of the previous one in the elimination
+// tree. Its rows are the columns themselves and the rows of the last column.
 struct Run {
   Index first;
   Index width;
-  Index last_rows;       // number of rows of the last column, the diagonal included
-  std::int64_t entries;  // of the columns, without the zeros that storing them together adds
+  Index last_rows;       // number of rows of the last column, including the diagonal
+  std::int64_t entries;  // of the columns, without added zeros
 
   std::int64_t stored() const {
     return std::int64_t(width) * last_rows + std::int64_t(width) * (width - 1) / 2;
   }
 };
 
-// Zeros are worth storing where they make a block of columns wide enough for the registers.
+// Storing zeros pays if it makes a block of columns wide enough for the registers.
 bool is_worth_storing(const Run& run) {
   const double zeros = static_cast<double>(run.stored() - run.entries);
   const double allowed = run.width <= 4 ? 0.6 : run.width <= 16 ? 0.2 : 0.05;
@@ -146,7 +146,7 @@ struct SupernodeStorage {
   std::vector<double> values;
 };
 
-// Copies the columns of a run, zeros included.
+// Copies the columns of a run, including zeros.
 void append(const Factor& factor, const Run& run, SupernodeStorage& storage) {
   const std::size_t num_rows = run.last_rows + run.width - 1;
   const std::size_t begin = storage.rows.size();
@@ -169,7 +169,7 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky(matrix);
   if (cholesky.info() != Eigen::Success) fail(matrix.rows(), "not positive definite");
   const Factor& factor = cholesky.matrixL().nestedExpression();
-  // The test for a positive pivot lets numbers pass that are not a number.
+  // The test for a positive pivot accepts NaN.
   if (!factor.coeffs().isFinite().all()) fail(matrix.rows(), "not positive definite");
 
   SparseFactor result;
@@ -192,7 +192,7 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
 
 #endif
 
-// Not every BLAS notices numbers that are none, and goes on with them.
+// Some BLAS libraries do not detect NaN and continue.
 bool has_positive_diagonal(const SparseFactor& factor) {
   for (const Supernode& supernode : factor.supernodes) {
     for (Index k = 0; k < supernode.width; ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The global linear solve of the splitting methods: direct, or a multigrid cycle where a factor
-//! would cost more.
+//! The global linear solve of the splitting methods: direct, or a multigrid cycle if a factor would
+//! cost more.
 #pragma once
 
 #include <numeric>
@@ -31,7 +31,7 @@ class SpdSolver {
   //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }
 
-  //! The row of every unknown in the arrays handed to solve_slice().
+  //! The row of every unknown in the arrays of solve_slice().
   const std::vector<Index>& position() const { return position_; }
 
   //! Solves, or takes one cycle, for the columns begin .. end - 1, multiples of 8, in the calling

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Geometry of one cell: everything the finite-element parts of the library need.
+//! Geometry of one cell, for the finite-element parts of the library.
 #pragma once
 
 #include <algorithm>
@@ -39,15 +39,15 @@ CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
   return geometry;
 }
 
-//! How far a point is beyond the facets of a cell.
-//! \param coordinates  barycentric, of the point \param hat_gradients  of the cell
+//! Distance of a point outside the facets of a cell.
+//! \param coordinates  barycentric coordinates of the point \param hat_gradients  of the cell
 template <int Dim>
 double distance_beyond(const Vector<Dim + 1>& coordinates,
                        const Eigen::Matrix<double, Dim, Dim + 1>& hat_gradients) {
   double distance = 0;
   for (int k = 0; k <= Dim; ++k) {
     if (coordinates[k] >= 0) continue;
-    // Times the height over the facet, which is 1 / |gradient|.
+    // Multiplied by the height over the facet, which is 1 / |gradient|.
     distance = std::max(distance, -coordinates[k] / hat_gradients.col(k).norm());
   }
   return distance;
@@ -62,9 +62,9 @@ Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
   return measures;
 }
 
-//! The centroid of a simplex, be it a cell or a facet.
+//! The centroid of a cell or facet.
 //! \param points  Dim x V
-//! \param simplices  the corners of each, a column per simplex
+//! \param simplices  the corners of each, one simplex per column
 template <int Dim, class Simplices>
 Vector<Dim> centroid(const PointList<Dim>& points, const Simplices& simplices,
                      Eigen::Index simplex) {
@@ -73,7 +73,7 @@ Vector<Dim> centroid(const PointList<Dim>& points, const Simplices& simplices,
   return sum / static_cast<double>(simplices.rows());
 }
 
-//! All of them, a column per simplex. Parameters as above.
+//! All centroids, one simplex per column. Parameters as above.
 template <int Dim, class Simplices>
 PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplices) {
   PointList<Dim> result(Dim, simplices.cols());

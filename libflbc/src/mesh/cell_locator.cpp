@@ -30,7 +30,7 @@ struct CellLocator<Dim>::Grid {
     low = mesh.points.rowwise().minCoeff();
     const Vector<Dim> extent = mesh.points.rowwise().maxCoeff() - low;
     width = std::pow(extent.prod() / mesh.num_cells(), 1.0 / Dim);
-    // Boxes as small as the cells on average are too many where the domain is flat.
+    // Boxes of mean cell size would be too many if the domain is flat.
     const auto num_boxes = [&] { return ((extent / width).array() + 1).prod(); };
     while (num_boxes() > 8.0 * mesh.num_cells() + 64) width *= 2;
     count = (extent / width).template cast<Index>().array() + 1;

@@ -10,7 +10,7 @@
 namespace flbc {
 namespace {
 
-constexpr Index kBlock = 1024;  // points that are walked to in turn
+constexpr Index kBlock = 1024;  // points per walk
 
 template <int Dim>
 class Walk {
@@ -21,7 +21,7 @@ class Walk {
     for (Index s = 0; s < mesh.num_cells(); ++s) geometries_[s] = cell_geometry(mesh, s);
   }
 
-  //! \return cell -1 if the way ends at the boundary or is long
+  //! \return cell -1 if the walk ends at the boundary or is too long
   Location<Dim> go(const Vector<Dim>& point, Index cell) const {
     constexpr int kLongest = 100;
     constexpr double kRounding = 1e-12;
@@ -40,7 +40,7 @@ class Walk {
   }
 
  private:
-  // The neighbour behind the facet that the point is farthest beyond.
+  // The neighbor across the facet that the point violates most.
   Index beyond(const Location<Dim>& place) const {
     Index next = -1;
     double farthest = 0;
@@ -83,7 +83,7 @@ std::vector<Location<Dim>> walk_to_points(const DomainMesh<Dim>& mesh,
       complete = complete && cell >= 0;
     }
   }
-  if (!complete) places = locate_points(mesh, points);  // tells which are outside
+  if (!complete) places = locate_points(mesh, points);  // throws, naming points outside
   for (auto& place : places) {
     place.coordinates = place.coordinates.cwiseMax(0);
     place.coordinates /= place.coordinates.sum();

@@ -39,7 +39,7 @@ void check_numbers(const DomainMesh<Dim>& mesh) {
   }
 }
 
-// Whether gradients on the cell are rounding errors.
+// Whether the cell is so flat that its gradients are rounding errors.
 template <int Dim>
 bool is_degenerate(const DomainMesh<Dim>& mesh, Index cell, double measure) {
   const double longest2 = cell_edges(mesh, cell).colwise().squaredNorm().maxCoeff();
@@ -82,7 +82,7 @@ bool is_above(const DomainMesh<Dim>& mesh, const Eigen::Matrix<Index, Dim, 1>& f
   return edges.determinant() > 0;
 }
 
-// Cells on the same side of their common facet lie on top of each other.
+// Cells on the same side of their common facet overlap.
 template <int Dim>
 void check_unfolded(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
   const auto opposite = [&](Index facet, Index cell) {
@@ -104,8 +104,8 @@ void check_unfolded(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topolo
                    format_point(mesh.points.col(topology.facets(0, bad))));
 }
 
-// Cells that meet in a vertex must be connected through facets, near it or elsewhere: otherwise two
-// parts only touch there.
+// Cells that share a vertex must be connected through facets somewhere; otherwise two parts touch
+// only at the vertex.
 template <int Dim>
 void check_no_touching(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
   UnionFind parts(mesh.num_cells());

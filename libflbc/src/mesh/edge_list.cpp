@@ -14,11 +14,11 @@
 namespace flbc {
 namespace {
 
-// Edges shorter than this part of the mean length weigh as if they were as long: points that nearly
-// coincide must not count for more than all others together.
+// Edges shorter than this fraction of the mean length get the weight of that length. Otherwise
+// nearly coincident points would dominate.
 constexpr double kShortest = 1e-3;
 
-// Collects what the cells give their edges.
+// Sums the contributions of cells to their edges.
 template <int Dim>
 class ShareCollector {
  public:

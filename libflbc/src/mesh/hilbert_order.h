@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order along the Hilbert curve: what is close in space comes to be close in memory.
+// Order along the Hilbert curve, so that neighbors in space are close in memory.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,14 @@
 
 namespace flbc {
 
-//! Place of a grid cell on the Hilbert curve that fills a grid of 2^levels cells along each axis.
+//! Position of a grid cell on the Hilbert curve that fills a grid of 2^levels cells along each
+//! axis.
 //! \param cell  Dim numbers below 2^levels; Dim * levels <= 63
 template <int Dim>
 std::uint64_t hilbert_index(const std::uint32_t (&cell)[Dim], int levels);
 
-//! A permutation of 0 .. #points-1 along the Hilbert curve through the points' bounding box; points
-//! in one cell of its grid keep their order.
+//! A permutation of 0 .. #points-1 along the Hilbert curve through the bounding box; points in the
+//! same grid cell keep their order.
 template <int Dim>
 std::vector<Index> spatial_order(const PointList<Dim>& points);
 

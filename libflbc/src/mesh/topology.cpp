@@ -16,14 +16,14 @@
 namespace flbc {
 namespace {
 
-// A slot is a facet as a cell has it: (Dim + 1) cell + the corner opposite to the facet.
+// A slot is a facet of a cell: (Dim + 1) * cell + the corner opposite to the facet.
 template <int Dim>
 Index slot_of(Index cell, Index corner) {
   return (Dim + 1) * cell + corner;
 }
 
-// A slot beside the facet's vertices but for the smallest, sorted: the key by which both slots of
-// a facet find each other among those that have the smallest vertex in common.
+// A slot with the sorted facet vertices except the smallest. This key matches the two slots of a
+// facet among all slots with the same smallest vertex.
 template <int Dim>
 struct KeyedSlot {
   std::array<Index, Dim - 1> key;
@@ -47,7 +47,7 @@ template <int Dim>
 VertexItems<Index> slots_by_smallest_vertex(const DomainMesh<Dim>& mesh) {
   return items_by_vertex<Index>(mesh.num_vertices(), [&](const auto& visit) {
     for (Index s = 0; s < mesh.num_cells(); ++s) {
-      // All facets but the one opposite to it have the cell's smallest vertex.
+      // All facets except the opposite one contain the smallest vertex of the cell.
       Index smallest = 0;
       for (Index k = 1; k <= Dim; ++k) {
         if (mesh.cells(k, s) < mesh.cells(smallest, s)) smallest = k;
@@ -92,7 +92,7 @@ bool pair_up(const SlotRange<Dim>& slots, std::vector<Index>& twin) {
   return true;
 }
 
-// The other slot of every slot's facet, -1 on the boundary.
+// For every slot, the other slot of its facet; -1 on the boundary.
 template <int Dim>
 std::vector<Index> twins(const DomainMesh<Dim>& mesh) {
   auto slots = slots_by_smallest_vertex(mesh);
@@ -125,8 +125,8 @@ MeshTopology<Dim> build_topology(const DomainMesh<Dim>& mesh) {
   topology.facets.resize(Dim, (num_slots + num_boundary) / 2);
   topology.sides.resize(2, topology.facets.cols());
   topology.cell_facets.resize(Dim + 1, mesh.num_cells());
-  // Facets are numbered in the order of the cells that first meet them, so that a sweep over facets
-  // touches cells in memory order.
+  // Facets are numbered by first occurrence in the cells, so a sweep over facets reads cells in
+  // memory order.
   Index next = 0;
   for (Index slot = 0; slot < num_slots; ++slot) {
     const Index cell = slot / (Dim + 1);

@@ -11,7 +11,7 @@
 
 namespace flbc {
 
-//! Items that belong to vertices, in one array. \tparam Offset  counts all items
+//! Items of vertices, in one array. \tparam Offset  counts all items
 template <class Item, class Offset = Index>
 struct VertexItems {
   std::vector<Offset> start;  //!< V + 1
@@ -28,8 +28,8 @@ struct VertexItems {
   }
 };
 
-//! Sorts items by vertex, otherwise in their order. \param for_each  calls what it is given with
-//! every vertex and item; is called twice, to count and to store
+//! Groups items by vertex in a stable order. \param for_each  calls its argument with every vertex
+//! and item; called twice, to count and to store
 template <class Item, class Offset = Index, class ForEach>
 VertexItems<Item, Offset> items_by_vertex(std::size_t num_vertices, const ForEach& for_each) {
   VertexItems<Item, Offset> sorted{std::vector<Offset>(num_vertices + 1, 0), {}};
@@ -55,7 +55,7 @@ class VertexCells {
 
   VertexItems<Index>::Range cells_of(Index vertex) const { return around_.of(vertex); }
 
-  //! The same as plain arrays: where the cells of each vertex begin, V + 1, and the cells.
+  //! The same as plain arrays: V + 1 offsets, and the cells.
   const Index* starts() const { return around_.start.data(); }
   const Index* cells() const { return around_.items.data(); }
 

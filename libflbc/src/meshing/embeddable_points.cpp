@@ -14,13 +14,12 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   const double tolerance = kPointTolerance * bounding_box_diagonal<Dim>(cage.points);
   const auto num_points = static_cast<Index>(points.cols());
   const CageLocator<Dim> locator(cage, tolerance);
-  std::vector<char> is_inside(std::size_t(num_points), 0);  // written at the same time
+  std::vector<char> is_inside(std::size_t(num_points), 0);  // written concurrently
 #pragma omp parallel for schedule(static)
   for (Index p = 0; p < num_points; ++p) {
     is_inside[p] = locator.locate(points.col(p)) == Containment::kInside;
   }
-  // Of a heap of points each is paired with one before it, so that the first of them stands for
-  // all.
+  // Each coincident point is paired with an earlier one, so the first one represents all.
   std::vector<Index> same(std::size_t(num_points), -1);
   for (const auto& [first, second] :
        find_close_pairs<Dim>(points, tolerance, std::size_t(num_points))) {
@@ -34,7 +33,7 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   for (Index p = 0; p < num_points; ++p) {
     if (!is_inside[p]) continue;
     if (same[p] >= 0) {
-      result.number[p] = result.number[same[p]];  // none if that one is on the cage
+      result.number[p] = result.number[same[p]];  // -1 if that one is on the cage
       continue;
     }
     result.points.col(count) = points.col(p);

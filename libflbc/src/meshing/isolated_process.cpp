@@ -38,8 +38,8 @@ using Clock = std::chrono::steady_clock;
 // ---------------------------------------------------------------------------------- in the child
 
 // A child forked from a process with several threads may use the heap and stdio, because the C
-// library resets their locks in fork(); but it must not run the parent's exit handlers or signal
-// handlers, nor flush the output that the parent has buffered.
+// library resets their locks in fork(); but it must not run exit handlers or signal handlers of the
+// parent, or flush its buffered output.
 void detach_from_parent() {
   for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP}) {
     std::signal(signal, SIG_DFL);
@@ -52,7 +52,7 @@ void detach_from_parent() {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
 #ifdef __linux__
-  prctl(PR_SET_DUMPABLE, 0);         // core handlers that are programs ignore the limit
+  prctl(PR_SET_DUMPABLE, 0);         // core handler programs ignore the limit
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan if the parent is killed
 #endif
 
@@ -88,12 +88,12 @@ void write_all(int descriptor, const void* data, std::size_t size) {
 
 // --------------------------------------------------------------------------------- in the parent
 
-// The child and the pipe from it, released on every way out.
+// The child process and its pipe, with RAII cleanup.
 class Child {
  public:
   explicit Child(const std::function<void(const ByteSink&)>& work) {
-    // A child started by another thread between pipe and close would inherit the writing end and
-    // keep the pipe open for as long as it lives.
+    // Otherwise a child started concurrently by another thread would inherit the write end and keep
+    // the pipe open.
     static std::mutex start_mutex;
     const std::lock_guard<std::mutex> lock(start_mutex);
     int ends[2];
@@ -125,7 +125,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  //! Reads until the child closes the pipe. \return false if the deadline came first
+  //! Reads until the child closes the pipe. \return false if the deadline passed first
   bool read_all(std::vector<char>& output, Clock::time_point deadline) {
     std::vector<char> buffer(std::size_t{1} << 16);
     while (true) {
@@ -163,7 +163,7 @@ class Child {
 }  // namespace
 
 ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit) {
-  constexpr double kLongest = 1e8;  // three years, far below the clock's range
+  constexpr double kLongest = 1e8;  // three years, far below the range of the clock
   const std::chrono::duration<double> limit(std::min(time_limit, kLongest));
   const Clock::time_point deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);

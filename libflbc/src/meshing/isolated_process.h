@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs code that may crash or hang in a process of its own.
+// Runs code that may crash or hang in a separate process.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@
 
 namespace flbc {
 
-//! Writes bytes from the child to the parent. It does not return if the parent has gone.
+//! Writes bytes from the child to the parent. It does not return if the parent has exited.
 using ByteSink = std::function<void(const void* data, std::size_t size)>;
 
 enum class ProcessEnd {
   kFinished,  //!< `work` returned
   kThrew,     //!< `work` threw an exception
   kCrashed,   //!< a signal ended the process
-  kTimedOut   //!< it was stopped at the time limit
+  kTimedOut   //!< the process reached the time limit
 };
 
 struct ProcessOutcome {
   ProcessEnd end = ProcessEnd::kFinished;
   int signal = 0;            //!< for kCrashed
-  std::vector<char> output;  //!< what came through the sink, perhaps incomplete unless kFinished
+  std::vector<char> output;  //!< output of the sink; may be incomplete unless kFinished
 };
 
-//! Takes apart what came through a sink, in the order in which it was written.
+//! Parses the output of a sink, in the order in which it was written.
 class ByteSource {
  public:
-  //! \param bytes  outlive this \param refuse  is called where they end early, and must throw
+  //! \param bytes  must outlive the reader \param refuse  called if the data end early; must throw
   ByteSource(const std::vector<char>& bytes, std::function<void()> refuse)
       : bytes_(bytes), refuse_(std::move(refuse)) {}
 
@@ -49,10 +49,10 @@ class ByteSource {
   std::size_t position_ = 0;
 };
 
-//! Runs `work` in a forked child that sees the parent's memory as it is now and changes nothing in
-//! it. What it prints is discarded, and it dumps no core. No process and no file descriptor is left
-//! behind, whatever happens. \param time_limit  in seconds, > 0 \throws Error if the system refuses
-//! a process or a pipe, std::bad_alloc if `work` did
+//! Runs `work` in a forked child with a copy of the memory of the parent. Its output is discarded,
+//! and it dumps no core. No process or file descriptor is leaked. \param time_limit  in seconds, >
+//! 0 \throws Error if the system cannot create a process or pipe; std::bad_alloc if `work` throws
+//! it
 ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit);
 
 //! "signal 11 (Segmentation fault)".

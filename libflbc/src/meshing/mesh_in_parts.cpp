@@ -17,7 +17,7 @@
 namespace flbc {
 namespace {
 
-// Per part, the numbers of the points in it, ascending.
+// Per part, the indices of the points in it, ascending.
 template <int Dim>
 std::vector<std::vector<Index>> points_in(const std::vector<CagePart<Dim>>& parts,
                                           const PointList<Dim>& points) {
@@ -39,7 +39,7 @@ std::vector<std::vector<Index>> points_in(const std::vector<CagePart<Dim>>& part
   return inside;
 }
 
-// By their areas or volumes; 0 stays 0.
+// Proportional to area or volume; 0 stays 0.
 template <int Dim>
 std::vector<Index> share_vertices(Index vertices, const std::vector<CagePart<Dim>>& parts) {
   std::vector<double> measures;
@@ -76,14 +76,14 @@ DomainMesh<Dim> mesh_in_parts(const Cage<Dim>& cage, const MeshingOptions<Dim>& 
   if (parts.size() == 1) return mesher(cage, options);
   const auto embedded = points_in(parts, options.embedded_points);
   const auto vertices = share_vertices(options.vertices, parts);
-  Index next = cage.size() + static_cast<Index>(options.embedded_points.cols());  // free number
+  Index next = cage.size() + static_cast<Index>(options.embedded_points.cols());  // next free index
   std::vector<MeshPart<Dim>> meshes;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     auto of_part = options;
     of_part.vertices = vertices[p];
     of_part.embedded_points = options.embedded_points(Eigen::all, embedded[p]);
     auto mesh = mesh_part(p, parts.size(), parts[p], of_part, mesher);
-    // In the whole: of control points, embedded points, then others.
+    // Indices in the whole mesh: control points, embedded points, then others.
     auto numbers = parts[p].control_points;
     for (const Index i : embedded[p]) numbers.push_back(cage.size() + i);
     while (static_cast<Index>(numbers.size()) < mesh.num_vertices()) numbers.push_back(next++);

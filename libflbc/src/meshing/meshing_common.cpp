@@ -53,7 +53,7 @@ void check_location(const Cage<Dim>& cage, const PointList<Dim>& embedded, doubl
   }
 }
 
-// In 3D no mesher tells points and facets apart that are nearer; they would try for minutes.
+// 3D meshers cannot separate closer points and facets, and would run for minutes.
 void check_thickness(const Cage<3>& cage) {
   const auto place = thinnest_place(cage);
   const double part = place.distance / bounding_box_diagonal<3>(cage.points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of both meshers before and after the foreign library's work.
+// Common steps of meshers before and after the external library.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace flbc {
 
-//! Points closer than this part of the cage's size are one point for TetGen too.
+//! TetGen also merges points closer than this fraction of cage size.
 constexpr double kPointTolerance = 1e-8;
 
 //! The control points followed by the points to embed.
@@ -23,15 +23,15 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
 //! the relative `tolerance`
 void check_vertex_count(Index wanted, Index minimum, double tolerance);
 
-//! What a mesher in a process of its own did instead of a mesh: "gave up", "crashed with ...", "was
-//! stopped at the time limit of 60 s (--mesh-timeout)". \return empty if it finished
+//! Describes the failure of a mesher process: "gave up", "crashed with ...", "was stopped at the
+//! time limit of 60 s (--mesh-timeout)". \return empty if it finished
 std::string describe_failure(const ProcessOutcome& outcome, double time_limit);
 
-//! Sum of the cells' areas or volumes.
+//! Sum of the areas or volumes of the cells.
 template <int Dim>
 double total_measure(const DomainMesh<Dim>& mesh);
 
-//! Checks the mesh and orders what is not input along a space-filling curve.
+//! Validates the mesh and orders its new vertices and its cells along a space-filling curve.
 template <int Dim>
 void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points);
 

@@ -18,7 +18,7 @@ namespace {
 using Triangle = std::array<Index, 3>;
 using Edge = std::pair<Index, Index>;
 
-// A surface on its way.
+// A surface during subdivision.
 class Subdivision {
  public:
   explicit Subdivision(const Cage<3>& cage) {
@@ -28,7 +28,7 @@ class Subdivision {
     }
   }
 
-  //! Divides every triangle with a longer edge at its longest one. \return whether there was any
+  //! Bisects every triangle with a longer edge at its longest edge. \return whether there was any
   bool divide_long_edges(double longest) {
     middles_.clear();
     for (const Triangle& triangle : triangles_) {
@@ -77,7 +77,7 @@ class Subdivision {
     return longest;
   }
 
-  // Longest edges first: angles then stay above half of the smallest one given.
+  // Longest edges first, so angles stay above half of the smallest input angle.
   void divide(const Triangle& triangle, std::vector<Triangle>& parts) const {
     int side = -1;
     for (int k = 0; k < 3; ++k) {
@@ -96,7 +96,7 @@ class Subdivision {
 
   std::vector<Vector<3>> points_;
   std::vector<Triangle> triangles_;
-  std::map<Edge, Index> middles_;  // of the edges that are divided
+  std::map<Edge, Index> middles_;  // midpoints of divided edges
 };
 
 }  // namespace

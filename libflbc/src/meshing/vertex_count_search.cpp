@@ -12,7 +12,7 @@ namespace flbc {
 
 namespace {
 
-// Width of a bracket in the logarithm of the bound: 1 %.
+// Width of a bracket in the logarithm of the bound: 1%.
 constexpr double kNarrow = 0.01;
 
 struct Sample {
@@ -41,8 +41,8 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim>
 
     (sample.log_count > wanted ? too_fine : too_coarse) = log_bound;
     if (run > 0 && sample.log_bound != last.log_bound) {
-      // Counts are noisy and level off towards the coarsest mesh: a secant much off the known rate
-      // would overshoot.
+      // Counts are noisy and level off toward the coarsest mesh, so a secant far from the known
+      // rate would overshoot.
       const double secant =
           (sample.log_count - last.log_count) / (sample.log_bound - last.log_bound);
       slope = std::clamp(secant, -2 * exponent, -exponent / 8);

@@ -11,9 +11,9 @@ namespace {
 
 // Feasibility tolerance on partition of unity and reproduction.
 constexpr double kFeasible = 1e-8;
-// Weights up to this count as 0.
+// Smaller weights count as 0.
 constexpr double kNegligible = 1e-12;
-// Slopes that rounding explains.
+// Smaller slopes are rounding errors.
 constexpr double kFlat = 1e-10;
 
 template <class List>
@@ -49,18 +49,18 @@ double ActiveSetQp<Dim>::cost_of(const PointWeights& weights) const {
 template <int Dim>
 bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
                              PointWeights& weights) {
-  // Without w >= 0 the cost is least, which bounds it from below.
+  // The minimum without w >= 0 is a lower bound of the cost.
   if (!free_.minimize(support) || free_.cost() >= bound) return false;
   if (!start_without_negative(support)) {
-    // As many control points as there are sums leave no choice.
+    // With as many control points as constraints there is no choice.
     if (support.size() <= Dim + 1 || !start_in_hull(support)) return false;
   }
   if (!left_.empty()) descend_to_minimum();
   return finish(weights);
 }
 
-// The quickest way to feasible weights: the most negative one of the free minimum leaves, until
-// none is left. It may miss them.
+// Fast search for feasible weights: repeatedly removes the most negative weight of the free
+// minimum. It may fail.
 template <int Dim>
 bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support) {
   members_ = support;
@@ -76,7 +76,8 @@ bool ActiveSetQp<Dim>::start_without_negative(const std::vector<Index>& support)
   }
 }
 
-// A way that never misses them: Caratheodory's few control points around the point.
+// Reliable search for feasible weights: the few control points around the point by Caratheodory's
+// theorem.
 template <int Dim>
 bool ActiveSetQp<Dim>::start_in_hull(const std::vector<Index>& support) {
   const PointList<Dim> carriers = control_points_(Eigen::all, support);
@@ -103,11 +104,11 @@ void ActiveSetQp<Dim>::descend(PointWeights& weights, Index newcomer) {
   if (finish(lower_) && lower_.cost < weights.cost) std::swap(weights, lower_);
 }
 
-// Towards the free minimum; the control point whose weight reaches zero on the way leaves, and at
-// the minimum those come back whose weights would grow.
+// Moves toward the free minimum. A control point whose weight reaches zero is removed; at the
+// minimum, control points whose weights would grow return.
 template <int Dim>
 void ActiveSetQp<Dim>::descend_to_minimum() {
-  // Far more rounds than it takes: with rounding it might turn in circles.
+  // Far more iterations than needed, because rounding might cause cycles.
   const std::size_t rounds = 4 * (members_.size() + left_.size()) + 8;
   for (std::size_t round = 0; round < rounds; ++round) {
     if (!free_.minimize(members_)) return;
@@ -132,7 +133,7 @@ void ActiveSetQp<Dim>::enter(Index control_point, double weight) {
   members_.insert(place, control_point);
 }
 
-// \return who reached zero first, or the number of members
+// \return the member that reached zero first, or the number of members
 template <int Dim>
 std::size_t ActiveSetQp<Dim>::step_to_free_minimum() {
   const auto& wanted = free_.weights();
@@ -152,7 +153,7 @@ std::size_t ActiveSetQp<Dim>::step_to_free_minimum() {
   return first;
 }
 
-// \return whose weight would grow most, of those who left, or their number
+// \return the removed control point whose weight would grow most, or their number
 template <int Dim>
 std::size_t ActiveSetQp<Dim>::most_wanted() const {
   double steepest = -kFlat;
@@ -182,7 +183,7 @@ bool ActiveSetQp<Dim>::is_feasible() const {
   return sums.norm() <= kFeasible;
 }
 
-// \return false if the members' weights are not feasible
+// \return false if the weights of the members are not feasible
 template <int Dim>
 bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
   if (!is_feasible()) return false;

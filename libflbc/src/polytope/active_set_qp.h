@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The active-set quadratic program of one point's weights: the nearest ones on few control points.
+//! Active-set quadratic program for the weights of one point: the nearest weights on few control
+//! points.
 #pragma once
 
 #include <vector>
@@ -10,17 +11,17 @@
 
 namespace flbc {
 
-//! The weights of one point that are not 0, and their cost.
+//! The nonzero weights of one point, and their cost.
 struct PointWeights {
   std::vector<Index> support{};  //!< ascending
   std::vector<double> values{};  //!< > 0, in the order of the support
   double cost = 0;               //!< (w - t) . H (w - t) - t . H t
 };
 
-//! Minimises (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
+//! Minimizes (w - t) . H (w - t) over w >= 0 with sum w = 1 and sum w c = x, for one point x and
 //! target t at a time, on supports of few control points, by a primal active set method (Nocedal
-//! and Wright, "Numerical Optimization", 16.5). Works to about 1e-8: results are to be polished.
-//! Keeps its buffers: one per thread.
+//! and Wright, "Numerical Optimization", 16.5). Accurate to about 1e-8; callers must polish the
+//! result. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class ActiveSetQp {
  public:
@@ -31,36 +32,36 @@ class ActiveSetQp {
 
   const Metric& metric() const { return free_.metric(); }
 
-  //! From here on for this point.
-  //! \return H t, n, to be filled in
+  //! Sets the current point.
+  //! \return H t, n, to be filled by the caller
   Eigen::VectorXd& aim_at(const Vector<Dim>& point);
 
-  //! (w - t) . H (w - t) - t . H t, whatever weights.cost says.
+  //! (w - t) . H (w - t) - t . H t, independent of weights.cost.
   double cost_of(const PointWeights& weights) const;
 
   //! The nearest weights on the support.
-  //! \return false if x is not in the hull of the support, or if surely none cost less than `bound`
+  //! \return false if x is not in the hull of the support, or if no weights cost less than `bound`
   bool solve(const std::vector<Index>& support, double bound, PointWeights& weights);
 
-  //! Goes from feasible weights to the nearest ones on their support, to which a newcomer is added
-  //! if it is >= 0. The cost never rises.
+  //! Moves from feasible weights to the nearest ones on their support, plus control point
+  //! `newcomer` if it is >= 0. The cost never increases.
   void descend(PointWeights& weights, Index newcomer = -1);
 
-  //! Half the derivative of the cost by each weight, less the forces of sum and reproduction:
-  //! negative where a weight would like to grow.
-  //! \param weights  as found by solve() or descend()
+  //! Half the derivative of the cost with respect to each weight, minus the multipliers of sum and
+  //! reproduction. Negative if the cost decreases as the weight grows.
+  //! \param weights  from solve() or descend()
   //! \return n, zeros if rounding hides them
   const Eigen::VectorXd& slopes(const PointWeights& weights);
 
-  //! By how much the cost falls when a control point enters, all weights being free to become
-  //! negative. After slopes().
+  //! Decrease of the cost if a control point enters and weights may become negative. Call after
+  //! slopes().
   double gain(Index newcomer) {
     return slopes_[newcomer] * slopes_[newcomer] / free_.curvature(newcomer);
   }
 
-  //! By how much the cost rises at least when an influence goes; exactly, if all others then stay
+  //! Lower bound on the increase of the cost if an influence is removed; exact if all others stay
   //! positive.
-  //! \param weights  as found by solve() or descend()
+  //! \param weights  from solve() or descend()
   //! \return in the order of the support
   const std::vector<double>& removal_costs(const PointWeights& weights);
 
@@ -80,7 +81,7 @@ class ActiveSetQp {
   const PointList<Dim>& control_points_;
   Vector<Dim> point_;
 
-  // Of the active set method: the free weights, and the control points held at 0 at present.
+  // State of the active-set method: free weights, and control points fixed at 0.
   std::vector<Index> members_;  // ascending
   std::vector<double> weights_;
   std::vector<Index> left_;

@@ -13,9 +13,9 @@ namespace {
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr int kMaxSteps = 60;
 constexpr int kMaxTrials = 60;
-// How exact the line search is, relative to the slope at its start.
+// Accuracy of the line search, relative to the initial slope.
 constexpr double kSlopeLeft = 1e-3;
-// Below this, delta would drown in the rounding errors of the normal equations.
+// A smaller delta would be lost in rounding errors of the normal equations.
 constexpr double kLeastDeltaForHessian = 1e-13;
 
 }  // namespace
@@ -69,8 +69,8 @@ typename DualNewton<Dim>::Sums DualNewton<Dim>::newton_direction(double delta) c
   return -dense::solve_normal_equations(factors, gradient_);
 }
 
-// Where the derivative of F along the direction vanishes, at most 1. It is a piecewise linear,
-// increasing function, whose root Newton's method finds in a few steps once it is bracketed.
+// Step length where the derivative of F along the direction vanishes, at most 1. The derivative is
+// piecewise linear and increasing; Newton's method finds its root in a few steps from a bracket.
 template <int Dim>
 double DualNewton<Dim>::step_length(const Sums& direction, const Sums& sums, double delta) {
   change_.noalias() = basis_ * direction;

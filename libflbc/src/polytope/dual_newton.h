@@ -10,15 +10,14 @@
 namespace flbc {
 
 //! Semismooth Newton for the nearest w >= 0 to a row y with Q^T w = b. By duality
-//! w = max(0, y + Q mu), where mu minimises
+//! w = max(0, y + Q mu), where mu minimizes
 //!
 //!     F(mu) = |max(0, y + Q mu)|^2 / 2 - b . mu + delta |mu|^2 / 2
 //!
-//! with delta = 0. F is convex and piecewise quadratic; with delta > 0 it has one minimum and
-//! Newton steps with an exact line search reach it after finitely many of them, whatever Q is.
-//! Since Q^T w is given, y + Q mu has the same projection as y: starting again from there is the
-//! method of multipliers, which makes delta harmless.
-//! Keeps its buffers: one per thread.
+//! with delta = 0. F is convex and piecewise quadratic. With delta > 0 it has a unique minimum,
+//! which Newton steps with exact line search reach in finitely many steps for any Q. Since Q^T w is
+//! given, y + Q mu has the same projection as y. Restarting from there is the method of multipliers
+//! and removes the effect of delta. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class DualNewton {
  public:
@@ -28,7 +27,7 @@ class DualNewton {
   //! \param basis  Q, n x (Dim + 1), kept by reference
   explicit DualNewton(const Basis& basis) : basis_(basis) {}
 
-  //! Minimises F. \param row  y, n \param sums  b \return true if the minimum was reached
+  //! Minimizes F. \param row  y, n \param sums  b \return true if the minimum was reached
   bool minimize(const Eigen::VectorXd& row, const Sums& sums, double delta);
 
   //! y + Q mu at the last mu, n.

@@ -31,8 +31,8 @@ Eigen::VectorXd& EqualityQp<Dim>::aim_at(const Vector<Dim>& point) {
   return pull_;
 }
 
-// L, and L^-1 A and L^-1 H t in place of A and H t. Written out, because for so few control points
-// calls would take longer.
+// Computes L, and L^-1 A and L^-1 H t in place of A and H t. Explicit loops, because library calls
+// are slower for so few control points.
 template <int Dim>
 bool EqualityQp<Dim>::factor_metric() {
   const std::size_t count = support_.size();
@@ -104,7 +104,7 @@ bool EqualityQp<Dim>::minimize(const std::vector<Index>& support) {
   orthonormalize(sums);
   multipliers_.setZero();
   weights_.assign(targets_.begin(), targets_.begin() + static_cast<std::ptrdiff_t>(count));
-  // More than once, because thin supports cost digits.
+  // Repeated, because thin supports lose digits.
   for (int pass = 0; pass < 3; ++pass) {
     Sums missing = sums;
     for (std::size_t i = 0; i < count; ++i) missing -= weights_[i] * rows_[i];

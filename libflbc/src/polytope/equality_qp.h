@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The equality-constrained quadratic program of one point's weights, and its metric.
+//! Equality-constrained quadratic program for the weights of one point, and its metric.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace flbc {
 //! The symmetric, positive definite H of the squared distance d . H d between weights.
 class Metric {
  public:
-  //! The identity, which saves every factorisation.
+  //! The identity, which needs no factorization.
   Metric() = default;
 
   //! \param matrix  H, n x n, kept by reference
@@ -39,8 +39,8 @@ class Metric {
   const Eigen::MatrixXd* matrix_ = nullptr;
 };
 
-//! Minimises (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside of a
-//! support, for one point x and target t at a time. Keeps its buffers: one per thread.
+//! Minimizes (w - t) . H (w - t) over the w with sum w = 1, sum w c = x and w = 0 outside a
+//! support, for one point x and target t at a time. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class EqualityQp {
  public:
@@ -50,8 +50,8 @@ class EqualityQp {
   //! \param control_points  Dim x n, kept by reference
   EqualityQp(Metric metric, const PointList<Dim>& control_points);
 
-  //! From here on for this point.
-  //! \return H t, n, to be filled in
+  //! Sets the current point.
+  //! \return H t, n, to be filled by the caller
   Eigen::VectorXd& aim_at(const Vector<Dim>& point);
 
   const Metric& metric() const { return metric_; }
@@ -59,16 +59,16 @@ class EqualityQp {
   //! H t, n.
   const Eigen::VectorXd& pull() const { return pull_; }
 
-  //! (1, (c - x) / size): the contribution of a weight of 1 to the sums, which must become
-  //! (1, 0, ..). Measured by the size of the control points.
+  //! (1, (c - x) / size): the contribution of a unit weight to the constraints, whose sum must be
+  //! (1, 0, ..). The size is that of the control points.
   Sums constraint(Index control_point) const { return constraints_.col(control_point); }
 
-  //! At once if the support is that of the last time.
-  //! \return false if rounding hides the minimum. Where the sums cannot be met they are not: this
-  //! is for the caller to check
+  //! Free if the support is unchanged.
+  //! \return false if rounding hides the minimum. The caller must check whether the constraints are
+  //! met
   bool minimize(const std::vector<Index>& support);
 
-  //! The minimum, in the order of the support, until the next one.
+  //! The minimum, in the order of the support; valid until the next minimization.
   const std::vector<double>& weights() const { return weights_; }
 
   //! (w - t) . H (w - t) - t . H t at the minimum.
@@ -80,11 +80,11 @@ class EqualityQp {
   //! A m for all control points, n.
   Eigen::VectorXd constraint_forces() const { return constraints_.transpose() * multipliers_; }
 
-  //! The second derivative, halved, of the least cost by the weight of a control point outside of
-  //! the support.
+  //! Half the second derivative of the minimum cost with respect to the weight of a control point
+  //! outside the support.
   double curvature(Index newcomer);
 
-  //! By how much the least cost rises when a weight must be 0, divided by its square.
+  //! Increase of the minimum cost if a weight is fixed at 0, divided by its square.
   //! \param costs  replaced, in the order of the support
   void removal_costs(std::vector<double>& costs);
 
@@ -103,7 +103,7 @@ class EqualityQp {
 
   // With H = L L^T on the support,
   std::vector<Index> support_;
-  bool minimized_ = false;       // is all of this of that support?
+  bool minimized_ = false;       // whether all of this belongs to the current support
   std::vector<double> factor_;   // L, row by row; unused if H is the identity
   std::vector<Sums> rows_;       // L^-1 A G^-T
   std::vector<double> targets_;  // L^-1 H t

@@ -28,8 +28,8 @@ class Corral {
     ++size_;
   }
 
-  // Moves the weights towards the point of the affine hull that is nearest to the origin; members
-  // whose weights reach zero on the way are dropped, and the rest goes on.
+  // Moves the weights toward the point of the affine hull that is nearest to the origin; members
+  // whose weights reach zero on the way are dropped, and the rest continues.
   void descend() {
     for (;;) {
       const Weights wanted = nearest_in_affine_hull();
@@ -44,7 +44,7 @@ class Corral {
   }
 
   // The combination of the members: the foot of the perpendicular from the origin on their affine
-  // hull. Adding the members up would lose the direction of a short vector to rounding.
+  // hull. Summing the members would lose the direction of a short vector to rounding.
   Vector<Dim> point() const {
     Vector<Dim> foot = offsets_.col(members_[0]);
     if (size_ == 1) return foot;
@@ -76,7 +76,7 @@ class Corral {
     return weights;
   }
 
-  // The one that limited the step is at zero up to rounding.
+  // The weight that limited the step is zero up to rounding.
   bool drop_unused(const Weights& wanted) {
     constexpr double kZero = 4 * std::numeric_limits<double>::epsilon();
     int kept = 0;
@@ -107,8 +107,8 @@ HullPoint<Dim> nearest_point_in_hull(const PointList<Dim>& points, const Vector<
   Eigen::Index next;
   offsets.colwise().squaredNorm().minCoeff(&next);
   corral.add(static_cast<Index>(next));
-  // Every corral is the best of its kind and none comes twice, so that it ends by itself; the limit
-  // is for rounding.
+  // Every corral is optimal for its members and none repeats, so the loop terminates in exact
+  // arithmetic. The limit handles rounding.
   for (Eigen::Index round = 0; round < 10 * (points.cols() + Dim); ++round) {
     const Vector<Dim> nearest = corral.point();
     const double distance = nearest.norm();

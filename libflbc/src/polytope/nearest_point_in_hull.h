@@ -13,14 +13,14 @@ namespace flbc {
 template <int Dim>
 struct HullPoint {
   int size = 0;                         //!< used entries of the arrays, 1 .. Dim + 1
-  std::array<Index, Dim + 1> support;   //!< affinely independent points, by number
+  std::array<Index, Dim + 1> support;   //!< indices of affinely independent points
   std::array<double, Dim + 1> weights;  //!< > 0, sum 1
   Vector<Dim> point;                    //!< the combination
-  double distance;                      //!< from the point asked for
+  double distance;                      //!< from the query point
 };
 
-//! Wolfe's algorithm ("Finding the nearest point in a polytope", 1976): it needs no facets of the
-//! hull and does not mind points that coincide or lie in lines and planes.
+//! Wolfe's algorithm ("Finding the nearest point in a polytope", 1976): it needs no hull facets and
+//! handles coincident, collinear, and coplanar points.
 //! \param points  Dim x n, n >= 1
 template <int Dim>
 HullPoint<Dim> nearest_point_in_hull(const PointList<Dim>& points, const Vector<Dim>& query);

@@ -22,7 +22,7 @@ void require_finite(const Eigen::VectorXd& point, const char* what, Index number
   throw InputError(what + std::to_string(number) + " is not finite: " + format_point(point));
 }
 
-// \param weights_of  those of a point
+// \param weights_of  returns the weights of a point
 template <int Dim, class WeightsOf>
 void check_input(const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const WeightsOf& weights_of, const std::vector<Index>& columns) {
@@ -44,15 +44,15 @@ void check_input(const PointList<Dim>& control_points, const PointList<Dim>& poi
   }
 }
 
-// The smallest number so far that failed; exceptions cannot leave a parallel loop.
+// The smallest index that failed so far; exceptions cannot leave a parallel loop.
 void lower_to(std::atomic<Index>& least, Index number) {
   Index current = least.load();
   while (number < current && !least.compare_exchange_weak(current, number)) {
   }
 }
 
-// \param weights_of  those of a point \param replace  is called with the number of a column in
-// `columns` and its new weights
+// \param weights_of  returns the weights of a point \param replace  called with the position of a
+// column in `columns` and its new weights
 template <int Dim, class WeightsOf, class Replace>
 void project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                      const std::vector<Index>& columns, const WeightsOf& weights_of,
@@ -70,7 +70,7 @@ void project_columns(const PointList<Dim>& control_points, const PointList<Dim>&
     for (Index k = 0; k < count; ++k) {
       const Index point = columns[k];
       progress.add(1);
-      // Only the first one is reported, so that those behind it do not matter any more.
+      // Only the first failure is reported, so later columns can be skipped.
       if (outside.load(std::memory_order_relaxed) < point) continue;
       column = weights_of(point);
       if (projection.project(points.col(point), column, work) > 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The weights of a point x: the polytope {w >= 0, sum w = 1, sum w c = x}, in units of its control
-//! points c. Every solver of this module works in these units.
+//! points c. All solvers of this module use these units.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Eigen::VectorXd vertex_of(const HullPoint<Dim>& hull_point, Eigen::Index n) {
   return weights;
 }
 
-//! The numbers of the weights above 0, ascending.
+//! The indices of positive weights, ascending.
 template <class Column>
 std::vector<Index> positive_entries(const Column& weights) {
   std::vector<Index> entries;

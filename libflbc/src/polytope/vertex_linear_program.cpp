@@ -11,12 +11,12 @@
 namespace flbc {
 namespace {
 
-// Distances and values relative to 1 below which a pivot would be rounding.
+// Smaller pivots, relative to 1, are rounding errors.
 constexpr double kLeastPivot = 1e-9;
 // Minimum pivot for a control point to enter the initial basis.
 constexpr double kIndependent = 1e-6;
 constexpr double kDependent = 1e-13;
-// Negative values of basic variables that rounding explains.
+// Smaller negative values of basic variables are rounding errors.
 constexpr double kInfeasible = 1e-9;
 
 }  // namespace
@@ -42,8 +42,8 @@ double VertexLinearProgram<Dim>::lower_bound(const Vector<Dim>& point, const Eig
   return rigorous_bound(costs);
 }
 
-// From feasible weights to a feasible basis that costs no more: the weights outside a basis are
-// moved one by one, in the direction that pays, until one of those involved is zero.
+// Makes a feasible basis of no higher cost from feasible weights. Each weight outside the basis is
+// moved in the direction of decreasing cost until a weight reaches zero.
 template <int Dim>
 bool VertexLinearProgram<Dim>::start_from(const Eigen::VectorXd& start,
                                           const Eigen::VectorXd& costs) {
@@ -58,8 +58,8 @@ bool VertexLinearProgram<Dim>::start_from(const Eigen::VectorXd& start,
   return values_.minCoeff() >= -kInfeasible;
 }
 
-// Large weights far from the affine hull of those chosen before; if they do not span space (on a
-// facet of the hull they need not), others far away join them.
+// Chooses large weights far from the affine hull of the previous choices. If they do not span space
+// (for example on a facet of the hull), other distant control points are added.
 template <int Dim>
 bool VertexLinearProgram<Dim>::choose_basis(const Eigen::VectorXd& start) {
   rest_ = columns_;
@@ -97,7 +97,7 @@ void VertexLinearProgram<Dim>::push_to_zero(Index entering, double value,
   const Sums values = values_;
   basis_[leaving] = entering;
   factor();
-  values_ = values;  // of the point there is, not of the basic solution
+  values_ = values;  // of the given point, not of the basic solution
   values_[leaving] = grows ? value + step : value - step;
 }
 
@@ -143,8 +143,7 @@ Eigen::Index VertexLinearProgram<Dim>::choose_entering(bool first, double tolera
   return is_basic ? -1 : least;  // rounding, if it is basic
 }
 
-// The basic variable that reaches zero first. Among several the one with the safest pivot, or the
-// first one.
+// The basic variable that reaches zero first. Ties go to the largest pivot, or to the first one.
 template <int Dim>
 int VertexLinearProgram<Dim>::choose_leaving(const Sums& column, bool first) const {
   double least = std::numeric_limits<double>::infinity();
@@ -161,14 +160,15 @@ int VertexLinearProgram<Dim>::choose_leaving(const Sums& column, bool first) con
   return leaving;
 }
 
-// Factors the basis and finds its values.
+// Factors the basis and computes its values.
 template <int Dim>
 void VertexLinearProgram<Dim>::factor() {
   lu_.compute(columns_(basis_, Eigen::all).transpose());
   values_ = lu_.solve(Sums(Sums::Unit(0)));
 }
 
-// Every operation errs by half an epsilon of its result at most; there are 3 Dim + 1 of them.
+// The error of each operation is at most half an epsilon of its result; there are 3 Dim + 1
+// operations.
 template <int Dim>
 double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) const {
   constexpr double kRounding = (3 * Dim + 4) * std::numeric_limits<double>::epsilon();

@@ -12,18 +12,18 @@
 namespace flbc {
 
 //! min { omega . costs : omega >= 0, sum omega = 1, sum omega c = x } for one set of control points
-//! and many x, by the primal simplex method. A basis has Dim + 1 control points, so that it is
-//! factored anew in every step. Keeps its buffers: one per thread.
+//! and many x, by the primal simplex method. A basis has only Dim + 1 control points, so it is
+//! refactored in every step. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class VertexLinearProgram {
  public:
   //! \param control_points  Dim x n, n >= 1, kept by reference
   explicit VertexLinearProgram(const PointList<Dim>& control_points);
 
-  //! A lower bound of the minimum by weak duality, rounding included, which is the minimum up to
-  //! rounding if x lies in the hull of the control points. With sum omega = 1 every y in R^Dim
-  //! gives one: min_i costs_i - y . (c_i - x).
-  //! \param start  n weights, feasible ones near the optimum if there are; others cost time only
+  //! A lower bound of the minimum by weak duality, which accounts for rounding. It equals the
+  //! minimum up to rounding if x lies in the hull of the control points. Since sum omega = 1, every
+  //! y in R^Dim gives the bound min_i costs_i - y . (c_i - x).
+  //! \param start  n weights, ideally feasible and near the optimum; others only cost time
   double lower_bound(const Vector<Dim>& point, const Eigen::VectorXd& costs,
                      const Eigen::VectorXd& start);
 
@@ -45,7 +45,7 @@ class VertexLinearProgram {
   const PointList<Dim>& points_;
   double scale_;
   Eigen::Matrix<double, Eigen::Dynamic, kRows> columns_;  // of the program: [1, (c - x) / size]
-  Eigen::Matrix<double, Eigen::Dynamic, kRows> rest_;     // of the columns, beside a basis
+  Eigen::Matrix<double, Eigen::Dynamic, kRows> rest_;     // of the columns, next to a basis
   Eigen::VectorXd reduced_costs_;
   std::array<Index, kRows> basis_{};
   Sums values_;  // of the basic variables

@@ -13,9 +13,9 @@
 namespace flbc {
 namespace {
 
-// Errors of sum and reproduction, the latter relative to the cage's size, that rounding explains.
+// Smaller errors of sum and reproduction (relative to cage size) are rounding errors.
 constexpr double kExact = 4e-14;
-// Violation that a few more steps may still improve.
+// A larger violation may improve in a few more steps.
 constexpr double kPolished = 2e-15;
 constexpr double kNewtonDelta = 1e-12;
 
@@ -30,7 +30,7 @@ WeightProjection<Dim>::WeightProjection(const PointList<Dim>& control_points)
   axes_ = dense::principal_axes<Dim>(dense::moments<Dim>(offsets));
   const PointList<Dim> turned = axes_.transpose() * offsets;
   lengths_ = turned.rowwise().norm();
-  // Along an axis without extent the coordinates are rounding errors: they must not be blown up.
+  // Coordinates along an axis without extent are rounding errors and must not be amplified.
   lengths_ = lengths_.cwiseMax(std::max(1e-12 * lengths_.maxCoeff(), 1e-100));
   basis_.resize(points_.cols(), Dim + 1);
   basis_.col(0).setConstant(1 / std::sqrt(static_cast<double>(points_.cols())));
@@ -48,8 +48,7 @@ typename WeightProjection<Dim>::Sums WeightProjection<Dim>::sums_of(
   return sums;
 }
 
-// How far a row with Q^T w = b + residual is from sum 1 and from reproduction, relative to the
-// size.
+// Errors of sum and reproduction of a row with Q^T w = b + residual, relative to the size.
 template <int Dim>
 double WeightProjection<Dim>::violation(const Sums& residual) const {
   return std::max(std::abs(residual[0]) / basis_(0, 0),
@@ -76,7 +75,7 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
     if (nearest.distance > kBoundaryTolerance * scale_) return nearest.distance;
     work.row_ = weights;
     if (!many_rounds(sums_of(nearest.point), work)) {
-      // Rounding hides the nearest weights: any feasible ones are better than none.
+      // Rounding hides the nearest weights, so any feasible ones are used.
       work.candidate_ = vertex_of(nearest, weights.size());
     }
   }
@@ -99,18 +98,18 @@ bool WeightProjection<Dim>::project(const Vector<Dim>& point, const std::vector<
 // Replaces the row by one with the same projection, nearer to it. \return true if done
 template <int Dim>
 bool WeightProjection<Dim>::newton_round(const Sums& sums, double delta, Workspace& work) const {
-  // In units of the largest number the row is at most 1, however wild it was.
+  // Scaled by its largest entry, so the row is at most 1.
   const double unit = std::max(1.0, work.row_.maxCoeff());
   work.scaled_ = work.row_ / unit;
   const bool reached = work.newton_.minimize(work.scaled_, sums / unit, delta);
   work.row_ = unit * work.newton_.row();
   work.candidate_ = work.row_.cwiseMax(0);
-  // In small steps the minimum may be hidden by rounding, and polishing tells.
+  // For small steps, rounding may hide the minimum; polishing decides.
   return (reached || delta < kNewtonDelta) && polish(sums, work.candidate_);
 }
 
-// One round is not enough for numbers that leave no digits for the constraints, and for supports
-// that are nearly degenerate, which make multipliers large.
+// One iteration is not enough for very large entries, or for nearly degenerate supports with large
+// multipliers.
 template <int Dim>
 bool WeightProjection<Dim>::many_rounds(const Sums& sums, Workspace& work) const {
   constexpr int kRounds = 40;
@@ -123,14 +122,14 @@ bool WeightProjection<Dim>::many_rounds(const Sums& sums, Workspace& work) const
   return false;
 }
 
-// Moves the positive weights by the least that makes sum and reproduction exact. What turns
-// negative becomes zero, and the rest is moved again.
+// Applies the smallest change of the positive weights that makes sum and reproduction exact.
+// Weights that become negative are set to zero, and the rest is corrected again.
 template <int Dim>
 bool WeightProjection<Dim>::polish(const Sums& sums, Eigen::VectorXd& weights) const {
   constexpr int kRounds = 20, kQuickRounds = 4;
   // Weights below this do not change any sum.
   constexpr double kZero = 4 * std::numeric_limits<double>::epsilon();
-  // More than this is a matter of the projection.
+  // Larger errors need the projection.
   constexpr double kLargest = 1e-6;
   for (int round = 0; round < kRounds; ++round) {
     weights = (weights.array() > kZero).select(weights, 0);
@@ -152,7 +151,7 @@ void WeightProjection<Dim>::correct(const Sums& residual, bool careful,
   if (careful) {
     change = dense::least_squares(rows.transpose(), residual, 1e-13);
   } else {
-    // A support in a facet of the hull leaves one direction open: nothing is to be moved there.
+    // A support in a facet of the hull does not span one direction, in which nothing moves.
     Eigen::Matrix<double, Dim + 1, Dim + 1> gram = dense::gram<Dim + 1>(rows, rows);
     gram.diagonal().array() += 1e-15 * gram.trace();
     change = rows * dense::solve_symmetric<Dim + 1>(gram, residual);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The projection of one row of weights on {w >= 0, sum w = 1, sum w c = x}.
+//! Projection of one row of weights onto {w >= 0, sum w = 1, sum w c = x}.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace flbc {
 
-//! Projects rows of weights for one set of control points. Shared by threads, each with a workspace
-//! of its own.
+//! Projects rows of weights for one set of control points. Thread-safe; each thread needs its own
+//! workspace.
 template <int Dim>
 class WeightProjection {
  public:
@@ -30,19 +30,19 @@ class WeightProjection {
     Eigen::VectorXd row_, scaled_, candidate_;
   };
 
-  //! Are the weights non-negative, and sum and reproduction exact up to rounding?
+  //! Whether the weights are non-negative, and sum and reproduction exact up to rounding.
   bool is_feasible(const Vector<Dim>& point, const Eigen::VectorXd& weights) const;
 
-  //! Replaces the weights (finite) by the nearest feasible ones. A point beside the convex hull of
-  //! the control points by at most 1e-9 of their size counts as the nearest one of the hull.
-  //! \return 0, or the distance from the hull of a point farther away, whose weights stay
+  //! Replaces the weights (finite) by the nearest feasible ones. A point outside the convex hull of
+  //! the control points by at most 1e-9 of their size counts as the nearest point of the hull.
+  //! \return 0, or the distance of a point farther outside, whose weights are unchanged
   double project(const Vector<Dim>& point, Eigen::VectorXd& weights, Workspace& work) const;
 
-  //! The feasible weights on a support that are nearest to those given.
+  //! The feasible weights on a support that are nearest to the given ones.
   //! \param support  each control point once
   //! \param given  n
   //! \param weights  replaced, n
-  //! \return false if there are no such weights, or if rounding hides them
+  //! \return false if no such weights exist, or if rounding hides them
   bool project(const Vector<Dim>& point, const std::vector<Index>& support,
                const Eigen::VectorXd& given, Eigen::VectorXd& weights) const;
 

@@ -12,7 +12,7 @@ BarycentricConstraints<Dim>::BarycentricConstraints(const PointList<Dim>& contro
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> matrix(control_points.cols(), Dim + 1);
   matrix.col(0).setOnes();
   matrix.template rightCols<Dim>() = control_points.transpose();
-  // Gram and Schmidt, every column twice, which makes them orthogonal to rounding.
+  // Gram-Schmidt with reorthogonalization, orthogonal up to rounding.
   basis_ = matrix;
   for (int k = 0; k <= Dim; ++k) {
     for (int pass = 0; pass < 2; ++pass) {

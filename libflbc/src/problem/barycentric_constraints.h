@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Partition of unity and reproduction as one linear system per point, and the projection on it.
+//! Partition of unity and reproduction as one linear system per point, and the projection onto it.
 #pragma once
 
 #include "flbc/types.h"
 
 namespace flbc {
 
-//! The constraints A^T w = [1; x] with A = [1; c] (n x (Dim + 1)), and for gradients (8):
-//! A^T g_d = [0; e_d]. With A = Q R, Q orthonormal, both say what Q^T w or Q^T g_d is; projecting
-//! costs 2 n (Dim + 1) multiplications where the paper's n x n matrix K would cost n^2.
+//! The constraints A^T w = [1; x] with A = [1; c] (n x (Dim + 1)), and for gradients (8): A^T g_d =
+//! [0; e_d]. With A = Q R and orthonormal Q, both prescribe Q^T w or Q^T g_d. A projection costs 2
+//! n (Dim + 1) multiplications; the n x n matrix K of the paper would cost n^2.
 template <int Dim>
 class BarycentricConstraints {
  public:
@@ -19,7 +19,7 @@ class BarycentricConstraints {
   //! n x (Dim + 1), orthonormal columns.
   const Eigen::Matrix<double, Eigen::Dynamic, Dim + 1>& basis() const { return basis_; }
 
-  //! (Dim + 1) x Dim: Q^T g_d for every gradient that satisfies (8), a column per direction d.
+  //! (Dim + 1) x Dim: Q^T g_d for every gradient that satisfies (8), one column per direction d.
   Eigen::Matrix<double, Dim + 1, Dim> gradient_target() const;
 
   //! Q^T w for every w with sum 1 that reproduces the point.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The dual of cells whose corners all lie on the boundary, where the weights are given.
+//! The dual of boundary cells, whose corners all lie on the boundary, where weights are known.
 #pragma once
 
 #include "flbc/lbc_problem.h"

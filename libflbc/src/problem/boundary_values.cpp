@@ -13,9 +13,9 @@
 namespace flbc {
 namespace {
 
-constexpr double kDistanceTolerance = 1e-6;  // of the cage's size
+constexpr double kDistanceTolerance = 1e-6;  // relative to cage size
 
-// All vertices of a facet may lie on the cage and the facet not: where cells are missing.
+// If cells are missing, all vertices of a facet may lie on the cage although the facet does not.
 template <int Dim>
 void check_boundary_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
                            const FacetLocator<Dim>& cage_facets, double tolerance) {

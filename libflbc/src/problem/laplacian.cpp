@@ -68,7 +68,8 @@ template <int Dim>
 DirichletProblem<Dim>::DirichletProblem(const DomainMesh<Dim>& mesh,
                                         const BoundaryValues<Dim>& boundary, LinearSolver solver)
     : interior_(boundary.interior_vertices()), boundary_(boundary.vertices) {
-  std::vector<Index> place = boundary.boundary_index;  // among the interior or boundary vertices
+  std::vector<Index> place = boundary.boundary_index;  // index among the interior or boundary
+                                                       // vertices
   for (std::size_t i = 0; i < interior_.size(); ++i) place[interior_[i]] = static_cast<Index>(i);
 
   const auto stiffness = stiffness_matrix(mesh);

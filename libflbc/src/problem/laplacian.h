@@ -19,12 +19,12 @@ namespace flbc {
 
 //! Sum over cells of m_s grad(lambda_v) . grad(lambda_w), symmetric.
 //! \param cell_factors  m, one per cell
-//! \param vertices  v and w, ascending: the vertices that have a row and a column
+//! \param vertices  vertices v and w with a row and column, ascending
 template <int Dim>
 RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh, const Eigen::VectorXd& cell_factors,
                            const std::vector<Index>& vertices);
 
-//! The same with each cell's measure for all vertices: the stiffness matrix, V x V.
+//! The same with the measure of each cell and all vertices: the stiffness matrix, V x V.
 template <int Dim>
 RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh);
 
@@ -32,12 +32,12 @@ RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh);
 template <int Dim>
 Eigen::VectorXd lumped_mass(const DomainMesh<Dim>& mesh);
 
-//! The coordinates known on the boundary as a matrix, n x B.
+//! The known boundary weights as a matrix, n x B.
 template <int Dim>
 Eigen::MatrixXd boundary_matrix(const BoundaryValues<Dim>& boundary, Index n);
 
-//! The Poisson problem on the interior vertices for many functions at once, each with its values on
-//! the boundary. Factored once, or solved by multigrid in time and memory linear in V.
+//! The Poisson problem on the interior vertices for many functions with given boundary values.
+//! Factored once, or solved by multigrid in time and memory linear in V.
 template <int Dim>
 class DirichletProblem {
  public:
@@ -45,11 +45,11 @@ class DirichletProblem {
   DirichletProblem(const DomainMesh<Dim>& mesh, const BoundaryValues<Dim>& boundary,
                    LinearSolver solver = LinearSolver::kDirect);
 
-  //! Minimises sum_s A_s |grad w_i - g_i|^2 for every i.
-  //! \param boundary_values  k x B, the values known, a row per function
-  //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty stands
-  //! for zero and gives harmonic functions
-  //! \return k x V, boundary values included
+  //! Minimizes sum_s A_s |grad w_i - g_i|^2 for every i.
+  //! \param boundary_values  k x B, known values, one row per function
+  //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty means
+  //! zero, which gives harmonic functions
+  //! \return k x V, including boundary values
   WeightMatrix solve(const Eigen::MatrixXd& boundary_values,
                      const Eigen::MatrixXd& divergence = {}) const;
 

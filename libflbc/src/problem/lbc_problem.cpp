@@ -21,7 +21,7 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology
 
 template <int Dim>
 LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology) {
-  // Before scaling, so that messages give the user's coordinates.
+  // Before scaling, so that messages contain unscaled coordinates.
   auto boundary = boundary_values(cage, mesh, topology);
   return make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary));
 }

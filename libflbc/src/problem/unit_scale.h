@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The scale on which problems are solved: the size of the cage is the unit of length.
+//! The scale of problems: cage size is the unit of length.
 #pragma once
 
 #include "flbc/bounding_box.h"
@@ -8,7 +8,7 @@
 
 namespace flbc {
 
-//! Puts the center of a cage's bounding box at the origin and makes its diagonal 1.
+//! Moves the center of the cage bounding box to the origin and scales its diagonal to 1.
 template <int Dim>
 struct UnitScale {
   explicit UnitScale(const Cage<Dim>& cage)

@@ -20,14 +20,14 @@
 namespace flbc {
 namespace {
 
-// Costs that rounding explains: by more than that an exchange must lower |w - given|^2.
+// Minimum decrease of |w - given|^2 by an exchange, above rounding errors.
 constexpr double kLeastGain = 1e-9;
 
-// Leaves few influences of one point's weights. Shared by threads.
+// Reduces the influences of one point. Thread-safe.
 template <int Dim>
 class PointSparsifier {
  public:
-  // The search for supports, one per thread.
+  // The support search, one per thread.
   struct Workspace {
     explicit Workspace(const PointList<Dim>& control_points)
         : selection(Metric(), control_points), may_enter(control_points.cols()) {}
@@ -39,7 +39,7 @@ class PointSparsifier {
   PointSparsifier(const PointList<Dim>& control_points, const SparsifyOptions& options)
       : control_points_(control_points), options_(options), projection_(control_points) {}
 
-  // \param given  the weights as they came \param projected  the nearest feasible ones
+  // \param given  the given weights \param projected  the nearest feasible weights
   Eigen::VectorXd sparsify(const Vector<Dim>& point, const Eigen::VectorXd& given,
                            const Eigen::VectorXd& projected, Workspace& work) const {
     auto support = by_size(projected);
@@ -60,7 +60,7 @@ class PointSparsifier {
     return static_cast<Index>(support.size());
   }
 
-  // The influences, the largest first.
+  // The influences, largest first.
   static std::vector<Index> by_size(const Eigen::VectorXd& weights) {
     auto support = positive_entries(weights);
     std::stable_sort(support.begin(), support.end(),
@@ -75,13 +75,13 @@ class PointSparsifier {
     return keep;
   }
 
-  // A point beside the hull within the tolerance counts as the nearest one of the hull.
+  // A point outside the hull within the tolerance counts as the nearest point of the hull.
   Vector<Dim> target_of(const Vector<Dim>& point, const Eigen::VectorXd& projected) const {
     if (projection_.is_feasible(point, projected)) return point;
     return nearest_point_in_hull(control_points_, point).point;
   }
 
-  // \param support  by size \param keep  how many of them the threshold leaves
+  // \param support  by size \param keep  number of influences above the threshold
   bool choose(const Eigen::VectorXd& given, const std::vector<Index>& support, std::size_t keep,
               Workspace& work) const {
     const auto largest = [&](std::size_t number) {
@@ -92,25 +92,25 @@ class PointSparsifier {
     constexpr double kNoBound = std::numeric_limits<double>::infinity();
     const Index most = options_.max_influences;
     const bool limited = count(support) > most;
-    // Many small weights seldom matter, and removing them one by one would take long.
+    // Many small weights rarely matter, and removing them one by one would be slow.
     constexpr std::size_t kPool = 16;
     std::size_t number = std::max<std::size_t>(keep, 1);
     if (limited) number = std::min(number, std::max(kPool, 2 * static_cast<std::size_t>(most)));
-    // Until the point is in the hull of those kept.
+    // Until the point is in the hull of the kept control points.
     while (!work.selection.qp().solve(largest(number), kNoBound, work.best)) {
       if (number == support.size()) return false;
       number = std::min(support.size(), number + 1 + number / 8);
     }
     if (!work.selection.reduce(most, kNoBound, work.best)) return false;
-    // With a threshold newcomers would be among those just dropped.
+    // With a threshold, the exchange would reinsert dropped influences.
     if (!limited || options_.threshold > 0) return true;
     for (Eigen::Index i = 0; i < given.size(); ++i) work.may_enter[i] = given[i] >= kLeastInfluence;
     work.selection.exchange(most, kLeastGain, work.may_enter, work.best);
     return true;
   }
 
-  // Where rounding hides the best choice: Caratheodory's few control points, which always do, with
-  // the largest others.
+  // If rounding hides the best choice, uses the few control points of Caratheodory's theorem, which
+  // are always feasible, plus the largest others.
   Eigen::VectorXd on_few_points(const Vector<Dim>& target, const Eigen::VectorXd& given,
                                 const std::vector<Index>& support) const {
     const PointList<Dim> carriers = control_points_(Eigen::all, support);
@@ -134,7 +134,7 @@ class PointSparsifier {
   WeightProjection<Dim> projection_;
 };
 
-// Within reduce_by_poisson() its own callback is told.
+// Within reduce_by_poisson(), its callback receives the progress.
 TellPart told_of(const SparsifyOptions& options) {
   if (options.progress || !StageScope::present()) return options.progress;
   return *StageScope::present();
@@ -163,7 +163,7 @@ Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& poi
   auto projected = weights;
   {
     const StageScope silent({});
-    // Checks the input, too.
+    // Also checks the input.
     if constexpr (std::is_same_v<Weights, SparseWeights>) {
       projected = project_non_negative(control_points, points, weights);
     } else {

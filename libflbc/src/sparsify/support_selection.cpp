@@ -7,11 +7,11 @@
 namespace flbc {
 namespace {
 
-// Influences whose removal is tried after one has been found that can go.
+// Number of further removals to try after a feasible one has been found.
 constexpr int kMoreTrials = 3;
-// Control points tried as newcomers at a time.
+// Number of control points tried for insertion at a time.
 constexpr std::size_t kNewcomers = 8;
-// Slopes that rounding explains.
+// Smaller slopes are rounding errors.
 constexpr double kLeastSlope = 1e-9;
 
 }  // namespace
@@ -51,7 +51,7 @@ bool SupportSelection<Dim>::remove_cheapest(double bound, PointWeights& weights)
 template <int Dim>
 void SupportSelection<Dim>::adopt(const std::vector<Index>& support, double least_gain,
                                   PointWeights& weights) {
-  // The weights are already the best ones on their own support.
+  // The weights are already optimal on their support.
   if (std::includes(weights.support.begin(), weights.support.end(), support.begin(),
                     support.end())) {
     return;
@@ -74,7 +74,7 @@ bool SupportSelection<Dim>::exchange_one(Index count, double least_gain, PointWe
   for (const auto& newcomer : newcomers_) {
     exchanged_ = weights;
     qp_.descend(exchanged_, newcomer.number);
-    // Now the cost is least; removing one can only raise it.
+    // The cost is now minimal; a removal can only increase it.
     if (exchanged_.cost >= bound || !reduce(count, bound, exchanged_)) continue;
     std::swap(weights, exchanged_);
     return true;
@@ -82,7 +82,7 @@ bool SupportSelection<Dim>::exchange_one(Index count, double least_gain, PointWe
   return false;
 }
 
-// The control points that would bring the cost down most, w >= 0 left aside.
+// The control points that would decrease the cost most, ignoring w >= 0.
 template <int Dim>
 void SupportSelection<Dim>::find_newcomers(const std::vector<bool>& may_enter,
                                            const PointWeights& weights) {

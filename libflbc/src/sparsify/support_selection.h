@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which few control points carry a point best, in any metric.
+//! Selects the best few control points for a point, in any metric.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,11 @@
 
 namespace flbc {
 
-//! Newcomers to a support must have had this weight: a control point with next to no influence is
-//! far away as a rule, and bends of the cage move it otherwise than those nearby.
+//! Minimum given weight of a control point that enters a support. Control points with almost no
+//! weight are usually far away and move differently when the cage bends.
 constexpr double kLeastInfluence = 1e-3;
 
-//! Improves the support of one point's weights by moves that are tried one after the other. Keeps
-//! its buffers: one per thread.
+//! Improves the support of one point by local moves. Not thread-safe, because it keeps its buffers.
 template <int Dim>
 class SupportSelection {
  public:
@@ -23,19 +22,19 @@ class SupportSelection {
   SupportSelection(Metric metric, const PointList<Dim>& control_points)
       : qp_(metric, control_points) {}
 
-  //! Computes the weights on a support; it has to be aimed at the point first.
+  //! The program that computes weights on a support; set its point first.
   ActiveSetQp<Dim>& qp() { return qp_; }
 
-  //! Removes influences, each time the one whose removal costs least, until `count` are left.
-  //! \param weights  as the active-set QP gave them; of no use any more if the result is false
-  //! \return false if no weights were found that cost less than `bound`
+  //! Repeatedly removes the cheapest influence until `count` are left.
+  //! \param weights  from the active-set QP; invalid if the result is false
+  //! \return false if no weights with a cost below `bound` were found
   bool reduce(Index count, double bound, PointWeights& weights);
 
-  //! Takes the weights on another support, ascending, if they cost less by more than `least_gain`.
+  //! Switches to another support, ascending, if the cost decreases by more than `least_gain`.
   void adopt(const std::vector<Index>& support, double least_gain, PointWeights& weights);
 
-  //! Lets single influences in, for others if there are more than `count`, as long as the cost
-  //! falls by more than `least_gain`.
+  //! Inserts single influences, in exchange for others if there are more than `count`, while the
+  //! cost decreases by more than `least_gain`.
   //! \param may_enter  n
   void exchange(Index count, double least_gain, const std::vector<bool>& may_enter,
                 PointWeights& weights);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The core with a mesh of one's own: four triangles around a point of the square.
+// The core with a given mesh: four triangles around a point of the square.
 #include "judge.h"
 
 int main() {

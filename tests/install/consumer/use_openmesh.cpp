@@ -38,7 +38,7 @@ int main() {
   }
   flbc::openmesh::solve(mesh, cage);
   const int fine = judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
-  // With a mesh of one's own, no other component is needed.
+  // With a given mesh, no other component is needed.
   flbc::openmesh::bind(mesh, cage, flbc::openmesh::to_domain(mesh));
   flbc::openmesh::deform(mesh, cage);
   return fine + judge<2>(cage, points, flbc::openmesh::get_weights(mesh));

@@ -15,7 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// Points and segments are made triangles, thin against the offset.
+// Points and segments become triangles that are thin relative to the offset.
 std::array<Vector<3>, 3> widened(const Simplex<3>& simplex, double width) {
   std::array<Vector<3>, 3> corners;
   for (int k = 0; k < 3; ++k) corners[k] = simplex.corners.col(k);

@@ -34,7 +34,7 @@ bool on_one_line(const Vector<Dim>& a, const Vector<Dim>& b, const Vector<Dim>& 
   return CGAL::collinear(point(a), point(b), point(c));
 }
 
-// Of three points on a line the outer two are those that have the third between them.
+// Of three collinear points, the outer two have the third between them.
 Simplex<3> segment_of(const std::array<Vector<3>, 3>& p) {
   for (int middle = 0; middle < 3; ++middle) {
     const auto &a = p[(middle + 1) % 3], &b = p[(middle + 2) % 3];
@@ -51,7 +51,7 @@ Kernel::Triangle_3 triangle(const Simplex<3>& t) {
   return {corner(t, 0), corner(t, 1), corner(t, 2)};
 }
 
-// The corners of `own` that `other` has as well come first.
+// Moves the corners that `own` shares with `other` to the front.
 template <int Dim>
 int move_common_first(FacetCorners<Dim>& own, const FacetCorners<Dim>& other) {
   int common = 0;
@@ -61,14 +61,14 @@ int move_common_first(FacetCorners<Dim>& own, const FacetCorners<Dim>& other) {
   return common;
 }
 
-// Of edges with one end in common.
+// For edges with one common end.
 bool fold_back(const PointList<2>& points, const FacetCorners<2>& e, const FacetCorners<2>& f) {
   const auto tip = point(Vector<2>(points.col(e(0))));
   const auto a = point(Vector<2>(points.col(e(1)))), b = point(Vector<2>(points.col(f(1))));
   return CGAL::collinear(a, tip, b) && !CGAL::collinear_are_strictly_ordered_along_line(a, tip, b);
 }
 
-// Of triangles with one corner in common: the edge of one that is opposite meets the other.
+// For triangles with one common corner: whether the opposite edge of one meets the other.
 bool pierce(const PointList<3>& points, const FacetCorners<3>& s, const FacetCorners<3>& t) {
   const auto p = [&](Index vertex) { return point(Vector<3>(points.col(vertex))); };
   const Kernel::Triangle_3 one(p(s(0)), p(s(1)), p(s(2))), other(p(t(0)), p(t(1)), p(t(2)));
@@ -76,7 +76,7 @@ bool pierce(const PointList<3>& points, const FacetCorners<3>& s, const FacetCor
          CGAL::do_intersect(one, Kernel::Segment_3(p(t(1)), p(t(2))));
 }
 
-// Of triangles with a common edge: they lie in one plane and on the same side of it.
+// For triangles with a common edge: whether they are coplanar and on the same side of it.
 bool fold_back(const PointList<3>& points, const FacetCorners<3>& s, const FacetCorners<3>& t) {
   const auto p = [&](Index vertex) { return point(Vector<3>(points.col(vertex))); };
   return CGAL::coplanar(p(s(0)), p(s(1)), p(s(2)), p(t(2))) &&
@@ -91,7 +91,7 @@ int side(const Simplex<3>& t, const Point3& p) {
   return CGAL::orientation(corner(t, 0), corner(t, 1), corner(t, 2), p);
 }
 
-// On which side the line through two points passes the facet's corners (2D) or edges (3D).
+// The side on which the line through two points passes facet corners (2D) or edges (3D).
 std::array<int, 2> sides_of_line(const Point2& from, const Point2& to, const Simplex<2>& edge) {
   return {CGAL::orientation(from, to, corner(edge, 0)),
           -CGAL::orientation(from, to, corner(edge, 1))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which simplices meet, decided exactly. Implemented by CGAL.
+// Exact intersection tests of simplices, implemented with CGAL.
 #pragma once
 
 #include "flbc/types.h"
@@ -13,21 +13,21 @@ using FacetCorners = Eigen::Matrix<Index, Dim, 1>;
 //! The convex hull of one to Dim affinely independent points: a point, a segment, a triangle.
 template <int Dim>
 struct Simplex {
-  Eigen::Matrix<double, Dim, Dim> corners;  //!< a column each, of which the first `count` are used
+  Eigen::Matrix<double, Dim, Dim> corners;  //!< one per column; the first `count` are used
   int count = Dim;
 };
 
-//! The hull of points: corners that coincide are one, and of points on one line only the outermost
-//! stay. \param corners  a column per corner, repeated ones allowed
+//! The hull of points. Merges coincident corners, and keeps only the outermost of collinear points.
+//! \param corners  one corner per column; may repeat
 template <int Dim>
 Simplex<Dim> simplex_of(const Eigen::Matrix<double, Dim, Dim>& corners);
 
-//! Whether the two have a point in common. \param facet  with Dim corners
+//! Whether the two intersect. \param facet  with Dim corners
 template <int Dim>
 bool intersect(const Simplex<Dim>& any, const Simplex<Dim>& facet);
 
-//! Whether two facets of a surface have points in common beyond the corners and the edge they
-//! share. \param points  Dim x n
+//! Whether two facets of a surface intersect outside their common corners and edge. \param points
+//! Dim x n
 template <int Dim>
 bool intersect_improperly(const PointList<Dim>& points, const FacetCorners<Dim>& first,
                           const FacetCorners<Dim>& second);

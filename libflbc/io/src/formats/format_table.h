@@ -15,7 +15,7 @@
 
 namespace flbc::io {
 
-//! To what a format attaches colours, normals and texture coordinates.
+//! The elements to which a format attaches colors, normals, and texture coordinates.
 enum class Attributes { kNone, kVertices, kCorners };
 
 //! Readers and writers of models.
@@ -25,7 +25,7 @@ struct ModelFormat {
   Attributes attributes = Attributes::kNone;
 };
 
-//! Readers and writers of meshes of the interior.
+//! Readers and writers of domain meshes.
 template <int Dim>
 struct MeshFormat {
   DomainMesh<Dim> (*read)(const std::string& path, std::vector<VertexField>* fields) = nullptr;
@@ -34,7 +34,7 @@ struct MeshFormat {
   bool keeps_fields = false;
 };
 
-//! Readers and writers of weights; a format with zeros has the dense ones, one without the others.
+//! Readers and writers of weights: dense for formats that store zeros, otherwise sparse.
 struct WeightFormat {
   WeightMatrix (*read)(const std::string& path, std::string content) = nullptr;
   void (*write)(std::ostream& out, const WeightMatrix& weights) = nullptr;
@@ -42,7 +42,7 @@ struct WeightFormat {
   void (*write_sparse)(std::ostream& out, const SparseWeights& weights) = nullptr;
 };
 
-//! Where a pointer is null, there is no such content.
+//! A null pointer means that the format lacks this content.
 struct Format {
   std::string_view extension;
   ModelFormat model{};
@@ -61,8 +61,8 @@ struct Format {
 };
 
 //! The format of a file.
-//! \param action  what is to be done, for the message
-//! \throws OptionError naming all that would do if it does not hold such content
+//! \param action  description of the action, for messages
+//! \throws OptionError listing suitable formats if it does not hold such content
 const Format& format_of(const std::string& path, Content content, const char* action);
 
 }  // namespace flbc::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The binary part of a .glb file. For glb_writer.cpp only, which sees the library behind it.
+// The binary part of a .glb file. Only for glb_writer.cpp, which includes the underlying library.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -39,15 +39,14 @@ inline int element_type(Eigen::Index rows) {
   }
 }
 
-//! Appends to the one buffer of a model.
+//! Appends to the single buffer of a model.
 class GlbBuffer {
  public:
   explicit GlbBuffer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
 
   //! \return the number of the buffer view
   int add_bytes(const void* bytes, std::size_t size, int target) {
-    // More than that, with its description, might not fit the 32 bits in which the file has its
-    // length.
+    // A larger buffer, with its description, might exceed the 32-bit length of the file.
     constexpr std::size_t kMaxBytes = 4'000'000'000;
     constexpr std::size_t kAlignment = 4;
     auto& data = model_.buffers[0].data;
@@ -66,10 +65,10 @@ class GlbBuffer {
     return static_cast<int>(model_.bufferViews.size()) - 1;
   }
 
-  //! Appends a column per element. \return the number of the accessor
+  //! Appends one column per element. \return the number of the accessor
   template <class Number, class Matrix>
   int add_accessor(const Matrix& columns, int target, bool has_bounds = false) {
-    // They have to lie side by side. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+    // The values must be contiguous. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> numbers =
         columns.template cast<Number>();
     tinygltf::Accessor accessor;
@@ -93,7 +92,7 @@ class GlbBuffer {
     return add_accessor<Number>(columns, TINYGLTF_TARGET_ARRAY_BUFFER, has_bounds);
   }
 
-  //! Indices of vertices; the largest number of each type is kept from being one.
+  //! Vertex indices; the largest value of each type is not a valid index.
   template <class Matrix>
   int add_indices(const Matrix& elements, Eigen::Index num_vertices) {
     const auto indices = elements.reshaped(1, elements.size());

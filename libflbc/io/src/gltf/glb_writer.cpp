@@ -2,7 +2,7 @@
 #include "gltf/glb_writer.h"
 
 #include <algorithm>
-#include <fstream>  // tiny_gltf.h forgets it
+#include <fstream>  // missing in tiny_gltf.h
 #include <limits>
 #include <map>
 #include <sstream>
@@ -18,10 +18,10 @@
 namespace flbc::gltf {
 namespace {
 
-// Of the joints drawn as bones, relative to the cage's size.
+// Length of joints drawn as bones, relative to cage size.
 constexpr float kBoneLength = 0.02F;
 
-// JSON must be UTF-8, which the name of a file need not be.
+// JSON must be UTF-8, but a file name may not be.
 std::string as_utf8(const std::string& name) {
   using Json = nlohmann::json;
   return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -31,7 +31,7 @@ std::vector<double> to_doubles(const Eigen::Vector3f& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-// Puts the parts of the scene into the library's model one after the other.
+// Adds the parts of the scene to the model of the library.
 class ModelBuilder {
  public:
   explicit ModelBuilder(const GlbScene& scene) : scene_(scene), buffer_(model_) {
@@ -51,7 +51,7 @@ class ModelBuilder {
   const tinygltf::Model& model() const { return model_; }
 
  private:
-  // Where the nodes are among all.
+  // Node indices.
   static constexpr int kMeshNode = 0;
   static constexpr int kCageNode = 1;
   static constexpr int kFirstJoint = 2;
@@ -85,7 +85,7 @@ class ModelBuilder {
     add_skinned(mesh);
   }
 
-  // A node with the mesh, which the joints move. \return its number
+  // Adds a node with the skinned mesh. \return its index
   int add_skinned(const tinygltf::Mesh& mesh) {
     tinygltf::Node node;
     node.name = mesh.name;
@@ -96,7 +96,7 @@ class ModelBuilder {
     return static_cast<int>(model_.nodes.size()) - 1;
   }
 
-  // By numbers of glTF's materials.
+  // By index of the glTF materials.
   std::map<int, std::vector<Index>> triangles_by_material() const {
     std::map<int, std::vector<Index>> result;
     const auto& materials = scene_.look.triangle_materials;
@@ -107,8 +107,7 @@ class ModelBuilder {
     return result;
   }
 
-  // The cage's edges, moved as its control points are, in a scene of their own: not shown unless
-  // that is asked for.
+  // The cage edges, skinned by the control points, in a second scene that is not shown by default.
   void add_wire() {
     const auto count = scene_.joints.cols();
     Eigen::MatrixXf joints = Eigen::MatrixXf::Zero(4, count);
@@ -153,7 +152,8 @@ class ModelBuilder {
     return accessor;
   }
 
-  // Without one, viewers show polished metal. Models may be open, and flat ones are.
+  // Without a material, viewers show polished metal. Double-sided, because models may be open, and
+  // flat models are.
   static tinygltf::Material matt_material() {
     tinygltf::Material material;
     material.name = "model";
@@ -163,7 +163,7 @@ class ModelBuilder {
     return material;
   }
 
-  // Those of the file, and one for triangles that have none there.
+  // The materials of the file, and one for triangles without a material.
   void add_materials() {
     const auto& look = scene_.look;
     for (const auto& picture : look.pictures) {
@@ -186,7 +186,7 @@ class ModelBuilder {
       auto material = matt_material();
       material.name = as_utf8(given.name);
       auto& surface = material.pbrMetallicRoughness;
-      // A picture takes the place of the colour, as programs that write both mean it.
+      // A texture replaces the color, as intended by programs that write both.
       const Vector<3> color = picture < 0 ? given.color : Vector<3>::Ones();
       surface.baseColorFactor = {color[0], color[1], color[2], given.opacity};
       surface.baseColorTexture.index = picture;
@@ -201,8 +201,8 @@ class ModelBuilder {
     model_.materials.push_back(matt_material());
   }
 
-  // Control points hang under one joint in the middle of the cage. Programs that draw joints as
-  // bones make those without children as long as the shortest of their parent's: the helper's.
+  // All control points are children of one joint at the center of the cage. Programs that draw
+  // joints as bones give leaf joints the length of the shortest sibling, which is the helper joint.
   void add_joints() {
     const auto num_points = scene_.joints.cols();
     const Eigen::Vector3f low = scene_.joints.rowwise().minCoeff();
@@ -227,7 +227,7 @@ class ModelBuilder {
     model_.skins.push_back(skin);
   }
 
-  // Appends a node. \param parent  where its parent is
+  // Appends a node. \param parent  position of its parent
   void add_joint(const std::string& name, const Eigen::Vector3f& place,
                  const Eigen::Vector3f& parent) {
     tinygltf::Node joint;
@@ -237,7 +237,7 @@ class ModelBuilder {
     places_.push_back(parent + place);
   }
 
-  // A matrix per joint, which undoes its place at rest.
+  // The inverse bind matrix of each joint.
   int add_inverse_binds(const std::vector<int>& joints) {
     Eigen::MatrixXf inverse_binds(16, joints.size());
     for (std::size_t k = 0; k < joints.size(); ++k) {
@@ -275,7 +275,7 @@ class ModelBuilder {
   const GlbScene& scene_;
   tinygltf::Model model_;
   GlbBuffer buffer_;
-  int plain_material_ = -1;              // of triangles without one
+  int plain_material_ = -1;              // of triangles without a material
   Eigen::Vector3f centre_;               // of the cage
   std::vector<Eigen::Vector3f> places_;  // of the nodes from kCageNode on, at rest
 };

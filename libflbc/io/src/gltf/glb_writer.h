@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The binary form of glTF 2.0, as far as a skin whose joints only translate needs it. The library
-//! behind it is seen in glb_writer.cpp only.
+//! Writes binary glTF 2.0, limited to a skin whose joints only translate. Only glb_writer.cpp
+//! includes the underlying library.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace flbc::gltf {
 
-//! A translation for every moment of the animation.
+//! One translation per time of the animation.
 struct Channel {
   Index joint;
-  Eigen::Matrix3Xf translations;  //!< 3 x number of moments
+  Eigen::Matrix3Xf translations;  //!< 3 x number of times
 };
 
-//! A skinned mesh, in the numbers that are stored: S vertices, T triangles, n joints.
+//! A skinned mesh as stored: S vertices, T triangles, n joints.
 struct GlbScene {
-  std::string name{};                      //!< of the mesh
-  //! Of the numbers that follow, in the cage's coordinates: far from the origin single precision
-  //! would be too coarse.
+  std::string name{};  //!< of the mesh
+  //! Origin of the following coordinates, in cage coordinates. Single precision would be too coarse
+  //! far from the origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3Xf positions{};            //!< 3 x S
   Eigen::Matrix3Xf normals{};              //!< 3 x S
@@ -32,17 +32,18 @@ struct GlbScene {
   JointWeights weights{};                  //!< of the S vertices
   FacetList<3> triangles{};                //!< 3 x T
   Look look{};                             //!< of the triangles
-  Eigen::Matrix3Xf joints{};               //!< 3 x n, where they rest
+  Eigen::Matrix3Xf joints{};               //!< 3 x n, at rest
   FacetList<2> wire{};                     //!< 2 x E, edges between joints, or no column
-  std::vector<float> times{};              //!< of the moments, in seconds
+  std::vector<float> times{};              //!< in seconds
   std::vector<Channel> channels{};         //!< joints that move
 };
 
-//! The content of a .glb file. Two nodes are roots of the scene: that of the mesh, and the joint
-//! "cage" in the middle of the cage, which alone knows how far that is from the origin. Its children are the joints "control_point_0" and so on, and
-//! "cage_end", near it, which moves nothing but makes programs draw short bones. A second scene, which is not shown by
-//! default, has the cage's edges as well: the node "cage_wire", which the joints move.
-//! \throws InputError if it exceeds the 4 GB such a file can have
+//! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"
+//! at the center of the cage. Only this joint has the offset from the origin. Its children are the
+//! joints "control_point_0" etc., and "cage_end", which moves nothing but makes programs draw short
+//! bones. A second scene, not shown by default, also has the cage edges: the skinned node
+//! "cage_wire".
+//! \throws InputError if it exceeds the 4 GB limit of the format
 std::string encode_glb(const GlbScene& scene);
 
 }  // namespace flbc::gltf

@@ -17,7 +17,7 @@ struct Influence {
   double weight;
 };
 
-// The largest first: readers that know one set of four only then have those that matter most.
+// Largest first, so readers that support only one set of four get the most important ones.
 std::vector<Influence> influences_by_weight(const SparseWeights& weights, Index point) {
   std::vector<Influence> influences;
   weights.visit(point, [&](Index joint, double weight) {
@@ -28,7 +28,7 @@ std::vector<Influence> influences_by_weight(const SparseWeights& weights, Index 
   return influences;
 }
 
-// The largest one takes what rounding leaves to 1.
+// The largest weight gets the rounding remainder, so the sum is 1.
 std::vector<double> round_to_floats(const std::vector<double>& weights) {
   std::vector<double> numbers(weights.size());
   std::transform(weights.begin(), weights.end(), numbers.begin(),
@@ -38,7 +38,7 @@ std::vector<double> round_to_floats(const std::vector<double>& weights) {
   return numbers;
 }
 
-// The rest to the unit goes to those that lost most.
+// The remainder goes to the weights that lost most by rounding.
 std::vector<double> round_to_integers(const std::vector<double>& weights, double unit) {
   std::vector<double> numbers(weights.size());
   std::vector<std::size_t> order(weights.size());
@@ -92,7 +92,7 @@ JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format)
     const auto numbers = numbers_of(influences, format);
     Index slot = 0;
     for (std::size_t k = 0; k < influences.size(); ++k) {
-      // One that rounds to nothing is none.
+      // A weight that rounds to zero is dropped.
       if (numbers[k] == 0) continue;
       result.joints(slot, v) = static_cast<std::uint16_t>(influences[k].joint);
       result.numbers(slot++, v) = numbers[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights as skins store them: a few joints and numbers per point.
+//! Weights in the format of skins: a few joints and weights per point.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +9,31 @@
 
 namespace flbc::gltf {
 
-//! How the weights of a skin are stored.
+//! Storage format of skin weights.
 enum class WeightFormat {
   kFloat,          //!< 4 bytes each
   kUnsignedShort,  //!< 2 bytes each, multiples of 1 / 65535
   kUnsignedByte    //!< 1 byte each, multiples of 1 / 255
 };
 
-//! Sum of the stored numbers of a point: 1, 65535 or 255.
+//! Sum of the stored weights of a point: 1, 65535 or 255.
 double unit_of(WeightFormat format);
 
-//! The influences on each point, the largest first; slots that are not used have joint 0 and
-//! number 0. There are 4 slots or 8, as many as some point needs.
+//! The influences of each point, largest first; unused slots have joint 0 and weight 0. There are 4
+//! or 8 slots, depending on the maximum number of influences.
 struct JointWeights {
   WeightFormat format = WeightFormat::kFloat;
   Eigen::Matrix<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic> joints{};  //!< slots x P
-  Eigen::MatrixXd numbers{};  //!< slots x P, whole or of single precision; weights in unit_of()
+  Eigen::MatrixXd numbers{};  //!< slots x P, integers or single precision; in units of 1 /
+                              //!< unit_of()
 };
 
-//! Rounds so that the numbers of a point still add up to the unit: whole ones exactly, by the
-//! largest remainders; floats as exactly as floats can.
-//! \param weights  none below 0, at most 8 above 0 per point, with sum 1; n <= 65535
+//! Rounds so that the weights of a point still sum to the unit: integers exactly, by the largest
+//! remainder method; floats to single precision.
+//! \param weights  non-negative, at most 8 nonzero per point, sum 1; n <= 65535
 JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format);
 
-//! The weights that a reader finds, of P points.
+//! The weights as read back, of P points.
 SparseWeights to_weights(const JointWeights& stored, Eigen::Index num_joints);
 
 }  // namespace flbc::gltf

@@ -9,14 +9,14 @@
 namespace flbc::gltf {
 namespace {
 
-// By how the file begins; empty for a format that glTF does not have.
+// The MIME type from the first bytes of the file; empty for a format that glTF does not support.
 std::string media_type_of(const std::string& bytes) {
   if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) return "image/png";
   if (bytes.compare(0, 3, "\xff\xd8\xff") == 0) return "image/jpeg";
   return "";
 }
 
-// \return the number of the picture, -1 if it is left out
+// \return the index of the image; -1 if it is left out
 int add_picture(const std::string& path, Look& look) {
   std::string bytes;
   try {

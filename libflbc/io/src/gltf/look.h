@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Materials and pictures of a surface as glTF has them.
+//! Materials and images of a surface for glTF.
 #pragma once
 
 #include <string>
@@ -10,27 +10,27 @@
 
 namespace flbc::gltf {
 
-//! A file of a picture.
+//! An image file.
 struct Picture {
   std::string media_type{};  //!< "image/png" or "image/jpeg"
   std::string bytes{};
 };
 
-//! A material and the number of its picture.
+//! A material and the index of its image.
 struct LookMaterial {
   io::Material material{};
   int picture = -1;  //!< -1 = none
 };
 
-//! All that triangles look like.
+//! The appearance of all triangles.
 struct Look {
-  std::vector<LookMaterial> materials{};    //!< those that some triangle has
-  std::vector<Index> triangle_materials{};  //!< by triangle, -1 = none; empty if all have none
+  std::vector<LookMaterial> materials{};    //!< materials in use
+  std::vector<Index> triangle_materials{};  //!< per triangle, -1 = none; empty if all have none
   std::vector<Picture> pictures{};
-  std::vector<std::string> left_out{};      //!< what is missing, a phrase each
+  std::vector<std::string> left_out{};  //!< missing items, one phrase each
 };
 
-//! Reads the pictures. Never throws for one that cannot be had: that is no reason to refuse a model.
+//! Reads the images. A missing image is not an error.
 Look look_of(const Surface& surface);
 
 }  // namespace flbc::gltf

@@ -18,7 +18,7 @@ namespace {
 constexpr Eigen::Index kMaxJoints = std::numeric_limits<std::uint16_t>::max();
 using RowVector = Eigen::Matrix<Index, 1, Eigen::Dynamic>;
 
-// Up to here every whole number is a float.
+// Every integer up to this is a float.
 constexpr Eigen::Index kMaxExactFloat = 1 << 24;
 
 void require_equal(Eigen::Index found, Eigen::Index expected, const char* what) {
@@ -69,7 +69,7 @@ Eigen::Matrix3Xf to_floats(const PointList<Dim>& points, const std::string& owne
   return result;
 }
 
-// A channel for every joint that is elsewhere in some pose.
+// A channel for every joint that moves in some pose.
 template <int Dim>
 std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::Matrix3Xf& rest,
                                  const Vector<Dim>& origin) {
@@ -95,8 +95,8 @@ bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
   return static_cast<Eigen::Index>(sources.size()) == num_points;
 }
 
-// The middle of a cage that is so far from the origin that floats there are coarser than a
-// millionth of its size; else zero.
+// The center of the cage if it is so far from the origin that float spacing exceeds 1e-6 of its
+// size; otherwise zero.
 template <int Dim>
 Vector<Dim> origin_of(const PointList<Dim>& control_points, SkinFormat format) {
   const Vector<Dim> low = control_points.rowwise().minCoeff();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! A model that moves with its cage, for engines and viewers: a glTF skin in which every control
-//! point is a joint that only translates. Joint i moves from c_i to c_i', and so a point x to
-//! sum w_i (x + c_i' - c_i), which is sum w_i c_i' because the weights sum to 1 and reproduce x.
-//! Normals stay as they are at rest: joints that do not turn do not turn them.
+//! point is a joint that only translates. Joint i moves from c_i to c_i', and so a point x to sum
+//! w_i (x + c_i' - c_i), which is sum w_i c_i' because the weights sum to 1 and reproduce x.
+//! Normals do not change, because the joints do not rotate.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@
 
 namespace flbc::gltf {
 
-//! The file that holds a skin.
+//! File format of a skin.
 enum class SkinFormat { kGlb, kUsda };
 
-//! How the skin is stored.
+//! Options of the skin.
 struct SkinOptions {
   Index max_influences = 8;  //!< per point, 4 or 8
   WeightFormat weight_format = WeightFormat::kFloat;
@@ -28,42 +28,41 @@ struct SkinOptions {
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
 
-//! Poses of the cage, between which it moves along straight lines.
+//! Poses of the cage, with linear interpolation between them.
 template <int Dim>
 struct Animation {
-  std::vector<double> times{};          //!< of the poses in seconds, 0 or more, ascending
+  std::vector<double> times{};          //!< of the poses in seconds, >= 0, ascending
   std::vector<PointList<Dim>> poses{};  //!< Dim x n each
 };
 
-//! \throws InputError naming the pose if there are not as many times as poses, if one has not the
-//! given number of control points, or if times are below 0 or do not ascend in single precision
+//! \throws InputError naming the pose if the numbers of times and poses differ, a pose has another
+//! number of control points, or times are negative or not ascending in single precision
 template <int Dim>
 void validate(const Animation<Dim>& animation, Eigen::Index num_control_points);
 
-//! A .glb or .usda file and what is in it.
+//! A .glb or .usda file and its statistics.
 struct ExportedSkin {
-  std::string content{};       //!< of the file
-  Index vertices = 0;          //!< S
-  Index triangles = 0;         //!< T
-  Index joints = 0;            //!< n
-  Index moving_joints = 0;     //!< those with a channel of the animation
-  Index influences = 0;        //!< most per vertex
-  Index given_influences = 0;  //!< most per vertex of the weights given
-  std::vector<std::string>
-      left_out{};              //!< materials and pictures that could not be had, a phrase each
-  double position_change = 0;  //!< largest distance by which rounding moves a vertex
-  //! Distances between vertices moved by the weights given and by those in the file, over the poses
-  //! of the animation or, without one, over random smooth ones (smooth_poses()).
+  std::string content{};                //!< of the file
+  Index vertices = 0;                   //!< S
+  Index triangles = 0;                  //!< T
+  Index joints = 0;                     //!< n
+  Index moving_joints = 0;              //!< joints with an animation channel
+  Index influences = 0;                 //!< maximum per vertex
+  Index given_influences = 0;           //!< maximum per vertex of the given weights
+  std::vector<std::string> left_out{};  //!< missing materials and images, one phrase each
+  double position_change = 0;           //!< maximum displacement of a vertex by rounding
+  //! Distances between vertices deformed by the given weights and by those in the file, over the
+  //! poses of the animation, or over smooth_poses() if there is none.
   ErrorNorms deformation_error{};
 };
 
-//! Weights of more than `max_influences` control points, and such with numbers below 0, are reduced
-//! by sparsify(); others stay.
+//! Points with more than `max_influences` influences or with negative weights are reduced by
+//! sparsify(); others are unchanged.
 //! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, reproducing
 //! \param surface  of these points; in 2D it lies in the plane z = 0
-//! \throws OptionError for another number of influences; InputError if sizes do not fit, for more
-//! than 65535 control points, if a coordinate is too large for single precision, and as validate()
-//! and sparsify()
+//! \throws OptionError for another number of influences; InputError if sizes do not match, there
+//! are more than 65535 control points, or a coordinate is too large for single precision, and as
+//! validate() and sparsify()
 template <int Dim>
 ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
                          const SparseWeights& weights, const Surface& surface,

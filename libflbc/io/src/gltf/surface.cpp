@@ -25,8 +25,8 @@ struct Corner {
 };
 using Corners = std::vector<Corner>;  // three per triangle
 
-// For every column the first one that equals it: programs write the same value many times, and
-// where it does not differ there is no seam.
+// For every column, the first equal one. Programs write equal values many times; equal values do
+// not make a seam.
 template <int Dim>
 std::vector<Index> first_equals(const PointList<Dim>& columns) {
   const auto is_less = [&](Index a, Index b) {
@@ -44,7 +44,7 @@ std::vector<Index> first_equals(const PointList<Dim>& columns) {
   return first;
 }
 
-// Of length 1; zero where there is none.
+// Normalized; zero if there is none.
 PointList<3> unit(const PointList<3>& normals) {
   PointList<3> result = normals;
   for (auto normal : result.colwise()) normal.stableNormalize();
@@ -102,12 +102,12 @@ void turn_counterclockwise(const io::PolygonSoup& soup, Corners& corners) {
   }
 }
 
-// From sRGB, in which programs write colours, to the linear colours of glTF.
+// Converts sRGB colors, as written by most programs, to the linear colors of glTF.
 double linear(double color) {
   return color <= 0.04045 ? color / 12.92 : std::pow((color + 0.055) / 1.055, 2.4);
 }
 
-// The vertices, in the order of the model's, and which of them are the triangles' corners.
+// The vertices, in the order of the model vertices, and the corners of the triangles.
 Surface index_corners(const Corners& corners, Corners& vertices) {
   vertices = corners;
   std::sort(vertices.begin(), vertices.end());
@@ -145,7 +145,7 @@ template <int Dim>
 Surface surface_of_model(const io::Model& model) {
   const auto& soup = model.soup;
   const auto& attributes = model.attributes;
-  // A plane has normals of its own.
+  // Planar models get constant normals.
   PointList<3> normals = unit(attributes.normals);
   if (Dim == 2) normals.setZero();
   const CornerTable table(attributes, normals);

@@ -21,7 +21,7 @@ std::string tuple(const Column& column) {
   return text.str();
 }
 
-// "[a, b, c]" of what write(k) gives.
+// "[a, b, c]" from the output of write(k).
 template <class Write>
 std::string list(Eigen::Index count, const Write& write) {
   std::ostringstream text;
@@ -49,8 +49,8 @@ std::string repeated(Eigen::Index count, const char* value) {
   return list(count, [&](Eigen::Index) { return value; });
 }
 
-// Some readers want skeletons of one root, which comes before its children: a joint that rests at
-// the origin and never moves.
+// Some readers require a single root that precedes its children: a joint at the origin that never
+// moves.
 constexpr int kRoots = 1;
 
 Eigen::Matrix3Xf with_root(const Eigen::Matrix3Xf& joints) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The same skins as plain text of Universal Scene Description.
+//! Writes the same skins as text of Universal Scene Description.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace flbc::gltf {
 
-//! The content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton "cage" and,
-//! if something moves, its animation "poses". Its joints are a root "cage", which never moves, and
-//! its children, the control points. Influences per vertex are not limited to sets of four.
+//! Makes the content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton
+//! "cage" and, if something moves, its animation "poses". Its joints are a root "cage", which never
+//! moves, and its children, the control points. Influences are not limited to sets of four.
 std::string encode_usda(const GlbScene& scene);
 
 }  // namespace flbc::gltf

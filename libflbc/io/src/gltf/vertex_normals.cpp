@@ -13,7 +13,7 @@ PointList<3> vertex_normals(const std::vector<Vector<3>>& points, const std::vec
   for (const auto& triangle : triangles.colwise()) {
     for (int k = 0; k < 3; ++k) {
       const Index point = sources[triangle[k]];
-      // Lengths of 1 keep tiny triangles from underflow.
+      // Normalized, so tiny triangles do not underflow.
       const Vector<3> next =
           (points[sources[triangle[(k + 1) % 3]]] - points[point]).stableNormalized();
       const Vector<3> last =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh .msh in text form, versions 2 and 4.1: sections between $Name and $EndName; nodes and
-// elements have arbitrary tags. Only tetrahedra count; points, curves and surfaces are passed over.
+// elements have arbitrary tags. Only tetrahedra are used; points, curves, and surfaces are skipped.
 #include <algorithm>
 #include <iterator>
 #include <unordered_map>
@@ -12,7 +12,7 @@
 namespace flbc::io {
 namespace {
 
-// Gmsh's numbers for kinds of elements.
+// Gmsh element types.
 constexpr std::int64_t kTetrahedron = 4;
 // Points, lines, triangles and quadrilaterals of first and second order.
 constexpr std::int64_t kKindsOnBoundaries[] = {15, 1, 2, 3, 8, 9, 10, 16};
@@ -105,7 +105,7 @@ class GmshReader {
     }
   }
 
-  // \return whether elements of this kind make up the mesh, rather than lie on its boundary
+  // \return whether elements of this kind are cells of the mesh, not of its boundary
   bool is_tetrahedron(std::int64_t kind) const {
     if (kind == kTetrahedron) return true;
     const auto end = std::end(kKindsOnBoundaries);
@@ -144,7 +144,7 @@ class GmshReader {
     return reader_.count("blocks", 8);
   }
 
-  // A block has the tags of its nodes first and their points next.
+  // A block has first the tags of its nodes, then their coordinates.
   void read_nodes_4() {
     const Index num_blocks = read_number_of_blocks();
     for (Index b = 0; b < num_blocks; ++b) {
@@ -206,7 +206,7 @@ void write_gmsh_2(TextWriter& writer, const DomainMesh<3>& mesh) {
   }
   writer << "$EndNodes\n$Elements\n" << mesh.num_cells() << "\n";
   for (Index s = 0; s < mesh.num_cells(); ++s) {
-    // Type 4 is a tetrahedron; the 2 tags say that it belongs to physical and elementary volume 1.
+    // Type 4 is a tetrahedron; the 2 tags assign it to physical and elementary volume 1.
     writer << s + std::int64_t{1} << " 4 2 1 1";
     write_cell(writer, mesh, s, 1);
   }
@@ -215,8 +215,8 @@ void write_gmsh_2(TextWriter& writer, const DomainMesh<3>& mesh) {
 
 void write_gmsh_4(TextWriter& writer, const DomainMesh<3>& mesh) {
   writer << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-  // No points, curves and surfaces, but one volume, with tag 1 and the bounding box, to which all
-  // nodes and elements belong; each in one block.
+  // No points, curves, or surfaces; one volume with tag 1 and the bounding box, which contains all
+  // nodes and elements; one block each.
   writer << "$Entities\n0 0 0 1\n1";
   if (mesh.num_vertices() > 0) {
     for (const double x : mesh.points.rowwise().minCoeff().eval()) writer << " " << x;

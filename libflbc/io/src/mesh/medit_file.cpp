@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MEDIT .mesh: sections that start with a keyword and a number of elements; each element ends with
-// a reference number. Vertices are numbered from 1. Numbers per vertex have a file of their own,
-// .sol, of the same form.
+// a reference number. Vertices are numbered from 1. Values per vertex are in a separate .sol file
+// of the same form.
 #include <algorithm>
 #include <filesystem>
 
@@ -21,7 +21,7 @@ void read_header(TextReader& reader) {
   reader.word_on_any_line("the version");
 }
 
-// A section's number of elements may stand on the keyword's line or the next one.
+// The number of elements of a section may be on the line of the keyword or the next one.
 Index read_count(TextReader& reader, const char* things, std::size_t bytes_each) {
   reader.next_word_on_any_line();
   return reader.count(things, bytes_each);
@@ -53,7 +53,7 @@ bool is_keyword(std::string_view word) {
   return (word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z');
 }
 
-// Edges, corners, normals and whatever else there may be: numbers up to the next keyword.
+// Skips other sections (edges, corners, normals, ...): numbers up to the next keyword.
 void skip_section(TextReader& reader) {
   while (reader.next_word_on_any_line() && !is_keyword(reader.peek())) reader.word();
 }
@@ -64,7 +64,7 @@ void read_dimension(TextReader& reader) {
   if (dimension != 3) reader.fail("the dimension is " + std::to_string(dimension) + ", not 3");
 }
 
-// The format has no names, so they stand in comments of their own, "# field K NAME".
+// The format has no names, so they are written as comments, "# field K NAME".
 constexpr const char* kNameComment = "# field ";
 
 std::string name_of_field(const std::string& content, Index field) {
@@ -216,7 +216,7 @@ DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fiel
 
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,
                  const std::vector<VertexField>& fields, GmshVersion) {
-  // Neither of the two files appears if one of them cannot be written.
+  // If one of the two files cannot be written, neither is created.
   write_file(path, [&](std::ostream& out) {
     write_medit_mesh(out, mesh);
     out.flush();

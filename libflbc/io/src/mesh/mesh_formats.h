@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The domain mesh file formats, a file each. Contracts as in flbc/io/mesh_io.h, but readers leave
-//! orientation and validation to their caller.
+//! The domain mesh file formats, one source file each. Contracts as in flbc/io/mesh_io.h, but
+//! readers leave orientation and validation to their caller.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace flbc::io {
 
-//! \param fields  receive the scalars per vertex, where the format has them; null passes them over
+//! \param fields  output: scalars per vertex if the format supports them; null: skip them
 DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>* fields);
 DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fields);
 DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>* fields);
 template <int Dim>
 DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fields);
-//! \param path  the .node or the .ele file; the other one lies beside it
+//! \param path  the .node or the .ele file; the other one is in the same directory
 DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>* fields);
 
-//! \param fields  empty where the format has none \param version  of interest to Gmsh
+//! \param fields  empty if the format has none \param version  only for Gmsh
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
                      const std::vector<VertexField>& fields, GmshVersion version);
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TetGen's pair of files: .node has "COUNT 3 ATTRIBUTES MARKERS", then "NUMBER X Y Z ..."; .ele has
-// "COUNT 4 ATTRIBUTES", then "NUMBER A B C D ...". All numbers start at 0 or all at 1.
+// The file pair of TetGen: .node has "COUNT 3 ATTRIBUTES MARKERS", then "NUMBER X Y Z ..."; .ele
+// has "COUNT 4 ATTRIBUTES", then "NUMBER A B C D ...". All numbers start at 0 or all at 1.
 #include <filesystem>
 #include <ostream>
 
@@ -99,8 +99,7 @@ DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>*) {
 
 void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
                   const std::vector<VertexField>&, GmshVersion) {
-  // The .ele file gets its name only once the nodes are safely written, so that a failure leaves
-  // neither of the two.
+  // The .ele file is renamed only after the nodes are written, so a failure leaves neither file.
   write_file(with_extension(path, "node"), [&](std::ostream& nodes) {
     write_nodes(nodes, mesh);
     nodes.flush();

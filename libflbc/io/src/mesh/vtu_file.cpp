@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes VTK's XML format for unstructured grids, as text.
+// Writes the VTK XML format for unstructured grids, as text.
 #include <ostream>
 
 #include "flbc/io/files.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads VTK's XML format for unstructured grids, as text: arrays of points, of the cells' points
-// one after another, of where each cell's points end, of the kinds of cells, and of point data.
+// Reads the VTK XML format for unstructured grids, as text: arrays of points, cell connectivity,
+// cell offsets, cell types, and point data.
 #include <algorithm>
 #include <iterator>
 
@@ -15,7 +15,7 @@
 namespace flbc::io {
 namespace {
 
-// VTK's numbers for kinds of cells.
+// VTK cell types.
 constexpr std::int64_t kTriangle = 5;
 constexpr std::int64_t kTetrahedronType = 10;
 constexpr std::int64_t kKindsBelow2D[] = {1, 2, 3, 4, 21, 35, 68};
@@ -42,7 +42,7 @@ class VtuReader {
       fail(file, "not a VTK file: the first tag must be <VTKFile>");
     }
     const std::string type = file.attribute("type").value();
-    // Raw data at the end of a file are no XML, and belong to arrays that are refused below.
+    // Raw data at the end of a file are not XML; their arrays are rejected below.
     if (!parsed && !file.child("AppendedData")) {
       fail_at(parsed.offset, std::string("the XML is malformed: ") + parsed.description());
     }
@@ -76,7 +76,7 @@ class VtuReader {
     if (fields_ == nullptr) return;
     for (const auto& array : piece.child("PointData").children("DataArray")) {
       const std::string components = array.attribute("NumberOfComponents").value();
-      if (!components.empty() && components != "1") continue;  // vectors are no weights
+      if (!components.empty() && components != "1") continue;  // skips vectors
       const auto values = read_numbers(array, num_points_);
       fields_->push_back({array.attribute("Name").value(),
                           Eigen::Map<const Eigen::VectorXd>(

@@ -27,7 +27,7 @@ FacetList<2> edges_of_polylines(const std::vector<Polygon>& polylines) {
   return facets;
 }
 
-// The edges that one polygon only has, in its direction: what the polygons bound together.
+// The edges of only one polygon, in its direction: the common boundary.
 FacetList<2> boundary_edges(const std::vector<Polygon>& polygons) {
   std::map<std::pair<Index, Index>, int> uses;  // by the smaller end
   const auto for_edges = [&](const auto& use) {
@@ -88,7 +88,7 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
 
 AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
   if (soup.points.empty()) throw InputError(name + ": has no vertices");
-  // A closed surface that lies flat bounds nothing in its plane: it is a surface without volume.
+  // A flat closed surface has no boundary in its plane; it is a surface without volume.
   FacetList<2> outline(2, 0);
   if (is_flat(soup)) {
     outline =

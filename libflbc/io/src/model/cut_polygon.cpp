@@ -9,7 +9,7 @@
 namespace flbc::io {
 namespace {
 
-// One polygon, seen along the normal of the plane nearest to it.
+// A polygon projected onto its best-fit plane.
 class PolygonCutter {
  public:
   using Polygon = std::vector<Index>;
@@ -24,8 +24,8 @@ class PolygonCutter {
     normal_.stableNormalize();
   }
 
-  // Along the shorter diagonal if the polygon is a convex quadrangle, fanwise if it is convex
-  // otherwise, else by cutting off ears; fanwise too what has no ears, which is no sound polygon.
+  // Cuts a convex quadrilateral along its shorter diagonal, other convex polygons into a fan, and
+  // the rest by ear clipping. An invalid polygon without ears is also cut into a fan.
   std::vector<Triangle> cut() {
     std::vector<Triangle> triangles;
     if (is_convex()) {
@@ -50,7 +50,7 @@ class PolygonCutter {
     return (points_[rest_[a]] - points_[rest_[b]]).norm();
   }
 
-  // Twice the signed area of a triangle as it is seen.
+  // Twice the signed area of a projected triangle.
   double area(Index a, Index b, Index c) const {
     return (points_[b] - points_[a]).cross(points_[c] - points_[a]).dot(normal_);
   }
@@ -70,7 +70,7 @@ class PolygonCutter {
     return true;
   }
 
-  // Whether nothing of the polygon is in the way of cutting off the corner after `corner`.
+  // Whether the corner after `corner` is an ear.
   bool is_ear(std::size_t corner) const {
     if (!turns_left(corner)) return false;
     const Index a = rest_[corner], b = rest_[after(corner)], c = rest_[after(corner, 2)];
@@ -80,7 +80,7 @@ class PolygonCutter {
     });
   }
 
-  // Going on behind the last ear avoids fans of slivers.
+  // Continuing after the last ear avoids fans of slivers.
   void cut_ears(std::vector<Triangle>& triangles) {
     std::size_t corner = 0;
     for (std::size_t tried = 0; rest_.size() > 3 && tried < rest_.size(); ++tried) {

@@ -15,8 +15,8 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 using Polygon = std::vector<Index>;
 
-// Twice the area of a polygon along its normal, also if it is not planar. Relative to a corner,
-// so that polygons far from the origin keep their digits.
+// Twice the area vector of a polygon, which may be nonplanar. Relative to a corner, so polygons far
+// from the origin do not lose digits.
 Vector<3> area_vector(const Polygon& corners, const PointList<3>& points) {
   const Vector<3> origin = points.col(corners.front());
   Vector<3> area = Vector<3>::Zero();
@@ -35,8 +35,8 @@ PointList<3> area_vectors(const PolygonSoup& soup, const PointList<3>& points) {
   return areas;
 }
 
-// Covariance of edges before and after, and of a vector across them, without which nothing would
-// tell the sides of a flat polygon apart. Lengths squared, so that large polygons count for more.
+// Covariance of edges before and after, and of a normal vector, which distinguishes the sides of a
+// flat polygon. Lengths are squared, so large polygons have more weight.
 Matrix3 correlation(const Polygon& corners, const PointList<3>& before, const PointList<3>& after,
                     const Vector<3>& area_before, const Vector<3>& area_after) {
   Matrix3 sum = Matrix3::Zero();
@@ -56,7 +56,7 @@ bool is_still(const Polygon& corners, const PointList<3>& before, const PointLis
 
 // The motion of a normal, summed over its polygons.
 struct Motion {
-  bool is_still = true;  // then not even rounding shall turn it
+  bool is_still = true;  // if true, the normal must not change even by rounding
   Vector<3> before = Vector<3>::Zero();
   Vector<3> after = Vector<3>::Zero();
   Matrix3 correlation = Matrix3::Zero();

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Normals of a model while its vertices move.
+//! Updates normals of a model when its vertices move.
 #pragma once
 
 #include "flbc/io/model.h"
 
 namespace flbc::io {
 
-//! Normals that turn with the polygons they belong to: by the rotation that fits these best, and
-//! then as it takes for the polygons' mean, weighted by area, to follow exactly. So a normal moves
-//! rigidly where the polygons do, and one that is their mean remains it.
+//! Rotates normals with their polygons: first by the best-fit rotation, then so that the
+//! area-weighted mean of the polygon normals follows exactly. A normal therefore moves rigidly if
+//! its polygons do, and a normal that is their mean remains the mean.
 class FollowingNormals {
  public:
-  //! Those of a model, and of its polygons (3 x number of polygons, or empty); both outlive this.
+  //! The normals of a model, and of its polygons (3 x number of polygons, or empty); both must
+  //! outlive this.
   FollowingNormals(const Model& model, const PointList<3>& face_normals);
 
-  //! Number of normals that belong to no polygon with an area. They never turn.
+  //! Number of normals that belong to no polygon with nonzero area. They never change.
   Index num_loose() const { return num_loose_; }
 
-  //! The normals' turned images when the vertices are at `points`.
+  //! The rotated normals for vertices at `points`.
   struct Turned {
     PointList<3> normals;
     PointList<3> face_normals;
@@ -30,7 +31,7 @@ class FollowingNormals {
 
   const Model& model_;
   const PointList<3>& face_normals_;
-  PointList<3> rest_;        // the vertices, if there are normals
+  PointList<3> rest_;        // rest vertices, if there are normals
   PointList<3> rest_areas_;  // of the polygons
   Index num_loose_ = 0;
 };

@@ -4,7 +4,7 @@
 namespace flbc::io {
 namespace {
 
-// Values of vertices are there also for vertices without polygons.
+// Vertex values also exist for vertices without polygons.
 template <int Dim>
 bool are_of_vertices(const PointList<Dim>& values, const Model& model,
                      Index CornerReferences::*reference) {

@@ -53,7 +53,7 @@ bool is_single(NumberForm form) {
   return form == NumberForm::kFloat || form == NumberForm::kBigFloat;
 }
 
-// Fails where a coordinate cannot be written in its place.
+// Throws if a coordinate cannot be written in place.
 void check_coordinate(const NumberPlace& place, Index vertex, int axis, double value) {
   const std::string name =
       std::string("coordinate ") + "xyz"[axis] + " of vertex " + std::to_string(vertex);
@@ -88,7 +88,7 @@ bool are_single(const std::vector<Vector<3>>& points) {
                      [](const auto& point) { return are_single<Vector<3>>(point); });
 }
 
-// Levels written as decimals with a few digits are meant to be these levels.
+// Rounds decimals with few digits to the intended color levels.
 bool are_levels(const PointList<3>& colors) {
   constexpr double kDigits = 1e-3;
   const Eigen::ArrayXXd levels = 255 * colors.array();
@@ -133,7 +133,7 @@ class Losses {
     add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
   }
 
-  // Of formats whose attributes belong to vertices.
+  // For formats with vertex attributes.
   void add_losses_of_vertices() {
     const auto texture = texture_coordinates_at_vertices(model_);
     add_if(!normals_at_vertices(model_), "normals (they differ between corners of a vertex)");
@@ -189,7 +189,7 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points) const {
 
   TextWriter writer(out);
   std::size_t done = 0;
-  // Numbers that do not change keep their digits, and normals that are integers stay.
+  // Unchanged numbers keep their digits, and integer normals are not changed.
   const auto replace = [&](const NumberPlace& place, double before, double after) {
     if (after == before || place.form == NumberForm::kInteger) return;
     writer << std::string_view(file.text).substr(done, place.begin - done);

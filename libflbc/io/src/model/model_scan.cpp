@@ -10,7 +10,7 @@ PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed) {
   PlacedNumbers result;
   auto& places = result.places;
   for (int k = 0; k < 3; ++k) {
-    // Words of their own: a line may be continued in the middle.
+    // Separate words, because a line may be continued in the middle.
     if (reader.has_word() || k < needed) {
       places[k] = {size - reader.bytes_left(), static_cast<std::uint32_t>(reader.peek().size()),
                    NumberForm::kText};

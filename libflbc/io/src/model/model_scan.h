@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Content of model files and the places of their numbers, a source file for each format.
+//! Reads content of model files and the locations of their numbers, with one source file per
+//! format.
 #pragma once
 
 #include <array>
@@ -15,11 +16,11 @@
 
 namespace flbc::io {
 
-//! How a number is written: as a word; as bytes, little-endian unless big is said; or in a way that
-//! leaves no room for a coordinate.
+//! How a number is written: as a word; as bytes, little-endian unless stated otherwise; or in a way
+//! that cannot store a coordinate.
 enum class NumberForm : std::uint8_t { kText, kFloat, kDouble, kBigFloat, kBigDouble, kInteger };
 
-//! The bytes of a number in a file. Size 0: there is none, but as text one could stand here.
+//! The bytes of a number in a file. Size 0: no number, but text can be inserted here.
 struct NumberPlace {
   std::size_t begin = 0;
   std::uint32_t size = 0;
@@ -37,13 +38,13 @@ struct Site {
   Index index;        //!< of the vertex, normal or polygon
 };
 
-//! How much of a file is read.
+//! Extent of reading.
 enum class Extent : std::uint8_t { kGeometry, kEverything };
 
-//! A file, read.
+//! A parsed file.
 struct ModelScan {
   std::string text{};           //!< the whole file
-  Model model{};                //!< what it holds
+  Model model{};                //!< its content
   PointList<3> face_normals{};  //!< 3 x number of polygons, or empty
   std::vector<Site> sites{};    //!< in the order of the file
 };
@@ -54,8 +55,8 @@ struct PlacedNumbers {
   Vector<3> values = Vector<3>::Zero();
 };
 
-//! Reads the next three numbers on this line. One that is missing is 0, and its place is right
-//! after the one before.
+//! Reads the next three numbers on this line. A missing number is 0, located right after the
+//! previous one.
 //! \param reader  of a file of `size` bytes
 //! \param needed  an error if there are fewer
 PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed);
@@ -64,24 +65,24 @@ PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed);
 void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
                Index index);
 
-//! Has texture coordinates and normals that are columns v belong to vertices v.
+//! Assigns column v of texture coordinates and normals to vertex v.
 void refer_to_vertices(Model& model);
 
-//! Adds a phrase to what else is in the file, once.
+//! Adds a phrase to Model::others, once.
 void add_other(Model& model, const std::string& phrase);
 
-//! Attributes in columns, without those that are not finite: some scanners write NaN as the normal
-//! of a vertex without polygons. These become 0, which is told among what else is in the file.
+//! Attributes in columns. Non-finite values become 0 and are listed in Model::others; some scanners
+//! write NaN as the normal of a vertex without polygons.
 template <int Dim>
 void keep_finite(Model& model, PointList<Dim>& attributes);
 
-//! Drops the colours unless all are between 0 and 1, and tells so among what else is in the file.
+//! Drops the colors unless all are in [0, 1], and adds this to Model::others.
 void keep_colors_in_range(Model& model);
 
-//! The nearest of the 256 levels of a colour, from 0 to 1.
+//! The nearest of 256 color levels in [0, 1].
 int level_of(double intensity);
 
-//! Attributes for formats that have them at vertices, no columns where a model has none.
+//! Attributes for formats with vertex attributes; no columns if a model has none.
 struct VertexAttributes {
   explicit VertexAttributes(const Model& model);
 
@@ -90,7 +91,7 @@ struct VertexAttributes {
   const PointList<3>& colors;
 };
 
-//! Read a file, whose text `scan` has; .ply, .stl and .om are read to every extent.
+//! Read a file, whose text `scan` has; .ply, .stl, and .om support every extent.
 //! \throws as ModelFile does
 void read_obj(const std::string& path, Extent extent, ModelScan& scan);
 void read_off(const std::string& path, Extent extent, ModelScan& scan);
@@ -98,13 +99,13 @@ void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
 void read_om(const std::string& path, Extent extent, ModelScan& scan);
 
-//! Reads what a .mtl file says of these materials. \return false if it cannot be read
+//! Reads these materials from a .mtl file. \return false if it cannot be read
 bool read_mtl(const std::string& path, std::vector<Material>& materials);
 
-//! A file that is named in another one, relative to that one's folder.
+//! Path of a file that is named in another file, relative to its directory.
 std::string beside(const std::string& path, const std::string& name);
 
-//! The words that are left on a line: a name that may have blanks.
+//! The remaining words on a line: a name that may contain blanks.
 std::string rest_of_line(TextReader& reader);
 
 //! Write a model.

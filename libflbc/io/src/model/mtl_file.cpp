@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Materials beside .obj files: "newmtl NAME", then Kd R G B, d OPACITY or Tr TRANSPARENCY, Ns 0..1000,
+// Materials of .obj files: "newmtl NAME", then Kd R G B, d OPACITY or Tr TRANSPARENCY, Ns 0..1000,
 // Pr and Pm (roughness and metal, as Blender writes them), map_Kd [-OPTION NUMBER...]... PICTURE.
-// Nothing else is looked at, and what cannot be read is left as it is by default: a look is no
-// reason to refuse a model.
+// Other keywords are ignored. Values that cannot be read keep their defaults, because materials are
+// not essential.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -26,7 +26,7 @@ bool next_number(TextReader& reader, double& value) {
   return reader.has_word() && to_number(reader.word(), value);
 }
 
-// From 0 to 1; stays where there is none.
+// In [0, 1]; unchanged if missing.
 void read_share(TextReader& reader, double& share) {
   double value = 0;
   if (next_number(reader, value)) share = std::clamp(value, 0.0, 1.0);
@@ -41,7 +41,7 @@ void read_color(TextReader& reader, Vector<3>& color) {
   color = value.cwiseMax(0).cwiseMin(1);
 }
 
-// The name after the options; it may have blanks.
+// The name after the options; it may contain blanks.
 std::string picture_name(TextReader& reader) {
   std::string name;
   bool is_option = false;

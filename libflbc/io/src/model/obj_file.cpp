@@ -51,7 +51,7 @@ class ObjReader {
     } else if (keyword == "l") {
       read_corners("a polyline", 2, model_.soup.polylines.emplace_back());
     } else if (keyword == "mtllib" || keyword == "usemtl") {
-      // Read in any case: it may be continued on the next line.
+      // Always read, because it may continue on the next line.
       read_material(keyword, rest_of_line(reader_));
     } else if (!reads_attributes_) {
       return;
@@ -59,7 +59,7 @@ class ObjReader {
       const std::int64_t line = reader_.line();
       keyword == "vt" ? read_texture_coordinate() : read_normal();
       if (reader_.line() == line) return;
-      // Where it is passed over, the rest would be a line of its own.
+      // If skipped, the rest would be parsed as a separate line.
       reader_.fail(
           "a texture coordinate (\"vt\") or normal (\"vn\") is continued on another line; it must "
           "be on one");
@@ -92,7 +92,8 @@ class ObjReader {
     }
   }
 
-  // Coordinates, of which planar curves lack z, maybe a weight, or a colour with or without alpha.
+  // Coordinates (planar curves lack z), optionally followed by a weight, or by a color with or
+  // without alpha.
   void read_vertex() {
     const auto numbers = next_numbers(reader_, scan_.text.size(), 2);
     add(numbers.places, TripleKind::kPoint, model_.soup.points.size());
@@ -155,7 +156,7 @@ class ObjReader {
     if (reads_attributes_) add_sites(scan_, places, kind, static_cast<Index>(index));
   }
 
-  // Numbers beyond [0, 1] mean something else.
+  // Numbers outside [0, 1] are not colors.
   void finish_colors() {
     const bool are_colors = colors_.size() == model_.soup.points.size() &&
                             std::all_of(colors_.begin(), colors_.end(), [](const Vector<3>& color) {
@@ -180,7 +181,7 @@ class ObjReader {
   std::vector<Vector<3>> colors_;
   std::vector<std::string> material_files_;
   std::vector<Index> polygon_materials_;
-  Index material_ = -1;  // of the polygons to come
+  Index material_ = -1;  // of the following polygons
   ObjReferences vertices_{"vertices"};
   ObjReferences to_texture_coordinates_{"texture coordinates"};
   ObjReferences to_normals_{"normals"};

@@ -15,14 +15,14 @@
 
 namespace flbc::io {
 
-//! References to a list that may stand after them in the file, so that whether one is too large
-//! shows only at its end; the largest one and its line are enough to tell.
+//! References to a list that may follow in the file, so the range check is at its end. It needs
+//! only the largest reference and its line.
 class ObjReferences {
  public:
   explicit ObjReferences(const char* things) : things_(things) {}
 
   //! \param number  from 1, or backwards from the latest of `seen` if negative; 0 = none
-  //! \param digits  the number as it stands in the file, if it may be too large for its type
+  //! \param digits  the number as text, if it may be too large for its type
   //! \return from 0, -1 = none
   Index resolve(const TextReader& reader, std::int64_t number, std::size_t seen,
                 std::string_view digits = {}) {
@@ -50,7 +50,7 @@ class ObjReferences {
   std::int64_t line_ = 1;
 };
 
-//! The numbers of "i", "i/t", "i/t/n" or "i//n"; 0 stands for one that is missing.
+//! The numbers of "i", "i/t", "i/t/n" or "i//n"; 0 for a missing one.
 struct ObjCorner {
   std::int64_t vertex = 0;
   std::int64_t texture_coordinate = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, colour and texture
+// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, color, and texture
 // coordinates in this order.
 #include <algorithm>
 #include <limits>
@@ -30,7 +30,7 @@ class OffReader {
     read_header();
     const Index num_points = reader_.count("vertices", 6);
     const Index num_polygons = reader_.count("faces", 8);
-    // The number of edges, which may follow, tells nothing.
+    // The optional number of edges is ignored.
     allocate(num_points, num_polygons);
     for (Index v = 0; v < num_points; ++v) {
       reader_.next_line_of("vertices", v, num_points);
@@ -89,7 +89,7 @@ class OffReader {
       model_.attributes.normals.col(v) = normal.values;
     }
     std::vector<double> numbers;
-    std::size_t num_integers = 0;  // before the first number that is none
+    std::size_t num_integers = 0;  // before the first non-integer
     while (reader_.has_word()) {
       const bool is_integer = reader_.peek().find_first_of(".eE") == std::string_view::npos;
       if (is_integer && num_integers == numbers.size()) ++num_integers;
@@ -110,7 +110,7 @@ class OffReader {
       model_.attributes.colors.col(v) << numbers[0], numbers[1], numbers[2];
       if (numbers.size() == 4) least_alpha_ = std::min(least_alpha_, numbers[3]);
     } else if (has_colors_ || !numbers.empty()) {
-      are_colors_ = false;  // a single number, for example, names a colour of a table
+      are_colors_ = false;  // for example, a single number is a color table index
     }
   }
 
@@ -124,7 +124,7 @@ class OffReader {
     if (reads_attributes_ && reader_.has_word()) add_other(model_, "colors of polygons");
   }
 
-  // Whole numbers are levels from 0 to 255, others are from 0 to 1.
+  // Integers are levels from 0 to 255, other numbers are in [0, 1].
   void finish_colors() {
     auto& colors = model_.attributes.colors;
     const double largest = are_levels_ ? 255 : 1;

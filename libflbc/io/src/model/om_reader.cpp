@@ -172,14 +172,14 @@ void OmReader::read_listed_polygons(const OmChunk& chunk) {
   }
 }
 
-// From version 2 on a face names a halfedge, and a halfedge the next one, the vertex it leads to
+// Since version 2, a face stores a halfedge, and a halfedge stores the next one, its target vertex,
 // and its face.
 void OmReader::walk_polygons() {
   const OmChunk* const faces = find(Entity::kFace, Type::kTopology);
   const OmChunk* const halfedges = find(Entity::kHalfedge, Type::kTopology);
   if (num_faces_ == 0) return;
   if (!faces || !halfedges || halfedges->components < 3) fail("the file has no connectivity");
-  // How many corners there are is bounded by the halfedges; no face can share one with another.
+  // The number of halfedges bounds the number of corners; faces cannot share a halfedge.
   std::size_t num_corners = 0;
   for (std::size_t f = 0; f < num_faces_; ++f) {
     const std::size_t first = index(*faces, f, 0, 2 * num_edges_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The structure of OpenMesh's own files: a header with numbers of elements, then chunks of
-//! little-endian values, one for each property of vertices, faces, edges, halfedges or the mesh.
-//! OpenMesh's reader can crash on damaged files, and drops properties that it is not told of.
+//! Reads OpenMesh .om files: a header with numbers of elements, then chunks of little-endian
+//! values, one per property of vertices, faces, edges, halfedges, or the mesh. The OpenMesh reader
+//! can crash on damaged files, and drops properties that are not requested.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct OmChunk {
   Entity entity{};
   Type type{};
   std::string name{};        //!< of a custom property
-  bool is_floating = false;  //!< else integers
+  bool is_floating = false;  //!< otherwise integers
   bool is_signed = false;
   std::size_t components = 0;  //!< numbers per element
   std::size_t bytes_each = 0;  //!< bytes per number
@@ -39,7 +39,7 @@ struct OmChunk {
 //! A file in chunks. All errors are InputErrors naming the file.
 class OmReader {
  public:
-  //! Walks through the file. Keeps references.
+  //! Parses the file. Keeps references.
   OmReader(const std::string& path, const std::string& content);
 
   std::size_t num_vertices() const { return num_vertices_; }

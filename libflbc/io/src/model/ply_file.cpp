@@ -40,7 +40,7 @@ class Slots {
   std::vector<int> slots_;
 };
 
-// The largest value of a channel of colours: 1 for floating types.
+// The largest value of a channel of colors: 1 for floating types.
 double largest_intensity(const PlyType& type) {
   return type.kind == 'f' ? 1 : std::ldexp(1.0, 8 * static_cast<int>(type.bytes)) - 1;
 }
@@ -67,7 +67,7 @@ class PlyScanner {
     keep_colors_in_range(model_);
     refer_to_vertices(model_);
     std::stable_sort(scan_.sites.begin(), scan_.sites.end(), [](const Site& a, const Site& b) {
-      return a.place.begin < b.place.begin;  // coordinates may stand in any order
+      return a.place.begin < b.place.begin;  // coordinates may be in any order
     });
     if (reader_.has_comments()) add_other(model_, "comments");
     if (!reader_.texture_file().empty()) {
@@ -79,7 +79,7 @@ class PlyScanner {
   }
 
  private:
-  // The numbers of an element and where they stand.
+  // The numbers of an element and their locations.
   struct Row {
     double values[kNumSlots] = {};
     NumberPlace places[kNumSlots];
@@ -94,7 +94,7 @@ class PlyScanner {
     name_others(element, slots, "vertices");
     allocate(slots, static_cast<Eigen::Index>(element.count));
     Row row;
-    row.places[kPoint + 2].form = NumberForm::kInteger;  // without z there is no room for one
+    row.places[kPoint + 2].form = NumberForm::kInteger;  // without z it cannot be stored
     row.values[kAlpha] = 1;
     double least_alpha = 1;
     for (Index v = 0; v < element.count; ++v) {
@@ -141,7 +141,7 @@ class PlyScanner {
     }
   }
 
-  // Faces, of which normals and vertices are of interest, and what is of none.
+  // Faces, with normals and vertices; other properties are skipped.
   void read_others(const PlyElement& element) {
     const bool are_faces = element.name == "face";
     if (are_faces && !model_.soup.polygons.empty()) reader_.fail("the faces are declared twice");

@@ -123,7 +123,7 @@ void PlyReader::check_count(const PlyElement& element) const {
   if (element.count > std::numeric_limits<Index>::max()) {
     fail(declared + "more than this program can handle");
   }
-  // Each takes a byte at least, so that a damaged number does not claim all memory.
+  // Each takes at least one byte, so a damaged count cannot exhaust memory.
   const bool fits =
       !element.properties.empty() && static_cast<std::size_t>(element.count) <= bytes_left();
   if (!fits && element.count > 0) fail(declared + "but the file is too short to hold them");

@@ -20,7 +20,7 @@ struct PlyType {
   char kind;  //!< i: signed, u: unsigned, f: floating
 };
 
-//! A number, or a list of numbers, that each element has.
+//! A property of each element: a number or a list of numbers.
 struct PlyProperty {
   std::string name{};
   const PlyType* type = nullptr;
@@ -37,7 +37,7 @@ struct PlyElement {
   int find(const std::string& property) const;
 };
 
-//! Walks through a file. All errors are InputErrors naming file and line or byte.
+//! Parses a file. All errors are InputErrors naming file and line or byte.
 class PlyReader {
  public:
   //! Reads the header. Keeps references.
@@ -49,10 +49,10 @@ class PlyReader {
   //! Of a comment "TextureFile NAME"; empty if there is none.
   const std::string& texture_file() const { return texture_file_; }
 
-  //! An error unless the rest of the file could hold so many of these elements.
+  //! Throws unless the rest of the file can hold this number of elements.
   void check_count(const PlyElement& element) const;
 
-  //! A number and where it stands.
+  //! A number and its location.
   struct Number {
     double value;
     NumberPlace place;
@@ -62,7 +62,7 @@ class PlyReader {
   //! A number that is an index or a length.
   Index index(const PlyType& type);
 
-  //! The length of a list, which the rest of the file could hold.
+  //! The length of a list, limited by the rest of the file.
   Index list_length(const PlyProperty& property);
 
   [[noreturn]] void fail(const std::string& message) const;

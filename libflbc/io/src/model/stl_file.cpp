@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// STL has triangles with normals and three points each; points that coincide are one vertex.
+// STL stores triangles with a normal and three points each; coincident points are one vertex.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -44,7 +44,7 @@ std::string lower(std::string_view word) {
   return result;
 }
 
-// Rounds once, from the decimals to single precision; what is too small is 0.
+// Rounds once, from decimal to single precision; too small numbers become 0.
 float to_single(std::string_view word) {
   if (word[0] == '+') word.remove_prefix(1);
   float value = 0;

@@ -29,13 +29,13 @@ using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
                 ": " + reason);
 }
 
-// `error` is an errno; 0 where the system gave no reason.
+// `error` is an errno; 0 if unknown.
 std::string reason_of(int error) {
   return error == 0 ? "unknown reason" : std::generic_category().message(error);
 }
 
-// Follows symbolic links, also those to files that do not exist yet: renaming onto a link would
-// replace the link instead of the file it stands for.
+// Resolves symbolic links, including links to missing files, because renaming onto a link would
+// replace the link instead of its target.
 fs::path resolve_links(fs::path path) {
   constexpr int kMaxLinks = 40;
   std::error_code ignored;
@@ -46,13 +46,13 @@ fs::path resolve_links(fs::path path) {
   return path;
 }
 
-// A new empty file that goes away again unless it is renamed.
+// A new empty file that is removed unless it is renamed.
 class TemporaryFile {
  public:
   TemporaryFile(const fs::path& folder, const std::string& final_path) {
-    // Opening exclusively ("x") decides between programs that draw the same name, and unlike
-    // mkstemp() it gives the file the permissions of any other new file. The name does not contain
-    // the final one, which may be as long as names may be.
+    // Opening exclusively ("x") resolves name collisions between programs, and unlike mkstemp() it
+    // gives default permissions. The name does not contain the final name, which may already have
+    // the maximum length.
     constexpr int kMaxAttempts = 100;
     std::random_device random;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
@@ -86,8 +86,7 @@ class TemporaryFile {
   fs::path path_;
 };
 
-// The content is on its way to the disk only when flush and close have succeeded; a full disk shows
-// up no earlier than there.
+// A full disk is reported only by flush and close.
 void fill_file(const fs::path& target, const std::string& path,
                const std::function<void(std::ostream&)>& write) {
   errno = 0;
@@ -101,7 +100,7 @@ void fill_file(const fs::path& target, const std::string& path,
 }
 
 void write_standard_output(const std::function<void(std::ostream&)>& write) {
-  // A stream of its own, so that formatting flags set by `write` do not stay behind.
+  // A separate stream, so formatting flags set by `write` do not persist.
   std::ostream out(std::cout.rdbuf());
   errno = 0;
   write(out);
@@ -123,7 +122,7 @@ std::string read_file(const std::string& path) {
   std::FILE* const file = path == "-" ? stdin : opened.get();
   if (!file) fail("read", path, reason_of(errno));
 
-  // A pipe does not know its length, so that is a hint only; one byte more finds the end at once.
+  // The length is only a hint, because a pipe has none; one extra byte detects the end immediately.
   const std::size_t room = path == "-" ? 0 : size_hint(path) + 1;
   std::string content;
   for (;;) {
@@ -142,11 +141,11 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail("write", path, reason_of(EISDIR));
-  // A device or a pipe cannot be renamed onto; nor can it be left half-written. Links to pipes, as
-  // /dev/stdout may be one, lead to no path, so they must not be resolved.
+  // Devices and pipes cannot be replaced by renaming, so they are written directly. Links to pipes
+  // (such as /dev/stdout) have no target path, so they must not be resolved.
   if (fs::exists(status) && !fs::is_regular_file(status)) return fill_file(path, path, write);
-  // Renaming would replace even a write-protected file; opening it to append asks, changing
-  // nothing.
+  // Renaming would replace even a write-protected file; opening it for appending checks permission
+  // without changes.
   const fs::path target = resolve_links(path);
   errno = 0;
   if (fs::exists(status) && !std::ofstream(target, std::ios::app)) {
@@ -155,7 +154,7 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
 
   TemporaryFile temporary(target.parent_path(), path);
   fill_file(temporary.path(), path, write);
-  // Overwriting a file does not change who may read it.
+  // Overwriting a file preserves its permissions.
   if (fs::exists(status)) fs::permissions(temporary.path(), status.permissions(), error);
   temporary.rename_to(target, path);
 }

@@ -9,14 +9,14 @@
 namespace flbc::io {
 namespace {
 
-// A displacement, and where it stands: keyframes may be declared after it.
+// A displacement and its line, because keyframes may be declared after it.
 struct Line {
   std::int64_t number;
   std::int64_t keyframe;
   Vector<3> displacement;
 };
 
-// The last keyframe does not come before the one above it.
+// Checks that the last keyframe is not earlier than the previous one.
 void require_order(const TextReader& reader, const std::vector<Keyframe>& keyframes) {
   const std::size_t last = keyframes.size() - 1;
   if (last == 0 || keyframes[last].time >= keyframes[last - 1].time) return;

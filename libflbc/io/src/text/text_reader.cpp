@@ -17,14 +17,14 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// std::from_chars knows no plus sign.
+// std::from_chars does not accept a plus sign.
 std::string_view without_plus(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   return word;
 }
 
-// Whether a decimal number that does not fit a double is too small rather than too large: the sign
-// of the exponent that its first significant digit has.
+// Whether a decimal number outside the range of double is too small, by the sign of the exponent of
+// its first significant digit.
 bool is_underflow(std::string_view word) {
   constexpr std::int64_t kHuge = std::int64_t{1} << 60;
   const std::size_t mantissa_end = std::min(word.find_first_of("eE"), word.size());
@@ -64,7 +64,7 @@ TextReader::TextReader(const std::string& path, std::string text, Syntax syntax,
       text_(std::move(text)),
       syntax_(syntax),
       line_(first_line) {
-  // Some editors mark UTF-8 with these three bytes.
+  // The UTF-8 byte order mark.
   if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) position_ = 3;
 }
 
@@ -99,7 +99,7 @@ bool TextReader::next_line() {
   }
   for (;;) {
     const std::size_t end = text_.find('\n', position_);
-    // The last line is the one that has the last line break.
+    // The last line ends with the last line break.
     if (end == std::string::npos || end + 1 == text_.size()) {
       position_ = text_.size();
       return false;

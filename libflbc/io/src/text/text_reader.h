@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Walks over the words of a text file and knows in which line it is.
+//! Reads a text file word by word and tracks the line number.
 #pragma once
 
 #include <cstddef>
@@ -22,25 +22,25 @@ class TextReader {
   };
 
   //! \param path the file's name for messages \param text the file's content, or a part of it
-  //! \param first_line in which the text begins
+  //! \param first_line line number of the start of the text
   TextReader(const std::string& path, std::string text, Syntax syntax, std::int64_t first_line = 1);
 
   //! Moves to the next line that has a word. \return false at the end of the file
   bool next_line();
 
-  //! next_line(), or the error that the file ends after `done` of `declared` `things`.
+  //! next_line(), or throws that the file ends after `done` of `declared` `things`.
   void next_line_of(const char* things, std::int64_t done, std::int64_t declared);
 
   //! Moves to the next line if no word is left on this one. \return false at the end of the file
   bool next_word_on_any_line();
 
-  //! next_word_on_any_line(), or the error that the file ends after `done` of `declared` `things`.
+  //! next_word_on_any_line(), or throws that the file ends after `done` of `declared` `things`.
   void next_word_of(const char* things, std::int64_t done, std::int64_t declared);
 
   //! True if a word is left on this line.
   bool has_word();
 
-  //! The next word on this line; empty if none is left. Valid while the reader lives.
+  //! The next word on this line; empty if none is left. Valid during the lifetime of the reader.
   std::string_view word();
 
   //! The word that word() would return, without moving on.
@@ -56,24 +56,24 @@ class TextReader {
   std::int64_t integer();
 
   //! The next word on this line as the number of `things`, each of which takes at least
-  //! `bytes_each` bytes of the rest of the file. An error if the file cannot hold that many, so
-  //! that memory may be allocated without fear; 0 leaves this check to the caller.
+  //! `bytes_each` bytes of the rest of the file. Throws if the file cannot hold this number, so
+  //! allocation is safe; 0 disables this check.
   Index count(const char* things, std::size_t bytes_each);
 
   //! The next word on this line as one of `count` `things`, which are numbered from `first`.
   //! \return the index from 0
   Index index(const char* things, std::int64_t first, Index count);
 
-  //! The next word in the file, or the error that the file ends where EXPECTED was expected.
+  //! The next word in the file; throws that the file ends where EXPECTED was expected.
   std::string_view word_on_any_line(const char* expected);
 
-  //! An error if a word is left on this line.
+  //! Throws if a word is left on this line.
   void expect_end_of_line();
 
-  //! An error if a word is left in the file.
+  //! Throws if a word is left in the file.
   void expect_end_of_file(const std::string& after);
 
-  //! Changes the comment character for the lines to come.
+  //! Changes the comment character for the following lines.
   void set_comment(char comment) { syntax_.comment = comment; }
 
   //! Bytes that have not been read yet.
@@ -101,7 +101,7 @@ class TextReader {
   bool started_ = false;
 };
 
-//! A piece of a file in quotes as it may stand in a message: short and printable.
+//! A quoted piece of a file for messages: short and printable.
 std::string in_quotes(std::string_view text);
 
 //! "the index INDEX is out of range; THINGS are numbered FIRST to ...", for `count` things.

@@ -15,8 +15,8 @@
 
 namespace flbc::io {
 
-//! Collects text and hands it to a stream in large pieces. Numbers do not depend on the locale and
-//! have as many digits as it takes to read the same double back, at most 17.
+//! Buffers text and writes it to a stream in large pieces. Numbers do not depend on the locale and
+//! have enough digits to read the same double back, at most 17.
 class TextWriter {
  public:
   explicit TextWriter(std::ostream& out) : out_(out) { buffer_.reserve(kFlushSize + kMargin); }
@@ -29,7 +29,7 @@ class TextWriter {
     return *this;
   }
 
-  //! \throws InputError if the number is not finite: no reader would take it back.
+  //! \throws InputError if the number is not finite, because no reader accepts it
   TextWriter& operator<<(double value) {
     if (!std::isfinite(value)) throw InputError("a number to be written is not finite");
     return append(value);
@@ -41,7 +41,7 @@ class TextWriter {
     return append(value);
   }
 
-  //! To be called at the end; the destructor does not write, lest it hide an error.
+  //! Must be called at the end; the destructor does not write, because it would hide errors.
   void flush() {
     out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     buffer_.clear();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
 
-// Parses the few Python literals that stand in a header.
+// Parses the Python literals of a header.
 class HeaderParser {
  public:
   HeaderParser(const std::string& path, std::string_view content, std::size_t begin)
@@ -55,7 +55,7 @@ class HeaderParser {
   }
 
  private:
-  // The next character that is no blank; NUL at the end.
+  // The next non-blank character; NUL at the end.
   char next() {
     position_ = std::min(content_.find_first_not_of(" \t\r\n", position_), content_.size());
     return position_ < content_.size() ? content_[position_] : '\0';

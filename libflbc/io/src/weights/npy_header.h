@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The header of NumPy's array files.
+//! The header of NumPy array files.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks of numbers as several weight formats have them.
+// Blocks of numbers shared by several weight formats.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DMAT, libigl's matrix format: "COLUMNS ROWS", then all numbers column by column, that is, control
-// point by control point. The size "0 0" announces the binary form: another size line, then
+// DMAT, the matrix format of libigl: "COLUMNS ROWS", then all numbers column by column, that is,
+// control point by control point. The size "0 0" announces the binary form: another size line, then
 // doubles.
 #include <utility>
 

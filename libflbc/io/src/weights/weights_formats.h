@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The weight file formats, a file each. Contracts as in flbc/io/weights_io.h.
+//! The weight file formats, one source file each. Contracts as in flbc/io/weights_io.h.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace flbc::io {
 
 class TextReader;
 
-// The binary formats hold doubles as the memory of these machines does.
+// The binary formats store doubles in native byte order.
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "binary weight files need a little-endian machine"
 #endif
@@ -24,7 +24,8 @@ SparseWeights read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
 WeightMatrix read_npy(const std::string& path, std::string content);
 
-//! A reader would refuse weights that are not finite. \throws InputError naming the first one
+//! Checks that weights are finite, because readers reject other values. \throws InputError naming
+//! the first one
 void check_finite(const WeightMatrix& weights);
 void check_finite(const SparseWeights& weights);
 
@@ -32,12 +33,12 @@ void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
 
-//! As many elements as a file may declare without having them: they take 8 MiB. In a matrix of more
-//! each row and each column has one, as weights do, which sum to 1.
+//! Maximum number of matrix elements (8 MiB) that a file may declare without storing. In a larger
+//! matrix, each row and column must have an element, because weights sum to 1.
 constexpr std::int64_t kHarmlessElements = std::int64_t{1} << 20;
 
-//! Whether a header declares no weights, but more points or control points than anybody has: only
-//! damage does, and no length of the file would give it away.
+//! Whether a header declares no weights but an implausible number of points or control points. This
+//! means a damaged file, which the file length cannot reveal.
 bool is_absurd(std::int64_t num_points, std::int64_t num_controls);
 
 //! Reads #points x n numbers, control point by control point, up to the end of the file.
@@ -49,11 +50,11 @@ struct BinaryBlock {
   const std::string& content;
   std::size_t offset;
 
-  //! An error unless exactly num_points x num_controls numbers of `bytes_each` bytes stand here.
+  //! Throws unless exactly num_points x num_controls numbers of `bytes_each` bytes follow.
   void check_size(std::int64_t num_points, std::int64_t num_controls, std::size_t bytes_each) const;
 
-  //! Copies the numbers into a matrix. \param by_point whether the numbers of a point, rather than
-  //! those of a control point, follow each other \throws InputError if a number is not finite
+  //! Copies the numbers into a matrix. \param by_point whether the numbers of a point are
+  //! contiguous, instead of those of a control point \throws InputError if a number is not finite
   template <class Scalar>
   WeightMatrix read(std::int64_t num_points, std::int64_t num_controls, bool by_point) const;
 

@@ -48,8 +48,8 @@ struct Size {
   Index controls = 0;
 };
 
-// A sparse file may rightly declare far more elements than it has bytes; this keeps a damaged header
-// from claiming all memory.
+// A valid sparse file may declare far more elements than it has bytes; this prevents a damaged
+// header from exhausting memory.
 void check_size(const TextReader& reader, const Size& size, Index num_entries) {
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
   const bool is_large = elements > kHarmlessElements || is_absurd(size.points, size.controls);
@@ -119,7 +119,7 @@ SparseWeights read_mtx(const std::string& path, std::string content) {
   const bool is_coordinate = read_header(reader);
   reader.set_comment('%');
   if (!reader.next_line()) reader.fail("the file ends before the size of the matrix");
-  // Sizes are not bounded by the file's length here: a sparse matrix may have empty rows.
+  // The file length does not bound sizes here, because a sparse matrix may have empty rows.
   Size size;
   size.points = reader.count("rows", 0);
   size.controls = reader.count("columns", 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NumPy's array format: magic, version, length of the header, header (a Python dictionary in text,
-// padded so that the numbers start at a multiple of 64 bytes), numbers.
+// The NumPy array format: magic, version, length of the header, header (a Python dictionary in
+// text, padded so that the numbers start at a multiple of 64 bytes), numbers.
 
 #include <ostream>
 
@@ -10,7 +10,7 @@
 
 namespace flbc::io {
 
-// As the table of formats calls readers. NOLINTNEXTLINE(performance-unnecessary-value-param)
+// Signature required by the format table. NOLINTNEXTLINE(performance-unnecessary-value-param)
 WeightMatrix read_npy(const std::string& path, std::string content) {
   const NpyHeader header = read_npy_header(path, content);
   const BinaryBlock block{path, content, header.size};
@@ -30,7 +30,7 @@ WeightMatrix read_npy(const std::string& path, std::string content) {
 }
 
 void write_npy(std::ostream& out, const WeightMatrix& weights) {
-  // In memory the numbers of a point follow each other, which is C order for #points x n.
+  // In memory the numbers of a point are contiguous, which is C order for #points x n.
   const std::string header = npy_header(weights.cols(), weights.rows());
   out.write(header.data(), static_cast<std::streamsize>(header.size()));
   out.write(reinterpret_cast<const char*>(weights.data()),

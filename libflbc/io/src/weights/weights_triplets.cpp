@@ -18,7 +18,7 @@
 namespace flbc::io {
 namespace {
 
-// A file for fewer control points or points would otherwise pass for weights that are 0.
+// Otherwise a file for fewer control points or points would be read with zero weights.
 void check_size(const std::string& path, const char* things, Index largest, Index count) {
   if (largest == count - 1) return;
   throw InputError(path + ": has weights for " + std::to_string(largest + 1) + " " + things +
@@ -36,7 +36,7 @@ struct TripletSize {
   Index points = 0;
 };
 
-// The size that the largest indices imply. A damaged number must not claim all memory.
+// The size from the largest indices. A damaged index must not exhaust memory.
 TripletSize size_by_numbers(const std::string& path) {
   constexpr Index kMost = std::numeric_limits<Index>::max() - 1;
   TextReader reader = open(path);
@@ -98,7 +98,7 @@ void write_weight_triplets(const std::string& path, const WeightMatrix& weights)
       for (Eigen::Index i = 0; i < weights.rows(); ++i) {
         const bool is_last = v == weights.cols() - 1 && i == weights.rows() - 1;
         const double weight = weights(i, v);
-        // -0 differs from what is missing.
+        // -0 is written, because it differs from a missing weight.
         if (weight != 0 || std::signbit(weight) || is_last) {
           writer << i << " " << v << " " << weight << "\n";
         }

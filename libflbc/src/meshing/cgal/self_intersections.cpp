@@ -34,7 +34,7 @@ Kernel::Segment_2 segment(const Cage<2>& cage, Index edge) {
   return {point(cage, cage.facets(0, edge)), point(cage, cage.facets(1, edge))};
 }
 
-// The control point of one edge, not of both, that lies on the other edge; -1 if none does.
+// A control point of one edge that lies on the other edge and is not shared; -1: none.
 Index vertex_on_other_edge(const Cage<2>& cage, Index e, Index f) {
   for (const auto& [own, other] : {FacetPair{e, f}, FacetPair{f, e}}) {
     for (int k = 0; k < 2; ++k) {
@@ -46,7 +46,7 @@ Index vertex_on_other_edge(const Cage<2>& cage, Index e, Index f) {
   return -1;
 }
 
-// Edges with a common vertex meet elsewhere only if one runs back along the other.
+// Edges with a common vertex intersect elsewhere only if one folds back along the other.
 bool intersect(const Cage<2>& cage, Index e, Index f) {
   const auto a = cage.facets.col(e), b = cage.facets.col(f);
   const bool share_a_vertex =
@@ -70,7 +70,7 @@ std::vector<FacetPair> find_pairs(const Cage<2>& cage) {
   return pairs;
 }
 
-// Where two edges cross that have no vertex on one another; accurate to rounding.
+// The intersection of two crossing edges without a vertex on each other, accurate to rounding.
 Vector<2> crossing(const Cage<2>& cage, Index e, Index f) {
   const Vector<2> a = cage.points.col(cage.facets(0, e));
   const Vector<2> along_e = cage.points.col(cage.facets(1, e)) - a;
@@ -140,7 +140,7 @@ ExactKernel::Triangle_3 exact_triangle(const Cage<3>& cage, Index triangle) {
   return {corner(0), corner(1), corner(2)};
 }
 
-// The middle of what the two triangles have in common, which may be a point, segment or polygon.
+// The center of the intersection of two triangles, which may be a point, segment, or polygon.
 struct Middle {
   CGAL::Bbox_3 box;
   void operator()(const ExactKernel::Point_3& p) { box = p.bbox(); }

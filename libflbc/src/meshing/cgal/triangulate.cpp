@@ -26,7 +26,7 @@ namespace flbc {
 
 namespace {
 
-// A vertex's number in the resulting mesh.
+// Vertex information: its index in the resulting mesh.
 struct VertexNumber {
   Index value = -1;
 };
@@ -35,7 +35,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase =
     CGAL::Triangulation_vertex_base_with_info_2<VertexNumber, Kernel,
                                                 CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
-// A face's information is its nesting level: the number of cage edges between it and the outside.
+// Face information: its nesting level, the number of cage edges between it and the outside.
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using DataStructure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
@@ -44,12 +44,12 @@ using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 using Mesher = CGAL::Delaunay_mesher_2<Triangulation, Criteria>;
 
 constexpr double kShapeBound = 0.125;     // squared sine of the smallest angle wanted: 20.7 degrees
-constexpr double kCountTolerance = 0.05;  // promised by MeshingOptions
+constexpr double kCountTolerance = 0.05;  // documented in MeshingOptions
 
-// A coarsest mesh of more vertices, as extremely thin cages have, is not worth its time and memory.
+// Larger minimal meshes, as for extremely thin cages, are rejected to limit time and memory.
 constexpr std::size_t kMostByShape = 5000000;
 
-// The constrained Delaunay triangulation of the input points and the cage's edges.
+// The constrained Delaunay triangulation of the input points and the cage edges.
 Triangulation triangulate_input(const Cage<2>& cage, const PointList<2>& input) {
   Triangulation triangulation;
   std::vector<Triangulation::Vertex_handle> handles;
@@ -65,8 +65,8 @@ Triangulation triangulate_input(const Cage<2>& cage, const PointList<2>& input) 
   return triangulation;
 }
 
-// Marks the faces from which an odd number of cage edges must be crossed to get out, so that holes
-// need no seeds and loops no orientation.
+// Marks faces separated from the outside by an odd number of cage edges. Holes then need no seeds,
+// and loops no orientation.
 void mark_domain(Triangulation& triangulation) {
   constexpr int kUnknown = -1;
   for (auto face : triangulation.all_face_handles()) face->info() = kUnknown;
@@ -81,7 +81,7 @@ void mark_domain(Triangulation& triangulation) {
       if (neighbour->info() != kUnknown) continue;
       const bool is_cage = face->is_constrained(side);
       neighbour->info() = face->info() + (is_cage ? 1 : 0);
-      // 0-1 breadth-first search: a whole region gets its level before the next one is entered.
+      // 0-1 breadth-first search: each region is completed before the next one.
       is_cage ? faces.push_back(neighbour) : faces.push_front(neighbour);
     }
   }
@@ -118,7 +118,7 @@ DomainMesh<2> extract_mesh(Triangulation& triangulation, const PointList<2>& inp
   return mesh;
 }
 
-// \param longest_edge  bound of the edges' lengths; 0 = none
+// \param longest_edge  upper bound of edge lengths; 0 = none
 DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, double longest_edge,
                             const MeshingOptions<2>& options) {
   Stopwatch watch;
@@ -127,7 +127,7 @@ DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, doub
   mark_domain(triangulation);
   Mesher mesher(triangulation, Criteria(kShapeBound, longest_edge));
   mesher.init(true);  // the domain is marked already
-  // In steps, because the mesher knows no limit of its own.
+  // In steps, because the mesher has no size limit.
   const std::size_t limit = std::max(kMostByShape, 10 * static_cast<std::size_t>(options.vertices));
   while (mesher.try_one_step_refine_mesh()) {
     if (triangulation.number_of_vertices() > limit) {
@@ -160,7 +160,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
     check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
   }
   if (options.vertices > mesh.num_vertices()) {
-    // Half as many vertices as triangles, which are equilateral but for their longest edges.
+    // Assumes half as many vertices as triangles, and nearly equilateral triangles.
     const double first_bound = 1.6 * std::sqrt(total_measure(mesh) / options.vertices);
     VertexCountGoal goal;
     goal.vertices = options.vertices;

@@ -37,14 +37,14 @@ namespace {
 
 enum class NetgenEnd : std::int64_t { kDone, kNoLibrary, kGaveUp };
 
-// Precedes the arrays, or the loader's message, in the child's output.
+// Header of the child output, before the arrays or the message of the loader.
 struct Header {
   NetgenEnd end;
-  std::int64_t num_points;  // or characters of the message
+  std::int64_t num_points;  // or number of characters of the message
   std::int64_t num_cells;
 };
 
-// The functions of nglib that are used, by the names they are compiled to.
+// The nglib functions in use, by their mangled names.
 class Netgen {
  public:
   decltype(&nglib::Ng_Init) init = nullptr;
@@ -72,7 +72,7 @@ class Netgen {
     find("_ZN5nglib21Ng_Meshing_ParametersC1Ev", construct_parameters);
   }
 
-  // Why it cannot be used; empty if it can.
+  // The reason why it cannot be used; empty if it can.
   const std::string& complaint() const { return complaint_; }
 
  private:
@@ -88,7 +88,7 @@ class Netgen {
     if (complaint_.empty()) complaint_ = reason == nullptr ? "unknown reason" : reason;
   }
 
-  void* library_;  // stays loaded: the process ends soon
+  void* library_;  // not unloaded, because the process ends soon
   std::string complaint_;
 };
 
@@ -109,7 +109,7 @@ void send_mesh(const Netgen& netgen, nglib::Ng_Mesh* mesh, const ByteSink& send)
   }
 }
 
-// Runs in the child: Netgen ends the process on some surfaces.
+// Runs in the child, because Netgen ends the process on some surfaces.
 void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send) {
   const Netgen netgen;
   const std::string& complaint = netgen.complaint();
@@ -134,7 +134,7 @@ void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send)
   auto* parameters = std::launder(reinterpret_cast<nglib::Ng_Meshing_Parameters*>(storage));
   parameters->maxh = longest;
   parameters->optsteps_3d = 2;
-  // These tests take walls that are thin for the triangles on them for defects.
+  // These tests reject walls that are thin relative to their triangles.
   parameters->check_overlap = 0;
   parameters->check_overlapping_boundary = 0;
   if (netgen.generate_volume_mesh(mesh, parameters) == nglib::NG_OK) {
@@ -148,11 +148,11 @@ void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send)
   throw InputError("Netgen " + what + " while filling the cage");
 }
 
-// Fills a surface with tetrahedra in a process of its own.
-// \param surface     outer shells with their normals outwards, cavities the other way round
-// \param longest     of edges of cells, roughly; in the units of the surface
-// \param seconds     after which it is stopped \param time_limit  that messages name
-// \return a mesh that begins with the surface's points and has all of its triangles
+// Fills a surface with tetrahedra in a separate process.
+// \param surface     outer shells with outward normals, cavities with inward normals
+// \param longest     approximate maximum edge length, in the units of the surface
+// \param seconds     time limit \param time_limit  time limit shown in messages
+// \return a mesh that starts with the points of the surface and contains all its triangles
 // \throws InputError if Netgen fails, crashes, takes longer or cannot be loaded
 DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
                          double time_limit) {
@@ -178,18 +178,17 @@ DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
   return mesh;
 }
 
-constexpr double kCountTolerance = 0.10;  // promised by MeshingOptions
+constexpr double kCountTolerance = 0.10;  // documented in MeshingOptions
 
-// How the vertex count falls with the longest edge: by the square on the surface, by the third
-// power inside.
+// Exponent of vertex count over longest edge: 2 on the surface, 3 inside.
 constexpr double kCountExponent = 2.4;
 
-// The facets of a cage are kept, so the mesh's volume is the cage's up to rounding.
+// Cage facets are preserved, so the volumes of mesh and cage agree up to rounding.
 constexpr double kVolumeTolerance = 1e-9;
-// Netgen would take minutes for as many, and a mesh of 5,000,000 vertices has a quarter of them.
+// Netgen would take minutes for more; a mesh of 5,000,000 vertices has a quarter of this number.
 constexpr std::size_t kMaxSurfacePoints = 1'000'000;
 
-// A cage to be filled.
+// The cage to fill.
 struct Task {
   OrientedCage<3> oriented;
   double size;  // of the cage
@@ -205,8 +204,8 @@ double surface_area(const Cage<3>& cage) {
   return area;
 }
 
-// The longest edge with which about so many vertices are to be expected: 3.2 per squared edge of
-// surface and 1.3 per cubed edge of volume, as measured on cages of animals.
+// The longest edge for the expected number of vertices: 3.2 per squared edge of surface plus 1.3
+// per cubed edge of volume, measured on cages of animals.
 double guess_longest_edge(const Task& task, Index vertices) {
   const double area = surface_area(task.oriented.cage), volume = task.oriented.measure;
   double finest = 0, coarsest = task.size;
@@ -231,13 +230,13 @@ void check_surface_is_kept(const Task& task, const Cage<3>& surface, const Domai
                    format_number(volume));
 }
 
-// Netgen fails on some surfaces and not on others of the same shape: coarse triangles on thin walls
-// are the worst. \param longest  edges to try in turn, all within one limit of time
+// Netgen fails on some triangulations of a shape, most often with coarse triangles on thin walls.
+// \param longest  edge lengths to try in order, within one time limit
 DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest) {
   Stopwatch watch;
   double left = task.time_limit;
   for (std::size_t k = 0;; ++k) {
-    // Where this has too many points, shorter edges would have still more.
+    // If this has too many points, shorter edges would have even more.
     const auto surface = subdivide_surface(task.oriented.cage, longest[k], kMaxSurfacePoints);
     try {
       auto mesh = run_netgen(surface, longest[k], left, task.time_limit);
@@ -273,8 +272,7 @@ DomainMesh<3> fill_with(const Task& task, Index vertices, bool roughly) {
   mesh =
       search_vertex_count<3>(goal, std::move(mesh), first * std::pow(ratio, 1 / kCountExponent),
                              kCountExponent, [&](double longest) { return fill(task, longest); });
-  // Regular surfaces are all divided at the same length, so that the count jumps; that is no reason
-  // to refuse.
+  // Regular surfaces are subdivided at a single length, so the count jumps; this is not an error.
   if (mesh.num_vertices() > (1 + kCountTolerance) * vertices) {
     check_vertex_count(vertices, fill_coarsely(task).num_vertices(), kCountTolerance);
   }

@@ -22,8 +22,7 @@
 namespace flbc {
 namespace {
 
-// Cells and vertices with the cells at each vertex. Numbers of vertices and cells stay valid;
-// removed cells keep theirs.
+// Cells, vertices, and the cells at each vertex. Indices stay valid; removed cells keep theirs.
 class CellComplex {
  public:
   using Corners = std::array<Index, 4>;
@@ -53,9 +52,10 @@ class CellComplex {
     return num_vertices() - 1;
   }
 
-  // Divides every cell that has the simplex at a vertex lying on it.
+  // Divides every cell that contains the simplex at a vertex on the simplex.
   void split(const Simplex& simplex, Index vertex) {
-    const std::vector<Index> candidates = cells_at_[simplex.front()];  // a copy: it grows below
+    const std::vector<Index> candidates = cells_at_[simplex.front()];  // a copy, because it grows
+                                                                       // below
     for (Index cell : candidates) {
       const Corners whole = cells_[cell];
       const bool has_simplex = std::all_of(simplex.begin(), simplex.end(), [&](Index corner) {
@@ -71,7 +71,7 @@ class CellComplex {
     }
   }
 
-  // The triangles at a vertex that belong to one cell only, in no particular but a fixed order.
+  // The boundary triangles at a vertex, in a fixed order.
   std::vector<Simplex> boundary_faces_at(Index vertex) const {
     std::map<Simplex, int> num_cells_of;
     for (Index cell : cells_at_[vertex]) {
@@ -92,7 +92,7 @@ class CellComplex {
     return boundary;
   }
 
-  // Vertices of no cell are kept.
+  // Vertices without a cell are kept.
   DomainMesh<3> to_mesh() const {
     DomainMesh<3> mesh;
     mesh.points.resize(3, num_vertices());
@@ -120,10 +120,10 @@ class CellComplex {
   std::vector<std::vector<Index>> cells_at_;  // per vertex, removed ones included
 };
 
-// Cells are flat below this part of the cube of their longest edge: TetGen's worst other cells are
-// above 1e-6, and rounding makes those of four coplanar points below 1e-14. Also the relative
-// tolerance within which edges cross in a point and a point lies in a triangle; above TetGen's for
-// coplanar facets.
+// A cell is flat if its volume is below this fraction of the cube of its longest edge. The worst
+// other cells of TetGen are above 1e-6, and cells of four coplanar points are below 1e-14 by
+// rounding. Also the relative tolerance for crossing edges and for points in triangles, which is
+// above the TetGen tolerance for coplanar facets.
 constexpr double kFlat = 1e-9;
 constexpr double kOnTop = 1e-7;
 
@@ -157,7 +157,7 @@ std::set<Index> remove_flat_cells(DomainMesh<3>& mesh) {
   return vertices;
 }
 
-// The boundary faces between the vertices: those laid bare, and perhaps others beside them.
+// The boundary faces between the vertices: the newly exposed faces, and possibly adjacent ones.
 std::vector<Simplex> bare_faces(const DomainMesh<3>& mesh, const std::set<Index>& vertices) {
   const MeshTopology<3> topology = build_topology(mesh);
   std::vector<Simplex> faces;
@@ -208,8 +208,8 @@ Simplex containing_simplex(const CellComplex& complex, const Simplex& face,
   return simplex;
 }
 
-// A control point in the middle of a flat part of the cage may have had flat cells only.
-// \param faces  those among which its place is, kept up to date
+// A control point inside a flat part of the cage may have belonged to flat cells only.
+// \param faces  candidate faces, kept up to date
 void put_back(Index vertex, CellComplex& complex, std::vector<Simplex>& faces) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Simplex simplex = containing_simplex(complex, faces[f], complex.point(vertex));
@@ -286,8 +286,8 @@ std::array<Edge, 3> edges_of(const Simplex& face) {
           std::minmax(face[1], face[2])};
 }
 
-// Two crossings in one face come to be joined by an edge between its parts, so that in the end mesh
-// edges cover the segments.
+// Two crossings in one face become connected by an edge between its parts, so mesh edges finally
+// cover the segments.
 void divide_along(const std::vector<Segment>& segments, const std::vector<Simplex>& faces,
                   CellComplex& complex) {
   std::set<Edge> unchecked;

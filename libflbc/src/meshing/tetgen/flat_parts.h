@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mends what TetGen leaves where neighbouring facets of a cage lie in one plane.
+// Repairs TetGen meshes at coplanar neighboring facets of a cage.
 #pragma once
 
 #include "flbc/cage.h"
@@ -7,21 +7,20 @@
 
 namespace flbc {
 
-//! Two neighbouring facets whose normals include at most this angle (in degrees) lie in one plane.
-//! With TetGen's own tolerance, 0.1 degrees, it joins facets that do not, and puts vertices beside
-//! the cage.
+//! Two neighboring facets are coplanar if the angle between their normals is at most this (in
+//! degrees). With its own tolerance of 0.1 degrees, TetGen joins facets that are not coplanar, and
+//! puts vertices off the cage.
 constexpr double kCoplanarAngle = 1e-6;
 
-//! True if some neighbouring facets lie in one plane.
+//! Whether the cage has coplanar neighboring facets.
 bool has_coplanar_facets(const Cage<3>& cage);
 
-//! Peels off cells without volume that cling to coplanar facets: rounding makes TetGen stack them
-//! between the surface triangulation, which has the cage's edges, and the cells below, which need
-//! not. The faces laid bare are divided where they cross edges of the cage, and control points that
-//! belonged to flat cells only are put back. Existing vertices keep their numbers and places; new
-//! ones follow. Does nothing to a mesh without such cells. \param num_input_points  the vertices
-//! before this number do not get lost \throws InputError if there are cells without volume
-//! elsewhere, or some are left
+//! Removes flat cells at coplanar facets. Because of rounding, TetGen inserts them between the
+//! surface triangulation, which contains the cage edges, and the cells below, which need not. The
+//! exposed faces are divided where they cross cage edges. Control points that belonged only to flat
+//! cells are reinserted. Existing vertices keep their indices and positions; new ones follow. A
+//! mesh without such cells is unchanged. \param num_input_points  vertices below this index are
+//! kept \throws InputError if flat cells exist elsewhere, or some cannot be removed
 void peel_flat_cells(const Cage<3>& cage, Index num_input_points, DomainMesh<3>& mesh);
 
 }  // namespace flbc

@@ -18,7 +18,7 @@ namespace flbc {
 
 namespace {
 
-// Precedes the arrays in the child's output.
+// Header of the child output, before the arrays.
 struct Header {
   std::int64_t num_points;
   std::int64_t num_cells;
@@ -46,7 +46,7 @@ void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
   }
 }
 
-// Runs in the child: a failing TetGen frees its memory twice and takes the process with it.
+// Runs in the child, because a failing TetGen frees memory twice and crashes the process.
 void tetrahedralize_and_send(const TetgenInput& input, std::string switches, const ByteSink& send) {
   tetgenio in, out;
   in.firstnumber = 0;
@@ -93,9 +93,8 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
   if (!failure.empty()) fail(failure);
 }
 
-// On sound cages with many coplanar points TetGen's point location sometimes fails an assertion,
-// which depends on the order in which it inserts points: b0/0 takes that of the input, l flips
-// incrementally.
+// On valid cages with many coplanar points, TetGen sometimes fails an assertion in point location,
+// depending on the insertion order of points. b0/0 uses the input order; l flips incrementally.
 ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& switches,
                                   double time_limit) {
   Stopwatch watch;

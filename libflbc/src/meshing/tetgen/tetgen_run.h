@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of TetGen, whose types stay behind this file.
+// Runs TetGen, and hides its types.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace flbc {
 
-//! A piecewise linear complex: what TetGen is to fill.
+//! A piecewise linear complex, the input of TetGen.
 struct TetgenInput {
-  PointList<3> points;     //!< the control points, then points of no facet
+  PointList<3> points;     //!< control points, then points without a facet
   FacetList<3> triangles;  //!< indices of points
-  PointList<3> holes;      //!< a point in each region that is to stay empty
+  PointList<3> holes;      //!< a point in each region to leave empty
 };
 
-//! A mesh as TetGen leaves it: points of no cell are kept, so that input points keep their numbers.
+//! The output of TetGen. Points without a cell are kept, so input points keep their indices.
 struct TetgenOutput {
   DomainMesh<3> mesh;
-  std::vector<Index> regions;  //!< per cell, numbers of the regions that the facets separate
+  std::vector<Index> regions;  //!< per cell, the index of its region; facets separate regions
 };
 
-//! \param switches    TetGen's, for example "pq1.414QJA"
+//! \param switches    of TetGen, for example "pq1.414QJA"
 //! \param time_limit  in seconds
-//! \throws InputError if TetGen fails, crashes, or takes longer
+//! \throws InputError if TetGen fails, crashes, or exceeds the time limit
 TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches, double time_limit);
 
 }  // namespace flbc

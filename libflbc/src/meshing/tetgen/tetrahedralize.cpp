@@ -25,14 +25,14 @@ namespace flbc {
 
 namespace {
 
-constexpr double kCountTolerance = 0.10;  // promised by MeshingOptions
+constexpr double kCountTolerance = 0.10;  // documented in MeshingOptions
 
-constexpr double kRadiusEdgeRatio = 1.414;  // TetGen is sure to end above the square root of 2
+constexpr double kRadiusEdgeRatio = 1.414;  // TetGen terminates for ratios above sqrt(2)
 
 // Makes a mesh with bounds on the radius-edge ratio and the volume of cells.
 using MeshMaker = std::function<DomainMesh<3>(double ratio, double largest_volume)>;
 
-// How TetGen's vertex count falls with the volume bound in meshes of some ten thousand vertices.
+// Exponent of vertex count over volume bound, for meshes of about ten thousand vertices.
 constexpr double kCountExponent = 0.8;
 
 // Measured on cages of characters and animals; the smaller the mesh, the more of its vertices lie
@@ -42,17 +42,16 @@ double guess_volume_bound(double volume, Index vertices) {
   return volumes_per_vertex * volume / vertices;
 }
 
-// Treatment of the cage's edges between coplanar facets.
+// Treatment of cage edges between coplanar facets.
 enum class CoplanarFacets {
-  kJoin,  // the edges are lost, but TetGen hardly ever fails
-  kKeep   // the edges are kept, on which TetGen may fail or run for ever
+  kJoin,  // edges are lost, but TetGen rarely fails
+  kKeep   // edges are kept, but TetGen may fail or not terminate
 };
 
-// p: fill the facets, and join those at an angle at least so flat; M: join none; q: bound the ratio
-// of circumradius to shortest edge; a: bound the volume; J: keep unused points, so that input
-// points keep their numbers; Q: print nothing. Without Y, TetGen may put points on the cage's
-// facets and edges, which good cells need.
-// S: add so many points at most.
+// p: fill the facets, and join facets at a flat angle; M: join none; q: bound the ratio of
+// circumradius to shortest edge; a: bound the volume; J: keep unused points, so that input points
+// keep their indices; Q: print nothing; S: maximum number of added points. Without Y, TetGen may
+// add points on cage facets and edges, which good cells need.
 std::string quality_switches(CoplanarFacets coplanar, double ratio, double largest_volume,
                              Index most_points) {
   char text[128];
@@ -65,8 +64,8 @@ std::string quality_switches(CoplanarFacets coplanar, double ratio, double large
   return std::string(text, length);
 }
 
-// Within each region that the shells separate, the centroid of the largest cell: the point that is
-// safest from rounding.
+// For each region between shells, the centroid of the largest cell, which is least affected by
+// rounding.
 std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
   std::map<Index, std::pair<double, Vector<3>>> largest;
   for (Index cell = 0; cell < filled.mesh.num_cells(); ++cell) {
@@ -80,8 +79,8 @@ std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
   return points;
 }
 
-// TetGen fills everything that the outermost shell encloses. A first coarse mesh tells which of its
-// regions are cavities, so that later runs do not waste cells on them.
+// TetGen fills everything that the outermost shell encloses. A first coarse mesh identifies
+// cavities, so later runs leave them empty.
 PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
   const std::vector<Index> shells = facet_shells(cage);
   PointList<3> cavities(3, 0);
@@ -105,7 +104,7 @@ PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
                    " out of the mesh; it is too close to another point or facet");
 }
 
-// Drops the points that belong to no cell; input points all must belong to one.
+// Removes points without a cell; every input point must have a cell.
 DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh<3> mesh) {
   std::vector<Index> new_number(std::size_t(mesh.num_vertices()), -1);
   for (Index vertex : mesh.cells.reshaped()) new_number[vertex] = 0;
@@ -123,8 +122,8 @@ DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh
   return mesh;
 }
 
-// A regular cage's cells are all halved at the same volume bound, so that the count jumps. Another
-// bound on their shapes then leads to counts in between.
+// The cells of a regular cage are all halved at the same volume bound, so the count jumps. A
+// different shape bound then gives counts in between.
 DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMaker& make_mesh) {
   VertexCountGoal goal;
   goal.vertices = wanted;
@@ -139,10 +138,10 @@ DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMa
   return mesh;
 }
 
-// Without a limit, cells of good shape in a thin wall fill the memory.
+// Without a limit, well-shaped cells in a thin wall exhaust memory.
 constexpr Index kMostPoints = 1000000;
 
-// Where to look for the cause; empty if the cage is not thin anywhere.
+// Hint about the thinnest place; empty if the cage is not thin.
 std::string describe_thinnest(const Cage<3>& cage) {
   const auto place = thinnest_place(cage);
   const double size = bounding_box_diagonal(cage.points);
@@ -154,7 +153,7 @@ std::string describe_thinnest(const Cage<3>& cage) {
          std::to_string(place.facet) + ": " + part + " of its size";
 }
 
-// A cage to be filled.
+// The cage to fill.
 struct Task {
   const Cage<3>& cage;
   TetgenInput input;
@@ -185,9 +184,9 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
   return refine_to_count(task.vertices, std::move(mesh), make_mesh);
 }
 
-// Replaces the mesh by one that has the cage's edges between coplanar facets too, where TetGen can
-// do it and the vertex count is met, or there is no mesh yet. Without these edges the boundary
-// values are not exactly linear along them, which is a lesser evil than no mesh.
+// Replaces the mesh by one that also contains cage edges between coplanar facets, if TetGen
+// succeeds and the vertex count is met, or if there is no mesh yet. Without these edges, boundary
+// values are not exactly linear along them, which is better than having no mesh.
 void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mesh) {
   try {
     DomainMesh<3> better = fill(task, CoplanarFacets::kKeep, time_limit);
@@ -219,11 +218,11 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
     mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     throw InputError(error.what() + describe_thinnest(cage));
-  } catch (const TooFewVertices& error) {  // joined facets of thin rods take more cells
+  } catch (const TooFewVertices& error) {  // joined facets of thin rods need more cells
     too_few = error;
   }
   if (may_keep_edges) {
-    // Far more than it takes unless it runs for ever.
+    // Far more than needed, unless TetGen does not terminate.
     keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * watch.lap()), mesh);
   }
   if (too_few && mesh.num_vertices() == 0) throw TooFewVertices(*too_few);

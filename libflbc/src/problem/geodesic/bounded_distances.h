@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances as far as they are needed: a control point of many has weights on a small part of the
-//! domain.
+//! Distances limited to the region where they are needed. If there are many control points, each
+//! has weights only on a small part of the domain.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,18 @@
 
 namespace flbc {
 
-//! Distances that are known up to a reach of their own from each source. Beyond it they are too
-//! short rather than too long, so that weights which end within the reaches and minimise (1) with a
-//! phi made of them minimise it with the true phi as well: the objective is nowhere larger than the
-//! true one, and the same for them.
+//! Distances that are exact up to a separate reach for each source. Beyond the reach they are lower
+//! bounds. If the weights that minimize (1) with the resulting phi vanish beyond the reaches, they
+//! also minimize (1) with the true phi: the objective is never larger than the true one, and equal
+//! for these weights.
 struct BoundedDistances {
   DistanceMatrix distances;  //!< n x V; beyond the reach, the larger of reach and straight line
-  Eigen::VectorXf reach;     //!< n; infinite where all of the mesh was measured
+  Eigen::VectorXf reach;     //!< n; infinite if the whole mesh was measured
 };
 
-//! geodesic_distances() where they are needed. Four sources far from each other are measured
-//! everywhere: the largest distance, which phi is relative to, is missed by a percent or so.
-//! \param needed  vertices by source, n lists
+//! geodesic_distances() where needed. Four distant sources are measured everywhere, so the largest
+//! distance, to which phi is relative, has an error of about one percent.
+//! \param needed  vertices per source, n lists
 template <int Dim>
 BoundedDistances bounded_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
                                    const std::vector<Index>& sources,

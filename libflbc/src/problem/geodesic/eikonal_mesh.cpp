@@ -17,7 +17,7 @@ namespace {
 // An edge of a boundary facet.
 struct FacetAtEdge {
   Index low, high;  // its vertices
-  Index apex;       // the facet's third vertex
+  Index apex;       // third vertex of the facet
   Index inside;     // the vertex of the cell behind it
 
   bool is_on_same_edge(const FacetAtEdge& other) const {
@@ -45,7 +45,7 @@ std::vector<FacetAtEdge> boundary_sides(const DomainMesh<3>& mesh,
   return sides;
 }
 
-// Whether the other facet turns away from the inside, by more than rounding.
+// Whether the edge is reflex, by more than rounding.
 bool is_reflex(const DomainMesh<3>& mesh, const FacetAtEdge& side, const FacetAtEdge& other) {
   constexpr double kFlat = 1e-6;
   const auto edge = [&](Index v) -> Vector<3> {
@@ -57,8 +57,7 @@ bool is_reflex(const DomainMesh<3>& mesh, const FacetAtEdge& side, const FacetAt
   return inside > 0 ? apex < -kFlat : apex > kFlat;
 }
 
-// For each vertex, whether it lies on an edge of the boundary at which the domain has more than a
-// half space.
+// For each vertex, whether it lies on a reflex edge of the boundary.
 std::vector<std::uint8_t> on_reflex_edges(const DomainMesh<3>& mesh,
                                           const MeshTopology<3>& topology) {
   std::vector<std::uint8_t> reflex(mesh.num_vertices(), 0);
@@ -93,9 +92,9 @@ struct CellLengths {
   }
 };
 
-// For the edge e from corner c to another one, the largest -e.g over all unit vectors g in the cone
-// of the cell at c: the most by which a plane wave that comes through the cell to c passes the
-// other corner after it. `one` and `two` are the remaining corners, in 2D the same.
+// For the edge e from corner c to another corner, the maximum of -e.g over all unit vectors g in
+// the cone of the cell at c. This is the maximum delay between c and the other corner for a plane
+// wave through the cell to c. `one` and `two` are the remaining corners; in 2D they are equal.
 template <int Dim>
 double latest(const CellLengths<Dim>& lengths, int c, int other, int one, int two) {
   const double along_one = -lengths.product(c, other, one);
@@ -214,7 +213,7 @@ std::vector<Triangle> eikonal_facets(const DomainMesh<3>& mesh, const MeshTopolo
   return facets;
 }
 
-// Of sides of facets that have both ends on reflex edges, for each end the corner opposite.
+// For sides of facets with both ends on reflex edges: the opposite corner, for each end.
 VertexItems<Corner> bends_of_vertices(const MeshTopology<3>& topology,
                                       const std::vector<std::uint8_t>& on_reflex_edge) {
   const auto num_vertices = static_cast<Index>(on_reflex_edge.size());

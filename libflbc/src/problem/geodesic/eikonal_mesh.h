@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The mesh in the form in which the fast marches from all sources read it.
+//! The mesh in the form used by fast marching, shared by all sources.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ struct EdgeTo {
   float length;
 };
 
-//! A corner of a cell or facet, in one number: whole lists of them are read for every vertex.
+//! A corner of a cell or facet, packed into one integer, because lists of them are read for every
+//! vertex.
 class Corner {
  public:
   Corner() = default;
@@ -34,20 +35,21 @@ class Corner {
   std::uint32_t code_;
 };
 
-//! When a corner of a cell that has been passed can profit from one that is passed after it: if
-//! the angle between their edge and another one is obtuse, and if it is not much nearer to the
-//! source.
+//! Conditions under which a passed corner of a cell can be improved by a corner that is passed
+//! later. The angle between their edge and another edge must be obtuse, and the corner must not be
+//! much nearer to the source.
 struct LookBack {
-  std::uint16_t obtuse;  //!< bit 4 o + c: obtuse angle at corner c beside the edge to o
-  float latest;          //!< the most by which a plane wave passes such an o after c
+  std::uint16_t obtuse;  //!< bit 4 o + c: obtuse angle at corner c between the edge to o and
+                         //!< another edge
+  float latest;          //!< maximum delay of a plane wave between c and such an o
   float longest2;        //!< squared length of the longest such edge
 
-  //! The corners that may profit from corner o, as bits.
+  //! The corners that corner o may improve, as bits.
   unsigned obtuse_beside(int o) const { return obtuse >> (4 * o) & 15u; }
 
-  //! Whether a ray through the cell can bring a corner nearer to the source than `of_corner`, if
-  //! the one passed after it has the distance `of_other`. It is the law of cosines for the greatest
-  //! angle there can be between the ray and their edge.
+  //! Whether a ray through the cell can reduce the distance `of_corner` of a corner, if a corner
+  //! passed later has the distance `of_other`. Applies the law of cosines with the largest possible
+  //! angle between the ray and their edge.
   bool can_help(float of_corner, float of_other) const {
     return (of_other - of_corner) * (of_other + of_corner) < longest2 + 2 * latest * of_corner;
   }
@@ -62,20 +64,20 @@ struct alignas(32) TriangleCell : Triangle {
 template <int Dim>
 using EikonalCell = std::conditional_t<Dim == 2, TriangleCell, Tetrahedron>;
 
-//! \param topology  is read as long as this lives
+//! \param topology  must outlive this object
 template <int Dim>
 struct EikonalMesh {
   std::vector<EikonalCell<Dim>> cells;
   std::vector<LookBack> look_back;  //!< of each cell
-  VertexItems<Corner> corners;      //!< of cells, as which each vertex occurs; ascending
+  VertexItems<Corner> corners;      //!< per vertex: its corners in cells; ascending
   VertexItems<EdgeTo> edges;        //!< from each vertex
   float mean_length = 0;            //!< of edges
   const MeshTopology<Dim>& topology;
 
   // Only in 3D, where rays also run within facets:
   std::vector<Triangle> facets;
-  VertexItems<Corner> bends;  //!< corners of facets that lie opposite to a side round which ways
-                              //!< may bend, for both ends of the side
+  VertexItems<Corner> bends;  //!< facet corners opposite to a side around which paths may bend, for
+                              //!< both ends of the side
 
   EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
 

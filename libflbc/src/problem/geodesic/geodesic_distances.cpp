@@ -18,20 +18,20 @@ namespace {
 using distance::EikonalMesh;
 using distance::March;
 
-// Some rows of a DistanceMatrix. Written into it one by one, each number would fetch a cache line
-// of its own.
+// A block of rows of a DistanceMatrix. Writing single rows directly would fetch one cache line per
+// value.
 class SourceRows {
  public:
-  // \param num_rows  that are filled at a time \param num_points  V
+  // \param num_rows  rows in a block \param num_points  V
   SourceRows(Index num_rows, Index num_points)
       : num_rows_(num_rows), numbers_(static_cast<std::size_t>(num_rows) * num_points) {}
 
-  // Of one source and point. \param row  in [0, num_rows)
+  // The distance of one source and point. \param row  in [0, num_rows)
   float& operator()(Index row, Index point) {
     return numbers_[static_cast<std::size_t>(point) * num_rows_ + row];
   }
 
-  // Copies the first rows. \param first  the row of the result they begin with
+  // Copies the first rows. \param first  first row in the result
   void write(Index first, Index count, DistanceMatrix& result) const {
     for (Eigen::Index v = 0; v < result.cols(); ++v) {
       std::copy_n(numbers_.data() + v * num_rows_, count, result.col(v).data() + first);
@@ -43,15 +43,15 @@ class SourceRows {
   std::vector<float> numbers_;  // num_rows_ of each point
 };
 
-// Measures from all sources, from some after the other by each thread.
-// \param make_measure  makes a function for a thread, which is called with a source, with rows,
-// and with the number of the row that takes its distances
+// Measures distances from all sources in parallel; each thread takes a few sources at a time.
+// \param make_measure  makes a function per thread, which is called with a source, rows, and the
+// row for its distances
 // \return num_sources x num_points
 template <class MakeMeasure>
 DistanceMatrix by_source_rows(Index num_sources, Index num_points,
                               const MakeMeasure& make_measure) {
   constexpr Index kMost = 16;      // a cache line
-  constexpr Index kPerThread = 4;  // for threads to end nearly together
+  constexpr Index kPerThread = 4;  // for load balance
   const Index num_rows =
       std::clamp<Index>(num_sources / (kPerThread * omp_get_max_threads()), 1, kMost);
   DistanceMatrix result(num_sources, num_points);
@@ -76,8 +76,8 @@ DistanceMatrix by_source_rows(Index num_sources, Index num_points,
 constexpr std::size_t kWholeSources = 4;
 constexpr float kEverywhere = std::numeric_limits<float>::infinity();
 
-// Lets a march run until all of some vertices have been passed, and a little farther, because what
-// was passed last may still be improved.
+// Runs a march until all given vertices have been passed, and slightly farther, because the last
+// ones may still be improved.
 class UntilPassed {
  public:
   UntilPassed(Index num_vertices, float margin) : margin_(margin), wanted_by_(num_vertices, -1) {}
@@ -100,7 +100,7 @@ class UntilPassed {
     return !has_stopped_;
   }
 
-  // How far everything is known, after the march.
+  // The distance up to which everything is known after the march.
   float reach() const { return has_stopped_ ? farthest_ : kEverywhere; }
 
  private:
@@ -112,14 +112,13 @@ class UntilPassed {
   bool has_stopped_ = false;
 };
 
-// Some distances that are measured everywhere.
+// Distances of some sources, measured everywhere.
 struct Whole {
-  std::vector<Index> sources;  // numbers of the sources
-  DistanceMatrix distances;    // a column for each
+  std::vector<Index> sources;  // indices of the sources
+  DistanceMatrix distances;    // one column for each
 };
 
-// Those from one source, from the source that is the farthest from it, from the one that is the
-// farthest from both, and so on.
+// Farthest-point sampling of the sources: each one is farthest from the previous ones.
 template <int Dim>
 Whole measure_everywhere(const EikonalMesh<Dim>& eikonal, const std::vector<Index>& sources) {
   const auto count = std::min<std::size_t>(kWholeSources, sources.size());
@@ -171,7 +170,7 @@ BoundedDistances bounded_distances(const DomainMesh<Dim>& mesh, const MeshTopolo
     return [&, march = March<Dim>(eikonal),
             until = UntilPassed(mesh.num_vertices(), eikonal.mean_length)](
                Index i, SourceRows& rows, Index row) mutable {
-      if (result.reach[i] == kEverywhere) return;  // its row comes below
+      if (result.reach[i] == kEverywhere) return;  // its row is filled below
       until.want(i, needed.of(i));
       const auto& arrivals = march.run(sources[i], until);
       const float reach = result.reach[i] = until.reach();

@@ -6,7 +6,7 @@
 namespace flbc {
 namespace {
 
-// Coordinates of the sources, one after the other.
+// Coordinates of the sources, contiguous.
 template <int Dim>
 using Sources = Eigen::Array<float, Eigen::Dynamic, Dim>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances inside the domain from those on a coarser mesh of it.
+//! Interpolates distances from a coarser mesh of the domain.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace flbc {
 
-//! Distances that are known at the vertices of a mesh.
+//! Known distances at the vertices of a mesh.
 template <int Dim>
 struct KnownDistances {
   const DomainMesh<Dim>& mesh;      //!< of the domain
@@ -18,8 +18,8 @@ struct KnownDistances {
   const DistanceMatrix& distances;  //!< n x V of this mesh, geodesic
 };
 
-//! A way is as long as the straight line and a detour round the boundary, of which the detour alone
-//! is interpolated: it is zero where the source is in sight, and smooth elsewhere.
+//! A path length is the straight distance plus a detour around the boundary. Only the detour is
+//! interpolated: it is zero where the source is visible, and smooth elsewhere.
 //! \param points  Dim x P, in the units of the mesh
 //! \param places  of the points in the mesh
 //! \return n x P, in the units of the mesh

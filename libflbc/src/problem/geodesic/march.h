@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with cells that see the
-//! source as a point, so that straight ways are exact. Distances grow outward from the source;
-//! where a cell has an obtuse angle, a vertex may be improved again after it has been passed.
+//! The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with point-source
+//! updates in cells, so that straight paths are exact. Distances grow outward from the source. In a
+//! cell with an obtuse angle, a vertex may be improved after it has been passed.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 
 namespace flbc::distance {
 
-//! By the set of the cell's corners that have been passed, as bits: looked up rather than computed,
-//! because it is asked whenever a vertex is passed in one of its cells.
+//! Lookup tables indexed by the set of passed corners of a cell, as bits. They are used whenever a
+//! vertex is passed in one of its cells.
 struct CellTasks {
   static constexpr std::int8_t kAll = 4;
-  std::int8_t missing[16];        //!< the only corner that is missing, or kAll if none is
-  std::uint8_t is_something[16];  //!< 1 if either is so, otherwise 0, and nothing is to be done
+  std::int8_t missing[16];        //!< the only missing corner, or kAll if none is missing
+  std::uint8_t is_something[16];  //!< 1 if at most one corner is missing, otherwise 0
 };
 
 template <int Dim>
@@ -37,8 +37,7 @@ constexpr CellTasks cell_tasks() {
   return tasks;
 }
 
-//! A queue of vertices that is sorted by buckets of distances; the last one pushed into a bucket
-//! leaves it first.
+//! A queue of vertices sorted by buckets of distances; within a bucket, last in, first out.
 class BucketQueue {
  public:
   //! \param width  of the buckets
@@ -64,14 +63,14 @@ class BucketQueue {
     return -1;
   }
 
-  //! The vertex that leaves next unless another is pushed, or -1 if that has not been looked up.
-  //! Only after a vertex has left.
+  //! The vertex that is popped next unless another is pushed, or -1 if unknown. Call only after a
+  //! pop.
   Index next() const {
     const int top = top_[current_];
     return top == kEmpty ? -1 : entries_[top].vertex;
   }
 
-  //! For another source.
+  //! Resets the queue for another source.
   void restart() {
     std::fill(top_.begin(), top_.end(), kEmpty);
     current_ = 0;
@@ -88,21 +87,21 @@ class BucketQueue {
   float per_distance_;
   int current_ = 0;
   std::vector<int> top_;        // of each bucket
-  std::vector<Entry> entries_;  // all since the start
+  std::vector<Entry> entries_;  // all entries since the start
 };
 
 //! Of a vertex.
 enum class State : std::uint8_t { kFar, kWaiting, kPassed };
 
-//! How far the front has come at a vertex.
+//! State of the front at a vertex.
 struct Arrival {
   float distance = std::numeric_limits<float>::max();
   State state = State::kFar;
-  bool along_edge = false;    // no ray has been found yet
-  std::uint8_t improved = 0;  // how often after it had been passed
+  bool along_edge = false;    // no ray found yet
+  std::uint8_t improved = 0;  // number of improvements after it was passed
 };
 
-//! The distances from one source after the other.
+//! Computes distances, one source at a time.
 template <int Dim>
 class March {
  public:
@@ -110,17 +109,18 @@ class March {
   explicit March(const EikonalMesh<Dim>& mesh)
       : mesh_(mesh),
         cells_(mesh.cells.data()),
-        // Narrow enough for vertices to come nearly in order.
+        // Narrow enough that vertices are popped nearly in order.
         queue_(0.02f * mesh.mean_length),
         tolerance_(2e-5f * mesh.mean_length) {}
 
-  //! To everywhere. \return of all vertices, until the next run
+  //! Runs to all vertices. \return distances of all vertices, valid until the next run
   const std::vector<Arrival>& run(Index source) {
     return run(source, [](Index, float) { return true; });
   }
 
-  //! As far as it is wanted.
-  //! \param goes_on  is told of a vertex that is passed and of its distance; false ends the march
+  //! Runs until the callback stops it.
+  //! \param goes_on  called with each passed vertex and its distance; returns false to end the
+  //! march
   template <class GoesOn>
   const std::vector<Arrival>& run(Index source, GoesOn&& goes_on) {
     arrivals_.assign(mesh_.num_vertices(), Arrival{});
@@ -144,9 +144,8 @@ class March {
   }
 
  private:
-  // Larger meshes do not fit in the near caches, and what is read for one vertex has little to do
-  // with what was read for the one before. (A call that only fetches has no effect to the compiler,
-  // which drops it unless it is part of its caller from the beginning.)
+  // Prefetches, because larger meshes do not fit in the near caches and accesses are scattered.
+  // Always inlined, because the compiler drops calls to a function that only prefetches.
   [[gnu::always_inline]] void fetch_lists(Index vertex) const {
     if (vertex < 0) return;
     constexpr int kEdgesPerLine = 64 / sizeof(EdgeTo);
@@ -156,7 +155,7 @@ class March {
   }
 
   void arrive(Index vertex, float distance, bool along_edge) {
-    // In cells that are flat to rounding, vertices could improve each other for ever.
+    // In nearly flat cells, vertices could improve each other forever.
     constexpr std::uint8_t kMostImprovements = 30;
     auto& arrival = arrivals_[vertex];
     if (arrival.state == State::kPassed) {
@@ -170,14 +169,14 @@ class March {
     queue_.push(vertex, distance);
   }
 
-  // Marks the vertex as passed in its cells, and notes and fetches those that have at most one
-  // corner left.
+  // Marks the vertex as passed in its cells, and collects and prefetches cells with at most one
+  // other corner.
   void note_cells(Index vertex) {
     static constexpr CellTasks kTasks = cell_tasks<Dim>();
     const auto corners = mesh_.corners.of(vertex);
     const auto most = static_cast<std::size_t>(corners.end() - corners.begin());
     if (noted_.size() < most) noted_.resize(most);
-    // Bytes may be anything to the compiler, also members of this class: it must not look there.
+    // Byte pointers may alias anything, so members are copied to locals.
     std::uint8_t* const passed = passed_.data();
     Corner* const noted = noted_.data();
     std::size_t num_noted = 0;
@@ -185,7 +184,7 @@ class March {
       const unsigned set = passed[at.simplex()] | at.bit();
       passed[at.simplex()] = static_cast<std::uint8_t>(set);
       noted[num_noted] = at;
-      num_noted += kTasks.is_something[set];  // a branch could not be foreseen
+      num_noted += kTasks.is_something[set];  // branchless, because a branch would be unpredictable
     }
     for (std::size_t k = 0; k < num_noted; ++k) __builtin_prefetch(cells_ + noted[k].simplex());
     num_noted_ = num_noted;
@@ -201,7 +200,7 @@ class March {
     }
   }
 
-  // Ways bend round reflex edges of the boundary: rays leave these within facets.
+  // Paths bend around reflex edges of the boundary; rays leave these edges within facets.
   void pass_on_round_bends(Index vertex) {
     for (const Corner at : mesh_.bends.of(vertex)) {
       const Index* corners = corners_of_facet(at.simplex());
@@ -214,8 +213,8 @@ class March {
     }
   }
 
-  // A ray through a cell is known once all corners but one have been passed. An improvement on the
-  // way may have made a cell that was complete one of these.
+  // A ray through a cell is known when all corners but one have been passed. An intermediate
+  // improvement may also have changed a complete cell into such a cell.
   void pass_on_through_cells(Index vertex) {
     static constexpr CellTasks kTasks = cell_tasks<Dim>();
     const float distance = arrivals_[vertex].distance;
@@ -231,7 +230,7 @@ class March {
     }
   }
 
-  // A corner that has been passed before can only profit from this one at an obtuse angle.
+  // This corner can improve a previously passed corner only at an obtuse angle.
   void look_back(Corner at, float distance) {
     const auto& bounds = mesh_.look_back[at.simplex()];
     for (unsigned left = bounds.obtuse_beside(at.corner()); left != 0; left &= left - 1) {
@@ -255,13 +254,13 @@ class March {
     if (through >= 0) arrive(cell.corners[corner], through, false);
   }
 
-  // For a vertex that no ray has reached through a cell.
+  // Handles a vertex that no ray has reached through a cell.
   void look_through_facets(Index vertex) {
     for (const Corner at : mesh_.corners.of(vertex)) {
       const unsigned others = 15u - at.bit();
       const unsigned waiting = others & ~passed_[at.simplex()];
       if ((waiting & (waiting - 1)) != 0) continue;  // more than one
-      // A facet lies opposite to a corner and needs the others. Its first cell is to look at it.
+      // A facet is opposite to one corner and needs the others. Only its first cell evaluates it.
       const auto s = static_cast<Index>(at.simplex());
       for (unsigned left = waiting == 0 ? others : waiting; left != 0; left &= left - 1) {
         const Index facet = mesh_.topology.cell_facets(__builtin_ctz(left), s);
@@ -296,11 +295,11 @@ class March {
   const EikonalMesh<Dim>& mesh_;
   const EikonalCell<Dim>* const cells_;
   BucketQueue queue_;
-  const float tolerance_;  // smaller improvements are not passed on
+  const float tolerance_;  // smaller improvements are not propagated
   std::vector<Arrival> arrivals_;
   std::vector<std::uint8_t> passed_;  // corners of each cell, as bits
-  std::vector<Corner> noted_;         // the cells to look at after the present vertex: the first
-  std::size_t num_noted_ = 0;         // so many of them
+  std::vector<Corner> noted_;         // cells to evaluate after the current vertex: the first
+  std::size_t num_noted_ = 0;         // number of used entries
 };
 
 }  // namespace flbc::distance

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The distance of one corner of a triangle or tetrahedron from those of the others.
+//! Computes the distance of one corner of a triangle or tetrahedron from the distances of the
+//! others.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,7 @@ namespace flbc::distance {
 //! No distance.
 constexpr float kNone = -1;
 
-//! Rays along a side common to two simplices must not be lost between them by rounding: so much
-//! may they miss, relative to what decides about them.
+//! Relative tolerance, so that rounding does not lose rays along a side shared by two simplices.
 constexpr float kSlack = 1e-4f;
 
 //! The shape of a triangle, shared by all sources.
@@ -25,14 +25,14 @@ struct Triangle {
 };
 
 //! The distance of `corner` from a source beyond the opposite side, in the triangle's plane, with
-//! the distances `first` and `second` from the corners that follow it in turn. The difference of
-//! their squares tells where along that side the source lies, and Pythagoras how far from it.
+//! the distances `first` and `second` from the next two corners. The difference of their squares
+//! gives the position of the source along that side, and Pythagoras its distance from the side.
 //! \return kNone if that is not below `limit` or the ray does not cross that side
 inline float distance_through(const Triangle& triangle, int corner, float first, float second,
                               float limit) {
   const int one = corner == 2 ? 0 : corner + 1;
   const int two = corner == 0 ? 2 : corner - 1;
-  // Products with the side, whose origin is in the first corner.
+  // Products with the side vector, with origin at the first corner.
   const float side2 = triangle.lengths2[corner];
   const float leg2 = triangle.lengths2[two];
   const float source = 0.5f * (side2 - (second - first) * (second + first));
@@ -42,12 +42,12 @@ inline float distance_through(const Triangle& triangle, int corner, float first,
   if (!(height2 >= 0)) return kNone;
   const float height = std::sqrt(height2);
   const float whole = height + triangle.area;
-  // How much the squared distance exceeds the smaller one given, times side2.
+  // Squared distance minus the smaller given squared distance, times side2.
   const float nearest = std::min(first, second);
   const float gain = side2 * ((first - nearest) * (first + nearest) + leg2) -
                      2 * (source * apex - height * triangle.area);
   if (!(gain < side2 * (limit - nearest) * (limit + nearest))) return kNone;
-  // Where the ray crosses the side: shares of the corners times side2 * whole.
+  // Barycentric coordinates of the crossing of ray and side, times side2 * whole.
   const float share = height * apex + triangle.area * source;
   const float least = std::min(share, side2 * whole - share);
   const float slack = kSlack * std::max(whole, gain / triangle.area - whole);
@@ -58,13 +58,13 @@ inline float distance_through(const Triangle& triangle, int corner, float first,
 using Float4 [[gnu::vector_size(16)]] = float;
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 
-//! The shape of a tetrahedron, shared by all sources, in one line of the cache, because the time
-//! goes into waiting for it. Pairs of corners are in the order (0, 1), (0, 2), (0, 3) and, opposite
-//! to these, (2, 3), (1, 3), (1, 2).
+//! The shape of a tetrahedron, shared by all sources, in one cache line, because memory latency
+//! dominates. Pairs of corners are in the order (0, 1), (0, 2), (0, 3) and, opposite to these, (2,
+//! 3), (1, 3), (1, 2).
 struct alignas(64) Tetrahedron {
   Index corners[4];
   float lengths2[6];  //!< squared lengths of the edges
-  float products[6];  //!< of the hat functions' gradients; with the diagonal a row sums to zero
+  float products[6];  //!< products of hat gradients; with the diagonal a row sums to zero
 };
 
 //! Selects from the pairs, three at a time, those that contain a corner: the one of corners c and
@@ -103,15 +103,15 @@ inline float sum(Float4 v) {
   return pairs[0] + pairs[1];
 }
 
-//! The distance D of `corner` c from the source that has the distances known[j - 1] from corners
-//! c ^ j, j = 1, 2, 3, and lies on their far side. With f(x) = |x - source|^2, which is |x|^2 plus
-//! an affine function, |grad f|^2 = 4 f at the corner says, for t = D^2 - m^2, m = min d_k and
+//! The distance D of `corner` c from the source that has the distances known[j - 1] from corners c
+//! ^ j, j = 1, 2, 3, and lies on their far side. With f(x) = |x - source|^2, which is |x|^2 plus an
+//! affine function, |grad f|^2 = 4 f at the corner gives, for t = D^2 - m^2, m = min d_k and
 //! gamma_k = d_k^2 - m^2 - |e_k|^2,
 //!
 //!     H_cc t^2 + 2 t (sum_k H_ck gamma_k - 2) + sum_kl H_kl gamma_k gamma_l - 4 m^2 = 0
 //!
-//! with the products H of the hat functions' gradients. Exact wherever the way is straight.
-//! \return kNone if that is not below `limit` or the ray from there does not pass between them
+//! with the products H of hat gradients. Exact if the path is straight.
+//! \return kNone if that is not below `limit`, or if the ray does not cross the opposite facet
 inline float distance_through(const Tetrahedron& cell, int corner, const float (&known)[3],
                               float limit) {
   const PairChoice& choice = kPairsOf[corner];
@@ -122,7 +122,7 @@ inline float distance_through(const Tetrahedron& cell, int corner, const float (
   const Int4 first_products = load_bits(cell.products);
   Int4 second_products = load_bits(cell.products + 2);
   second_products = __builtin_shufflevector(second_products, second_products, 1, 2, 3, 0);
-  // Of the corner with the others, and of the two that each of the others leaves.
+  // Products of the corner with the others, and of the opposite pairs.
   const Float4 own = (Float4)((first_products & choice.first) | (second_products & choice.second));
   const Float4 rest = (Float4)((first_products & choice.second) | (second_products & choice.first));
 
@@ -143,7 +143,7 @@ inline float distance_through(const Tetrahedron& cell, int corner, const float (
   if (!(discriminant >= 0 && room > 0 && discriminant < room * room)) return kNone;
   const float scaled = half + std::sqrt(discriminant);
   const float t = scaled / diagonal;
-  // The rates at which the hat functions grow towards the source.
+  // Derivatives of the hat functions toward the source.
   const Float4 rates = rows + t * own;
   const float slack = kSlack * (scaled + std::abs(row));
   if (any(rates > slack)) return kNone;

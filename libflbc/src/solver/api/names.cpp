@@ -7,7 +7,7 @@
 namespace flbc {
 namespace {
 
-// A table per enumeration, the default first.
+// One table per enumeration, default first.
 template <class Enum>
 using Names = std::vector<std::pair<Enum, const char*>>;
 

@@ -19,7 +19,7 @@ template <int Dim>
 struct Part {
   MeshPart<Dim> domain;
   Cage<Dim> cage{};
-  std::vector<Index> control_points{};  // their numbers in the whole cage
+  std::vector<Index> control_points{};  // their indices in the whole cage
 };
 
 template <int Dim>
@@ -30,7 +30,7 @@ template <int Dim>
                    ", connects two of them");
 }
 
-// Gives each part the control points that are its vertices, and the facets between them.
+// Assigns to each part the control points that are its vertices, and the facets between them.
 template <int Dim>
 void distribute(const Cage<Dim>& cage, const std::vector<Index>& part_of_control_point,
                 std::vector<Part<Dim>>& parts) {
@@ -61,7 +61,7 @@ void distribute(const Cage<Dim>& cage, const std::vector<Index>& part_of_control
 
 template <int Dim>
 std::vector<Part<Dim>> take_apart(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
-  // Of the whole, so that messages give the user's numbers.
+  // Checks the whole cage, so that messages contain its indices.
   const auto boundary = boundary_values(cage, mesh, build_topology(mesh));
   std::vector<Part<Dim>> parts;
   std::vector<Index> part_of_vertex(mesh.num_vertices());
@@ -89,7 +89,7 @@ Criterion common_criterion(const std::vector<SolveReport>& parts) {
   return criterion;
 }
 
-// None unless all parts have one.
+// Set only if all parts have one.
 Certificate sum_of_certificates(const std::vector<SolveReport>& parts) {
   Certificate sum;
   for (const auto& part : parts) {
@@ -101,7 +101,7 @@ Certificate sum_of_certificates(const std::vector<SolveReport>& parts) {
   return sum;
 }
 
-// By the number of pairs.
+// Weighted by the number of pairs.
 double mean_density(const std::vector<SolveReport>& parts) {
   double active = 0;
   double all = 0;
@@ -114,7 +114,7 @@ double mean_density(const std::vector<SolveReport>& parts) {
 }
 
 void add(const SolveReport& part, SolveReport& whole) {
-  whole.status = std::max(whole.status, part.status);  // the later ones are the worse
+  whole.status = std::max(whole.status, part.status);  // later statuses are worse
   whole.control_points += part.control_points;
   whole.vertices += part.vertices;
   whole.cells += part.cells;
@@ -150,7 +150,7 @@ SolveReport join(std::vector<SolveReport> parts) {
   return whole;
 }
 
-// Weights of the whole by those of its parts.
+// Weights of the whole mesh from those of its parts.
 template <int Dim>
 WeightMatrix join_dense(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
                         Index num_control_points, Index num_vertices) {

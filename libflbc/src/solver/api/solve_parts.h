@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Cages whose interior has several connected parts.
+//! Solves cages whose interior has several connected parts.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ using SolvePart =
 
 //! Solves every part of the mesh with the control points that are its vertices.
 //! \param sparse  whether `solve_part` returns sparse weights
-//! \throws InputError if the parts of mesh and cage are not the same
+//! \throws InputError if the parts of mesh and cage differ
 template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sparse,
                      const Reporter& reporter, const SolvePart<Dim>& solve_part);

@@ -38,7 +38,7 @@ void require_valid(const SolverOptions& options, bool has_mesher) {
   }
 }
 
-// The same where the problem is yet to be set up.
+// The same before the problem is set up.
 void require_valid_setup(const SolverOptions& options, bool has_mesher) {
   require_valid(options, has_mesher);
   if (options.distances == Distances::kInterpolated && !has_mesher) {
@@ -46,7 +46,7 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
   }
 }
 
-// A problem set up for a method that does not minimize has no phi.
+// A problem for a method that does not minimize has no phi.
 template <int Dim>
 void require_phi(const LbcProblem<Dim>& problem, const SolverOptions& options) {
   if (!plan::minimizes(options.method) || problem.phi.cols() == problem.mesh.num_cells()) return;
@@ -86,7 +86,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
                     const WeightMatrix& weights) {
   auto certificate = run.certify(weights);
   certificate.objective = unscaled(problem, certificate.objective);
-  // Dividing by the power of the scale takes a few roundings, which must not make the bound larger.
+  // Rounding in the division by the power of the scale must not increase the bound.
   constexpr double kRoundings = 4 * std::numeric_limits<double>::epsilon();
   certificate.lower_bound = unscaled(problem, certificate.lower_bound) * (1 - kRoundings);
   return certificate;
@@ -100,8 +100,8 @@ void measure(const LbcProblem<Dim>& problem, const AnyWeights& weights, SolveRep
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
 }
 
-//! Makes a solution of the weights that a run has left: non-negative rows, certificate, measures.
-//! They become sparse last, because projecting sparse weights takes more memory than the iteration.
+//! Makes a solution from the weights of a run: projection, certificate, measures. Conversion to
+//! sparse weights is last, because projecting sparse weights takes more memory than the iteration.
 //! \param options  resolved
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
@@ -176,12 +176,12 @@ void validate(const Budget& budget) {
   }
 }
 
-// Ends a solve in time.
+// Ends a solve at its time limit.
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
 
-  // The observer that also looks at the time, in every iteration.
+  // An observer that also checks the time, in every iteration.
   Observer watch_over(const Observer& observer, SolverOptions& options) {
     if (seconds_ == 0) return observer;
     const int interval = std::exchange(options.check_interval, 1);
@@ -206,10 +206,10 @@ class Deadline {
   bool has_passed_ = false;
 };
 
-// \throws InputError if a cell turned over, or has as good as no measure left
+// \throws InputError if a cell is inverted or degenerate
 template <int Dim>
 void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
-  constexpr double kLeast = 1e-9;  // of the cell's measure before
+  constexpr double kLeast = 1e-9;  // relative to the measure of the cell before
   const double enlargement =
       std::pow(bounding_box_diagonal(after.points) / bounding_box_diagonal(before.points), Dim);
   for (Index s = 0; s < after.num_cells(); ++s) {
@@ -227,7 +227,7 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-// Whether the state that one solve leaves is a start for the other.
+// Whether the state of one solve can start the other.
 bool share_state(const SolverOptions& a, const SolverOptions& b) {
   return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
          a.linear_solver == b.linear_solver && a.penalty == b.penalty &&
@@ -319,7 +319,7 @@ class Solver<Dim>::State {
       throw OptionError("phi cannot be changed once the problem is set up; make another Solver");
     }
     if (!share_state(resolve(options), resolve(options_))) restart();
-    coarse_.clear();  // made for the options before
+    coarse_.clear();  // made for the previous options
     options_ = options;
   }
 
@@ -335,13 +335,13 @@ class Solver<Dim>::State {
   const Solution& solution() const { return solution_; }
 
  private:
-  // All that belongs to one shape of the cage; the run refers to the problem.
+  // The state for one rest cage; the run refers to the problem.
   struct Shape {
-    Cage<Dim> cage{};  // as the caller gave it
+    Cage<Dim> cage{};  // as given by the caller
     DomainMesh<Dim> mesh{};
     LbcProblem<Dim> problem{};
-    DistanceReport distances{};  // behind its phi
-    double setup_seconds = 0;    // until a report has them
+    DistanceReport distances{};  // of phi
+    double setup_seconds = 0;    // until reported
     std::optional<MethodRun<Dim>> run{};
   };
 
@@ -354,7 +354,7 @@ class Solver<Dim>::State {
     return budget;
   }
 
-  // Phi, once a method needs it.
+  // Computes phi when a method needs it.
   void complete() {
     auto& problem = shape_->problem;
     const auto options = resolve(options_);
@@ -365,7 +365,7 @@ class Solver<Dim>::State {
     shape_->setup_seconds += watch.lap();
   }
 
-  // The mesh where the control points take it, not solved yet.
+  // The mesh moved by the control points, not solved yet.
   std::unique_ptr<Shape> moved(const PointList<Dim>& control_points, const SolverOptions& options) {
     require_points_for(shape_->cage, control_points);
     auto shape = std::make_unique<Shape>();
@@ -385,7 +385,7 @@ class Solver<Dim>::State {
     return shape;
   }
 
-  // From the start, or from where the shape's run is. The solution is as it was if it throws.
+  // Solves from the start, or resumes the run. The solution is unchanged if it throws.
   void solve_on(Shape& shape, const Transfer<Dim>* start, const Budget& budget,
                 const Observer& observer) {
     auto options = resolve(options_);

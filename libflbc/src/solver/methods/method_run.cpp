@@ -27,14 +27,14 @@ Origin origin_of(const Transfer<Dim>* from) {
   return from->is_between_shapes() ? Origin::kNearby : Origin::kCoarserMesh;
 }
 
-// A penalty in published units of length relative to one in the problem's.
+// A penalty in published units of length relative to one in problem units.
 template <int Dim>
 double published_unit(const LbcProblem<Dim>& problem, Method method) {
   return plan::penalty_unit(method, Dim, plan::published_scale(problem.mesh));
 }
 
-// r_p of kPaper are gradients, 1 / length, and r_d is mu times that. Those of kLbc2014 are
-// gradients times a measure, and rho times that.
+// For kPaper, r_p has the unit of gradients, 1 / length, and r_d is mu times that. For kLbc2014
+// they are gradients times a measure, and rho times that.
 template <int Dim>
 typename Residuals<Dim>::Units published_units(const LbcProblem<Dim>& problem, Method method) {
   const double length = plan::published_scale(problem.mesh);
@@ -42,7 +42,7 @@ typename Residuals<Dim>::Units published_units(const LbcProblem<Dim>& problem, M
   return {std::pow(length, Dim - 1), 1};
 }
 
-// The sum of squared measures over the sum of measures.
+// The sum of squared measures divided by the sum of measures.
 template <int Dim>
 double typical_measure(const LbcProblem<Dim>& problem) {
   const Eigen::VectorXd measures = cell_measures(problem.mesh);
@@ -78,10 +78,10 @@ std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
                                             settings);
 }
 
-// Method::kLbc2014: the augmented Lagrangian of (2), in which a cell weighs its squared measure. A
-// penalty that is given is all there is to it, and W = w weighs as much as every other constraint.
-// Otherwise penalty and weight of W = w act on average as those of kValue. In published units W = w
-// weighs 1; relative to the cells' squared measures that is length^-(2 Dim - 2) here.
+// Method::kLbc2014: the augmented Lagrangian of (2), in which the weight of a cell is its squared
+// measure. With a given penalty, W = w has the same weight as all other constraints. Otherwise,
+// penalty and weight of W = w match those of kValue on average. In published units W = w has weight
+// 1; relative to squared cell measures this is length^-(2 Dim - 2) here.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
                                              const SolverOptions& options) {
@@ -97,7 +97,8 @@ std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
   settings.penalty = chosen ? plan::kLbc2014Penalty / measure : *options.penalty;
   settings.relaxation = *options.relaxation;
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
-  // Where W = w weighs much, the factor there is takes hundreds of solves to harmonic coordinates.
+  // If W = w has a large weight, the existing factor needs hundreds of solves for harmonic
+  // coordinates.
   settings.harmonic_cold = !chosen;
   settings.paper_residuals = true;
   return make_in<compact::CompactSplitting>(
@@ -192,7 +193,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   iteration_->start({});
 }
 
-// The penalty of the active set's state is that of all pairs.
+// The state of the active set stores the penalty of all pairs.
 template <int Dim>
 void MethodRun<Dim>::continue_on_all_pairs(const SolverOptions& options) {
   const auto from = iteration_->state();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A method at work on one problem.
+//! Runs a method on one problem.
 #pragma once
 
 #include <functional>
@@ -14,41 +14,42 @@
 
 namespace flbc {
 
-//! How a method starts. Without `from` it starts cold.
+//! The start of a method; cold without `from`.
 template <int Dim>
 struct WarmStart {
-  const Transfer<Dim>* from = nullptr;  //!< duals of another mesh or shape, for methods that
-                                        //!< plan::inherits() holds for
-  const active_set::ColdStart<Dim>* cold = nullptr;  //!< if it was computed before
-  std::function<void()> started{};                   //!< called when neither is needed any longer
-  bool for_finer_mesh = false;  //!< the result is a finer mesh's start, for which a rough one does
+  const Transfer<Dim>* from = nullptr;  //!< duals of another mesh or rest cage, for methods with
+                                        //!< plan::inherits()
+  const active_set::ColdStart<Dim>* cold = nullptr;  //!< if already computed
+  std::function<void()> started{};                   //!< called when neither is needed anymore
+  bool for_finer_mesh = false;  //!< the result is only a start for a finer mesh, so a rough one
+                                //!< suffices
 };
 
-//! Owns the iteration of a method, and hands over from the one on the active set to the one on all
-//! pairs where that is needed. Keeps a reference to the problem.
+//! Owns the iteration of a method, and switches from the active set to all pairs if needed. Keeps a
+//! reference to the problem.
 template <int Dim>
 class MethodRun {
  public:
   explicit MethodRun(const LbcProblem<Dim>& problem) : problem_(&problem) {}
 
-  //! Solves, up to weights that may be negative: from the start the first time, afterwards from the
-  //! present iteration.
-  //! \param options  resolved \param report  is made anew
+  //! Solves, without the final projection, so weights may be negative. The first call begins at the
+  //! start; later calls resume.
+  //! \param options  resolved \param report  reset
   //! \throws SolverError
   Weights solve(const SolverOptions& options, const Reporter& reporter, SolveReport& report,
                 WarmStart<Dim> start = {});
 
-  //! Certificate of weights (n x V) by the present duals.
+  //! Certificate of weights (n x V) from the current duals.
   Certificate certify(const WeightMatrix& weights) const { return iteration_->certify(weights); }
 
-  //! Whether the next solve continues from a present iteration.
+  //! Whether the next solve resumes an iteration.
   bool has_begun() const { return bool(iteration_); }
 
-  //! Whether another mesh or shape can start from here.
+  //! Whether another mesh or rest cage can start from here.
   bool has_duals() const { return iteration_ && !iteration_->state().is_cold(); }
 
-  //! Where another mesh or shape can start. \param least_weight  only where weights are above this;
-  //! 0 for everywhere
+  //! A start for another mesh or rest cage. \param least_weight  only where weights exceed this; 0
+  //! for everywhere
   Duals<Dim> duals(double least_weight = 0) const;
 
  private:

@@ -13,8 +13,8 @@
 namespace flbc {
 namespace {
 
-// \param below  the next coarser level, null for none \param finer_levels  yet to be solved
-// \param duals  of the level below, become those of this one \return whether it was stopped
+// \param below  next coarser level; null: none \param finer_levels  yet to be solved
+// \param duals  in: of the level below; out: of this level \return whether it was stopped
 template <int Dim>
 bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int finer_levels,
                  const SolverOptions& given, const Reporter& reporter, Duals<Dim>& duals) {
@@ -28,10 +28,10 @@ bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int
   const auto started = [&level] { level.cold.reset(); };
   run.solve(options, reporter.with_more_to_come(finer_levels), report,
             {transfer ? &*transfer : nullptr, level.cold ? &*level.cold : nullptr, started, true});
-  // An active set on the finer mesh reads duals only where weights are.
+  // An active set on the finer mesh reads duals only near nonzero weights.
   const bool on_active_set = plan::active_set(plan::sizes_of(level.problem), given);
   duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
-  level.problem.phi = {};  // finer ones have theirs
+  level.problem.phi = {};  // finer levels have their own
   level.report.iterations = report.iterations;
   level.report.solve_seconds = watch.lap();
   return report.status == SolveStatus::kStopped;
@@ -55,7 +55,7 @@ Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
   }
   Stopwatch watch;
   auto options = given;
-  if (stopped) options.max_iterations = 1;  // for weights that belong to this mesh
+  if (stopped) options.max_iterations = 1;  // one iteration, to get weights on this mesh
   std::optional<Transfer<Dim>> transfer;
   if (below != nullptr) {
     transfer.emplace(below->problem, duals, problem, std::move(below->finest_vertices));

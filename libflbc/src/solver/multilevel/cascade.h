@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Solving on coarser meshes of the same cage first, to start from there.
+//! Multilevel start: solves on coarser meshes of the same cage first.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace flbc {
 
-//! Solves a problem from the solution on coarser meshes, each from that of the one before.
-//! \param run  of the problem, not begun if there are coarser meshes
+//! Solves a problem, starting from the solution on coarser meshes, level by level.
+//! \param run  of the problem, not started if there are coarser meshes
 //! \param levels  coarsest first; none for a cold start
-//! \param options  resolved, of a method that plan::inherits() holds for if there are levels
-//! \param report  of the problem's own mesh, with those of the levels
+//! \param options  resolved; with levels, the method must satisfy plan::inherits()
+//! \param report  of the mesh of the problem, including those of the levels
 template <int Dim>
 Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
                          std::vector<CoarseProblem<Dim>> levels, const SolverOptions& options,

@@ -18,8 +18,7 @@
 namespace flbc {
 namespace {
 
-// Some control points: from the one that is the farthest from a part of the domain, in even steps
-// to the one that is the nearest to all of it.
+// A sample of control points, evenly spaced in the order of their largest distance to the domain.
 std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   const auto n = static_cast<Index>(distances.rows());
   const Index count = std::min({n, 2 + n / plan::kCheckedOneIn, plan::kCheckedMost});
@@ -34,7 +33,7 @@ std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   return chosen;
 }
 
-// Puts exact distances in for some control points and tells how far phi was off there, within the
+// Inserts exact distances for some control points and returns the error of phi there, within the
 // reaches.
 template <int Dim>
 double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
@@ -67,10 +66,10 @@ double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
   return std::sqrt(squares[0] / squares[1]);
 }
 
-// Cells that are as good as flat make distances slow and wrong. Problems are scaled to one size.
+// Nearly flat cells make distances slow and inaccurate. Problems are scaled to one size.
 template <int Dim>
 bool folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
-  constexpr double kLeast = 1e-3;  // of the cell's measure before
+  constexpr double kLeast = 1e-3;  // relative to the measure of the cell before
   for (Index s = 0; s < after.num_cells(); ++s) {
     if (signed_measure(after, s) < kLeast * signed_measure(before, s)) return true;
   }

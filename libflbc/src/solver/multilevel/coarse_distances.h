@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Distances from a coarser mesh where they are good enough, and while the cage and its mesh move.
+//! Distances from a coarser mesh, if accurate enough, also while the cage and its mesh move.
 #pragma once
 
 #include <vector>
@@ -11,36 +11,36 @@
 
 namespace flbc {
 
-//! Interpolates distances, checks them against exact ones of some control points, and for
-//! Distances::kAuto computes all of them if they change the weights too much.
-//! \param coarse  with the places of the problem's vertices
-//! \param problem  whose phi is not asked for
-//! \param report  becomes what was done
+//! Interpolates distances and compares them with exact distances of some control points. For
+//! Distances::kAuto, computes all distances exactly if the effect on the weights is too large.
+//! \param coarse  with the locations of the vertices of the problem
+//! \param problem  phi is not needed
+//! \param report  output
 //! \return n x V
 template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                                 const SolverOptions& options, DistanceReport& report);
 
-//! A coarse mesh that moves along with a finer one of the same cage, which takes its distances from
-//! there instead of computing all of them for every shape.
+//! A coarse mesh that moves with a finer mesh of the same cage. The finer mesh interpolates its
+//! distances instead of computing them for every rest cage.
 template <int Dim>
 class MovingDistances {
  public:
-  //! \param coarse  with the places of the fine vertices \param fine  of the same shape
+  //! \param coarse  with the locations of the fine vertices \param fine  of the same rest cage
   MovingDistances(CoarseProblem<Dim> coarse, const LbcProblem<Dim>& fine);
 
-  //! From now on the coarse mesh follows the control points by these weights.
-  //! \param weights  n x V of the fine mesh, by which that one follows
+  //! Sets the weights by which the coarse mesh follows the control points.
+  //! \param weights  n x V, by which the fine mesh follows
   void anchor(const DomainMesh<Dim>& fine, const WeightMatrix& weights);
 
-  //! Distances for another shape, as choose_distances(); exact where the coarse mesh folds.
-  //! \param fine  of that shape, whose phi is not asked for \return n x V
+  //! Distances for another rest cage, as choose_distances(); exact if the coarse mesh folds.
+  //! \param fine  of that rest cage, phi is not needed \return n x V
   DistanceMatrix operator()(const LbcProblem<Dim>& fine, const SolverOptions& options,
                             DistanceReport& report);
 
  private:
-  CoarseProblem<Dim> coarse_;          // as the last shape had it
-  DomainMesh<Dim> first_;              // scaled as all are
+  CoarseProblem<Dim> coarse_;          // for the last rest cage
+  DomainMesh<Dim> first_;              // scaled like all problems
   std::vector<Location<Dim>> places_;  // of the coarse vertices in the fine mesh
   WeightMatrix weights_;               // of the coarse vertices
 };

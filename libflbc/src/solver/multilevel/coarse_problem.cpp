@@ -18,7 +18,7 @@
 namespace flbc {
 namespace {
 
-// A mesh worth a level of its own between the one below (0 vertices = none) and the finest.
+// Makes a mesh that is a useful level between the one below (0 vertices = none) and the finest.
 template <int Dim>
 std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const Cage<Dim>& cage,
                                          Index wanted, Index below, Index finest) {
@@ -35,7 +35,7 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// Distances as far as the solution on the active set needs them, if there is to be one.
+// Distances, limited to the needs of the active set if there will be one.
 template <int Dim>
 std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
                                                     const SolverOptions& options) {
@@ -57,8 +57,8 @@ std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
   return std::move(bounded.distances);
 }
 
-// Those that are inherited are checked where the finest mesh takes them over.
-// \param below  the next coarser problem, null for none
+// Inherited distances are checked when the finest mesh uses them.
+// \param below  next coarser problem; null: none
 template <int Dim>
 void measure_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
                  CoarseProblem<Dim>& level) {

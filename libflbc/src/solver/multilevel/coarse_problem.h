@@ -15,35 +15,35 @@
 
 namespace flbc {
 
-//! A problem on a coarser mesh, to start from or to interpolate distances from.
+//! A problem on a coarser mesh, for a multilevel start or for interpolated distances.
 template <int Dim>
 struct CoarseProblem {
   LbcProblem<Dim> problem;
-  std::vector<Location<Dim>> finest_vertices{};  //!< places of the finest mesh's vertices, if known
-  LevelReport report{};                          //!< sizes and seconds of mesh and set-up
-  //! Up to which distances from each control point are known, see BoundedDistances; empty if
-  //! everywhere.
+  std::vector<Location<Dim>> finest_vertices{};  //!< locations of the vertices of the finest mesh,
+                                                 //!< if known
+  LevelReport report{};                          //!< sizes, and times of meshing and setup
+  //! The reach of known distances per control point, see BoundedDistances; empty: unlimited.
   Eigen::VectorXf reach{};
-  std::optional<active_set::ColdStart<Dim>> cold{};  //!< that they were bounded by
+  std::optional<active_set::ColdStart<Dim>> cold{};  //!< the start that limited the distances
 };
 
 //! The purposes of coarse problems.
 struct CoarseUse {
-  bool start = true;       //!< they are solved
-  bool distances = false;  //!< finer meshes interpolate theirs
+  bool start = true;       //!< for a multilevel start
+  bool distances = false;  //!< for interpolated distances
 };
 
-//! Distances by those of a coarse problem, n x V.
+//! Distances interpolated from a coarse problem, n x V.
 //! \param places  of the V vertices in the coarse mesh
 template <int Dim>
 DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                               const std::vector<Location<Dim>>& places);
 
-//! Meshes the cage and sets the problems up. Left out are meshes on which the mesher fails (the
-//! cage may be too fine for so few vertices) or that are not clearly coarser than the next. The
-//! coarsest one alone computes distances if finer meshes are to interpolate theirs; and where it is
-//! solved on an active set, only as far as that needs them.
-//! \param problem  the finest one, whose phi is not asked for
+//! Meshes the cage and sets up the coarse problems. Skips meshes on which the mesher fails (the
+//! cage may need more vertices), or that are not clearly coarser than the next. If finer meshes
+//! interpolate distances, only the coarsest mesh computes them; with an active set, only as far as
+//! needed.
+//! \param problem  the finest problem; phi is not needed
 //! \param mesher  not empty
 //! \param sizes  numbers of vertices, ascending
 //! \param options  resolved

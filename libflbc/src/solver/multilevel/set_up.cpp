@@ -20,7 +20,7 @@
 namespace flbc {
 namespace {
 
-// The coarser meshes that a solve takes, and their purposes.
+// The coarse meshes of a solve, and their purposes.
 struct CoarsePlan {
   std::vector<Index> sizes;
   CoarseUse use;
@@ -37,9 +37,9 @@ CoarsePlan plan_coarse(const plan::Sizes& sizes, const SolverOptions& options, b
   return {std::move(coarse), {starts, interpolates}};
 }
 
-// A mesher of the same meshes, which begins with that of the first size at once, from a thread of
-// its own if there are several: it is made while the finest mesh is set up.
-// \param cage  of the finest mesh, unscaled \param mesher  outlives what is returned
+// Wraps a mesher to make the first mesh in advance. With several threads, it is made in a separate
+// thread while the finest problem is set up.
+// \param cage  of the finest mesh, unscaled \param mesher  must outlive the result
 template <int Dim>
 CoarseMesher<Dim> mesh_ahead(const Cage<Dim>& cage, const std::vector<Index>& sizes,
                              const CoarseMesher<Dim>& mesher) {
@@ -48,7 +48,7 @@ CoarseMesher<Dim> mesh_ahead(const Cage<Dim>& cage, const std::vector<Index>& si
   scaled.points = UnitScale<Dim>(cage)(cage.points);
   auto first = std::make_shared<std::future<DomainMesh<Dim>>>(std::async(
       std::launch::async | std::launch::deferred, [&mesher, scaled, size = sizes.front()] {
-        omp_set_num_threads(1);  // the others have work
+        omp_set_num_threads(1);  // other threads are busy
         return mesher(scaled, size);
       }));
   return [first, &mesher](const Cage<Dim>& coarse_cage, Index vertices) {
@@ -56,7 +56,7 @@ CoarseMesher<Dim> mesh_ahead(const Cage<Dim>& cage, const std::vector<Index>& si
   };
 }
 
-// Finds the finest mesh's vertices in a coarse one, once.
+// Locates the vertices of the finest mesh in a coarse one, once.
 template <int Dim>
 CoarseProblem<Dim>& with_places(CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& finest) {
   if (coarse.finest_vertices.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From cage and mesh to a problem, with what coarser meshes can do for it.
+//! Sets up a problem from cage and mesh, with the help of coarser meshes.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,23 @@
 
 namespace flbc {
 
-//! A problem, and those on coarser meshes that its solution starts from.
+//! A problem, and coarse problems for its multilevel start.
 template <int Dim>
 struct SetUp {
   LbcProblem<Dim> problem;
   std::vector<CoarseProblem<Dim>> coarse{};  //!< coarsest first
   DistanceReport distances{};
-  double seconds = 0;  //!< without those that the coarse problems report
+  double seconds = 0;  //!< without time reported by the coarse problems
 };
 
-//! Sets a problem up as make_problem() does, but with distances from a coarser mesh where the
-//! options say so, and without phi where the method does not need it.
+//! Sets up a problem as make_problem() does. Distances come from a coarser mesh if the options say
+//! so, and phi is omitted if the method does not need it.
 //! \param options  resolved
-//! \param mesher  may be empty unless options demand it; with several threads it is called from
-//! one of its own
-//! \param coarsest  where to leave the mesh whose distances were computed, with the places of the
-//! finest one's vertices, if distances were interpolated; may be null
-//! \param topology  of the mesh where it is known, else null
+//! \param mesher  may be empty unless required by options; called from a separate thread if there
+//! are several
+//! \param coarsest  output: the mesh with computed distances and the locations of the finest
+//! vertices, if distances were interpolated; may be null
+//! \param topology  of the mesh, or null if unknown
 //! \throws InputError, SolverError
 template <int Dim>
 SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,

@@ -12,7 +12,7 @@
 namespace flbc::plan {
 namespace {
 
-// Numbers of control points are stored in 16 bits.
+// Indices of control points are stored in 16 bits.
 constexpr Index kMostActiveControlPoints = 65000;
 
 NonNegative non_negative(const SolverOptions& options) {
@@ -111,7 +111,7 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options
     vertices.push_back(static_cast<Index>(size));
     size /= factor;
   }
-  // Whoever asks for coarser meshes gets one.
+  // An explicit request always gives a coarse mesh.
   const bool is_asked_for = levels.coarsest && !levels.factor;
   if (vertices.empty() && is_asked_for && sizes.vertices >= 2 * coarsest) {
     vertices.push_back(coarsest);

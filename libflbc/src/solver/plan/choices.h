@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Every choice that a solve makes by itself, from sizes and options alone. The numbers behind the
-//! choices are in constants.h.
+//! Every automatic choice of a solve, from sizes and options. The constants are in constants.h.
 #pragma once
 
 #include <vector>
@@ -11,7 +10,7 @@
 
 namespace flbc::plan {
 
-//! What a choice depends on.
+//! The inputs of a choice.
 struct Sizes {
   int dim;
   Index control_points;
@@ -23,34 +22,32 @@ Sizes sizes_of(const LbcProblem<Dim>& problem) {
   return {Dim, problem.num_control_points(), problem.mesh.num_vertices()};
 }
 
-//! Whether a method minimizes the objective, for which it needs phi.
+//! Whether a method minimizes the objective and therefore needs phi.
 bool minimizes(Method method);
 
-//! Whether a method starts from the duals of another mesh or shape.
+//! Whether a method can start from the duals of another mesh or rest cage.
 bool inherits(Method method);
 
-//! How linear systems are solved: a factor of a large mesh takes more time and memory than the
-//! iteration.
+//! The linear solver: a factor of a large mesh takes more time and memory than the iteration.
 LinearSolver linear_solver(const Sizes& sizes, const SolverOptions& options);
 
-//! Whether the duals of cells are stored in half precision at first.
+//! Whether cell duals are initially stored in half precision.
 bool half_precision(Index cells, const SolverOptions& options);
 
-//! Whether an active set is to be looked for, because it may pay and gives all that is asked for.
+//! Whether to try an active set, because it may be faster and supports all options.
 bool active_set(const Sizes& sizes, const SolverOptions& options);
 
 //! Whether an active set is small enough to be faster. \param density  of its pairs
 bool active_set_pays(double density, const SolverOptions& options);
 
-//! The penalty whose value is 1 for a cage of size 1, for a cage of another size. The term of the
-//! penalty has to grow with lengths as total variation does, (length)^(dim - 1): it is
-//! mu A |grad w|^2 for kValue, mu A^2 |grad w|^2 for kLbc2014 and mu |grad w|^2 for the others, in
-//! which gradients shrink as 1 / length.
+//! The factor that converts a penalty for a cage of size 1 to a cage of another size. The penalty
+//! term must scale like total variation, length^(dim - 1). It is mu A |grad w|^2 for kValue, mu A^2
+//! |grad w|^2 for kLbc2014, and mu |grad w|^2 for other methods; gradients scale like 1 / length.
 //! \param size  of the cage (bounding_box_diagonal)
 double penalty_unit(Method method, int dim, double size);
 
-//! Penalties and thresholds in publications have a meaning for a domain whose farthest vertex is at
-//! radius 250 about the center of its bounding box.
+//! Published penalties and thresholds refer to a domain whose farthest vertex is at radius 250 from
+//! the center of its bounding box.
 //! \return published length / length of this mesh
 template <int Dim>
 double published_scale(const DomainMesh<Dim>& mesh) {
@@ -60,15 +57,15 @@ double published_scale(const DomainMesh<Dim>& mesh) {
   return kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
 }
 
-//! Numbers of vertices of the coarser meshes to start from, ascending; none where they do not pay
-//! or are not wanted. \param options  resolved
+//! Numbers of vertices of the coarse meshes of a multilevel start, ascending; empty if it is
+//! disabled or does not pay. \param options  resolved
 std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options);
 
-//! Whether distances are to be interpolated from a coarser mesh if they turn out to be good enough.
-//! \param has_coarse_mesh  whether there is one to start from
+//! Whether to interpolate distances from a coarser mesh if they are accurate enough.
+//! \param has_coarse_mesh  whether the multilevel start has a coarse mesh
 bool interpolates_distances(const Sizes& sizes, const SolverOptions& options, bool has_coarse_mesh);
 
-//! Vertices of a coarse mesh for distances alone.
+//! Number of vertices of a coarse mesh used only for distances.
 Index distances_mesh_size(Index vertices, double tolerance);
 
 }  // namespace flbc::plan

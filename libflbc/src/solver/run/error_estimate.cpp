@@ -55,14 +55,14 @@ double WeightHistory::operator()(int iteration, const ReadRow& read) {
   return in_double_ ? compare(doubles_[turn], read) : compare(floats_[turn], read);
 }
 
-// Sum of the differences to come, in lengths of the last one, if they go on to shrink at this rate
-// per iteration.
+// Sum of future differences relative to the last one, if they keep shrinking at this rate per
+// iteration.
 double ErrorEstimate::spans_left(double rate) const {
   return rate > 0 ? 1 / std::expm1(rate * span_) : kInfinity;
 }
 
-// Decay of the differences' length per iteration, by regression over iterations first .. last.
-// Infinite with less than two of them.
+// Decay rate of difference norms per iteration, by regression over iterations first .. last.
+// Infinite with fewer than two differences.
 double ErrorEstimate::rate(double first, double last) const {
   double count = 0, mean_k = 0, mean_y = 0;
   const auto counts = [&](const Entry& entry) {
@@ -101,7 +101,7 @@ double ErrorEstimate::rest() const {
   }
   const double by_rate = std::clamp(early(dim_).safety * square(spans_left(rate_to_come)), kLeast,
                                     std::max(kMost, farthest));
-  // Elsewhere iterations since the start do not say how far a run is.
+  // For other starts, the number of iterations does not indicate progress.
   if (origin_ != Origin::kCold) return by_rate;
   // Differences that shrink as k^-p have the rate p / k, here in the middle of the window, and
   // leave as much as if it were (p - 1) / k from now on.
@@ -109,7 +109,7 @@ double ErrorEstimate::rest() const {
   return std::max(by_rate, std::min(kPowerSafety * square(spans_left(power_rate)), farthest));
 }
 
-// Whether an estimate that would end the run is right, by the residual.
+// Whether the residual confirms an estimate that would end the run.
 double ErrorEstimate::confirmed(int iteration, double residual) {
   using namespace plan::error_estimate;
   if (residual >= 0) {
@@ -123,8 +123,8 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   return std::max(shown_, hidden_ < 0 ? plan::kUnknownError * tolerance_ : hidden_);
 }
 
-// A lower bound by the power of the iterations that the error shrinks as at first, which rates do
-// not see; and by changes alone, for runs that speed up again.
+// A lower bound from the initial power-law decay, which rates do not capture, and from single
+// changes, for runs that accelerate again.
 double ErrorEstimate::least(int iteration, double change) const {
   const auto early = plan::error_estimate::early(dim_);
   const bool counts = origin_ != Origin::kNearby && iteration <= early.iterations;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! How far an iteration's weights are from its limit, judged by how it moves: what Method::kValue
-//! stops by.
+//! Estimates the distance of weights from the limit of the iteration, from their changes. Stopping
+//! criterion of Method::kValue.
 #pragma once
 
 #include <array>
@@ -12,21 +12,22 @@
 
 namespace flbc {
 
-//! Differences of weights over kSpan iterations. Unlike those of single iterations they hardly see
-//! what oscillates and fades soon, and see what drifts slowly kSpan times as large.
+//! Differences of weights over kSpan iterations. Unlike differences of single iterations, they
+//! suppress fast oscillations and amplify slow drift by kSpan.
 class WeightHistory {
  public:
   static constexpr int kSpan = 32;  //!< iterations
-  static constexpr int kStep = 8;   //!< iterations between two looks
+  static constexpr int kStep = 8;   //!< iterations between two samples
 
   //! Writes the n weights of a vertex.
   using ReadRow = std::function<void(Index vertex, double* weights)>;
 
-  //! \param vertices  the interior ones; of a large mesh some thousands serve as a sample
-  //! \param n  number of control points \param in_double  whether floats would round the weights
+  //! \param vertices  interior vertices; large meshes are sampled
+  //! \param n  number of control points \param in_double  whether to store doubles, because floats
+  //! would round the weights
   WeightHistory(const std::vector<Index>& vertices, Index n, bool in_double);
 
-  //! To be called after every iteration.
+  //! Must be called after every iteration.
   //! \return mean squared difference per vertex to the weights kSpan iterations ago, every kStep
   //! iterations; below 0 at other times
   double operator()(int iteration, const ReadRow& read);
@@ -45,33 +46,33 @@ class WeightHistory {
   Rows<double> doubles_;
 };
 
-//! Where an iteration started from, by which it shows how far it has to go.
+//! The kind of start of an iteration, on which the estimate depends.
 enum class Origin {
   kCold,         //!< weights without duals
-  kCoarserMesh,  //!< weights and duals of a coarser mesh, off by a little of everything
-  kNearby        //!< those of a problem like it; what is wrong with them first shows after a while
+  kCoarserMesh,  //!< weights and duals of a coarser mesh, with small errors of all kinds
+  kNearby        //!< those of a similar problem; their errors appear only after some iterations
 };
 
-//! Estimates the mean squared error of weights, by two looks at it.
+//! Estimates the mean squared error of weights in two ways.
 //!
 //! At first the error shrinks as a power of the number k of iterations, and is 0.1 to 0.9 times k^2
-//! times the squared change of an iteration on the test models. In 3D differences tell less than
-//! that then, so it is a lower bound.
+//! times the squared change of an iteration on the test models. In 3D, differences underestimate
+//! the error then, so this serves as a lower bound.
 //!
 //! Geometric extrapolation over spans of kSpan iterations: if differences shrink by rho (a length)
 //! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a
-//! regression's over the last iterations, because differences oscillate; where it falls, as the
-//! slow parts of the error remain, it is taken to fall further. Where it is low for the number of
-//! iterations, shrinking as a power of that number is assumed as well.
+//! regression over the last iterations, because differences oscillate. If the rate falls, because
+//! slow parts of the error remain, it is assumed to fall further. If it is low for the number of
+//! iterations, power-law decay is also assumed.
 //!
-//! Weights do not show duals that still grow while they stand still, as on round cages whose
-//! weights are nearly undetermined. It is in the residual of the splitting, which costs more than
-//! an iteration to measure. So it is asked for only where the run would end without it.
+//! Duals may still grow while weights do not change, for example on round cages with nearly
+//! undetermined weights. The residual of the splitting detects this, but costs more than an
+//! iteration. It is therefore measured only if the run would otherwise end.
 //!
 //! Constants: plan/constants.h.
 class ErrorEstimate {
  public:
-  //! \param dim  of the domain \param tolerance  mean squared error that the run is to end at
+  //! \param dim  of the domain \param tolerance  target mean squared error
   //! \param span  iterations that differences are taken over
   ErrorEstimate(Origin origin, int dim, double tolerance, int span = WeightHistory::kSpan)
       : origin_(origin), dim_(dim), tolerance_(tolerance), span_(span) {}
@@ -81,12 +82,12 @@ class ErrorEstimate {
 
   //! Estimates of one run, iteration by iteration.
   //! \param change  mean squared change of a weight in this iteration
-  //! \param difference  mean squared difference to the weights of `span` iterations ago;
-  //! below 0 where it is not known
+  //! \param difference  mean squared difference to the weights of `span` iterations ago; negative
+  //! if unknown
   //! \param residual  mean squared difference of z and grad w per control point, times the squared
-  //! size of the cage; below 0 where it was not measured
-  //! \return the estimate of this iteration or, where there is none, of the last one that had one;
-  //! above the tolerance until a residual has confirmed it; not finite if an argument is not
+  //! size of the cage; negative if not measured
+  //! \return the latest estimate; above the tolerance until a residual has confirmed it; not finite
+  //! if an argument is not finite
   double operator()(int iteration, double change, double difference, double residual = -1);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Who is told how far a solve is.
+//! Reports progress of a solve to the observer.
 #pragma once
 
 #include "base/stage_progress.h"
@@ -8,18 +8,18 @@
 
 namespace flbc {
 
-//! The caller's callbacks, as a part of the whole solve calls them. Keeps a reference.
+//! Maps the progress of a part of the solve to the callbacks of the caller. Keeps a reference.
 class Reporter {
  public:
   explicit Reporter(const Observer& observer) : observer_(observer) {}
 
-  //! The same for a mesh after which so many finer ones, or other parts, are still to come.
+  //! The same for a mesh that is followed by the given number of finer meshes or other parts.
   Reporter with_more_to_come(int levels) const {
     auto other = *this;
     other.finer_levels_ += levels;
     return other;
   }
-  //! The same for a part of every stage: from `before` on, `share` of it.
+  //! The same for a part of every stage: from `before` to `before + share`.
   Reporter of_part(double before, double share) const {
     auto other = *this;
     other.before_ = before;
@@ -27,7 +27,7 @@ class Reporter {
     return other;
   }
 
-  //! \return whether the run goes on
+  //! \return whether the run continues
   bool progress(Progress progress) const {
     progress.finer_levels += finer_levels_;
     return !observer_.progress || observer_.progress(progress);

@@ -25,7 +25,7 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
   return progress;
 }
 
-// Ends the run or tells the caller. Sets status and criterion. \return whether to stop
+// Ends the run or reports progress. Sets status and criterion. \return whether to stop
 template <int Dim>
 bool is_finished(const Iteration<Dim>& iteration, const RunContext<Dim>& context,
                  SolveReport& report) {

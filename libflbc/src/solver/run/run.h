@@ -12,15 +12,15 @@
 
 namespace flbc {
 
-//! Certifies the weights of an iteration from time to time. The number of iterations alone decides
-//! when, so that runs are repeatable.
+//! Certifies the weights of an iteration at times that depend only on the number of iterations, so
+//! runs are reproducible.
 class GapCriterion {
  public:
-  //! \param wanted  relative gap, 0 = none is small enough
+  //! \param wanted  target relative gap; 0 = never met
   explicit GapCriterion(double wanted) : wanted_(wanted) {}
 
-  //! Certifies if it is time to. \param made  iterations of the run \param last  whether no other
-  //! follows \return whether the gap is proved to be at most the one wanted
+  //! Certifies if due. \param made  iterations of the run \param last  whether this is the last
+  //! iteration \return whether the gap is at most the target
   template <int Dim>
   bool is_met(const Iteration<Dim>& iteration, int made, bool last) {
     if (wanted_ == 0 || made < (last ? plan::kFirstCertified : next_)) return false;
@@ -34,7 +34,7 @@ class GapCriterion {
   int next_ = plan::kFirstCertified;
 };
 
-//! What a run reads besides the iteration. Keeps references.
+//! Inputs of a run other than the iteration. Keeps references.
 template <int Dim>
 struct RunContext {
   const LbcProblem<Dim>& problem;
@@ -46,19 +46,20 @@ struct RunContext {
 
 //! Iterates until the stop rule or the certified gap is met, the limit of iterations is reached, or
 //! the caller stops it.
-//! \param pause  iteration after which another iteration is to take over
-//! \param report  gets iterations, status, criterion and residuals; goes on counting iterations
+//! \param pause  iteration after which to pause, so another method can take over
+//! \param report  receives iterations, status, criterion, and residuals; the iteration count
+//! continues
 //! \return whether the run has ended; otherwise it pauses
 //! \throws SolverError if numbers are not finite
 template <int Dim>
 bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport& report,
          int pause = std::numeric_limits<int>::max());
 
-//! Penalties and relaxations out of proportion take the numbers out of their range, which must
-//! never pass for a result. \throws SolverError unless `finite`
+//! Extreme penalties and relaxations cause overflow, which must never be returned as a result.
+//! \throws SolverError unless `finite`
 void require_finite(bool finite, const SolveReport& report);
 
-//! An objective in the units of the mesh as it was given.
+//! The objective in the units of the given mesh.
 template <int Dim>
 double unscaled(const LbcProblem<Dim>& problem, double objective);
 

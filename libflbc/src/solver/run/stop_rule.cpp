@@ -76,13 +76,13 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   auto weights = iteration.weights().dense;
   const double difference = squared_error(problem_, weights, weights_);
   weights_ = std::move(weights);
-  // Single iterations are not measured, and the residual counts on its own.
+  // The residual is used separately, because single iterations are not measured.
   constexpr double kNone = 0;
   const double shown = estimate_(report.iterations, kNone, difference, kNone);
   const double residual = residual_scale_ * step.violation;
   errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
-  // Differences go up and down with the state that circles its limit, and where a solve
-  // goes on the first ones are small: the largest of some counts.
+  // Differences oscillate as the state circles its limit, and the first ones after resuming are
+  // small, so the maximum of several is used.
   if (errors_.size() > plan::kRecoveriesJudged) errors_.erase(errors_.begin());
   const double largest = *std::max_element(errors_.begin(), errors_.end()) / *options_.tolerance;
   report.primal_residual =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! When a run ends: by its estimated error, or by the paper's residuals.
+//! Stopping rules: estimated error, or the residuals of the paper.
 #pragma once
 
 #include <algorithm>
@@ -12,30 +12,31 @@
 
 namespace flbc {
 
-//! Judges an iteration after each step. Keeps references to what its constructor gets.
+//! Evaluates an iteration after each step. Keeps references to constructor arguments.
 template <int Dim>
 class StopRule {
  public:
   virtual ~StopRule() = default;
 
-  //! To be called before the first step, and again when another iteration takes over.
+  //! Must be called before the first step, and when another iteration takes over.
   virtual void begin(const Iteration<Dim>&) {}
 
-  //! Iterations to make until the next judgment, >= 1. \param made  so far
+  //! Iterations until the next evaluation, >= 1. \param made  iterations so far
   virtual int next(int made) const = 0;
 
-  //! Whether the last of them has to measure its residuals.
+  //! Whether the last of them must measure residuals.
   virtual bool wants_residuals() const = 0;
 
-  //! Judges the last step: sets the residuals of the report, relative to their thresholds.
-  //! \return whether the run may end now, or the caller is to be told
+  //! Evaluates the last step: sets the residuals of the report, relative to their thresholds.
+  //! \return whether the run may end, or progress is due
   virtual bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) = 0;
 
   //! The run must not end before this iteration.
   void not_before(int iteration) { earliest_ = iteration; }
 
  protected:
-  //! Whether to look: at each iteration that shows the end, else every check_interval iterations.
+  //! Whether to evaluate: when the estimate would end the run, otherwise every check_interval
+  //! iterations.
   bool looks(const SolverOptions& options, const SolveReport& report, int fewest) const {
     const int made = report.iterations;
     if (made >= options.max_iterations) return true;
@@ -71,7 +72,7 @@ class EstimatedError : public StopRule<Dim> {
   bool begun_ = false;
 };
 
-//! Method::kGradient: the same for weights that are recovered from time to time.
+//! Method::kGradient: the same for periodically recovered weights.
 template <int Dim>
 class RecoveredError : public StopRule<Dim> {
  public:
@@ -96,7 +97,7 @@ class RecoveredError : public StopRule<Dim> {
 template <int Dim>
 class Residuals : public StopRule<Dim> {
  public:
-  //! Residuals in published units of length relative to those in the problem's.
+  //! Residuals in published units of length relative to those in problem units.
   struct Units {
     double primal, dual;
   };

@@ -14,7 +14,7 @@ FluxDensities<Dim>::FluxDensities(Index num_control_points, Index num_cells,
       blocks_((num_cells + kBlockCells - 1) / kBlockCells) {
 #pragma omp parallel
   {
-    Block block;  // grows once, which leaves no holes between those that are kept
+    Block block;  // grows once, which avoids fragmentation
 #pragma omp for schedule(static)
     for (Index first = 0; first < num_cells; first += kBlockCells) {
       block.starts.assign(1, 0);

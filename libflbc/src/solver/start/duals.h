@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights and duals that outlive their iteration, in a form that other meshes understand.
+//! Stored weights and duals of an iteration, in a form that applies to other meshes.
 #pragma once
 
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace flbc {
 
-//! p_s / A_s of every cell, for the control points where it is not zero: nothing else takes memory.
-//! In single precision: its rounding is far below what a start is off by.
+//! The nonzero p_s / A_s of every cell. Single precision, because its rounding is far below the
+//! error of a start.
 template <int Dim>
 class FluxDensities {
  public:
-  //! None.
+  //! Empty.
   FluxDensities() = default;
 
   //! \param num_control_points  n \param num_cells  F
-  //! \param of_cell  n x Dim; is asked by several threads
+  //! \param of_cell  n x Dim; called by several threads
   FluxDensities(Index num_control_points, Index num_cells, const VectorsAt<Dim>& of_cell);
 
-  //! In one cell, n x Dim.
+  //! The vectors of one cell, n x Dim.
   Vectors<Dim> cell(Index cell) const;
 
  private:
-  // The control points and vectors of some cells, one after the other.
+  // The control points and vectors of some cells, concatenated.
   struct Block {
     std::vector<Index> starts;
     std::vector<Index> control_points;
@@ -38,19 +38,19 @@ class FluxDensities {
   std::vector<Block> blocks_;
 };
 
-//! The state of an iteration as quantities that have a limit as meshes become finer: densities, not
-//! numbers per cell. Lengths are those of the problem. n control points, V vertices, F cells.
+//! The state of an iteration as quantities with a limit under mesh refinement: densities instead of
+//! values per cell. Lengths are in problem units. n control points, V vertices, F cells.
 template <int Dim>
 struct Duals {
-  double penalty = 0;                 //!< used last
+  double penalty = 0;                 //!< last penalty
   SparseWeights weights{};            //!< of V points
   FluxDensities<Dim> flux_density{};  //!< p_s / A_s, at most phi long
-  //! q - w of the constraint u = w, u >= 0, without its zeros, of V points; for the penalty above.
-  //! No points without the constraint.
+  //! Sparse q - w of the constraint u = w, u >= 0, at V points, for the penalty above. Empty
+  //! without the constraint.
   SparseWeights vertex_dual{};
 };
 
-//! Copies what a start refers to.
+//! Copies the data of a start.
 template <int Dim>
 Duals<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start);
 

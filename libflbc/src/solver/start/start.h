@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Where an iteration starts: weights and duals, one vertex or cell at a time, wherever they come
-//! from.
+//! The start of an iteration: access to weights and duals per vertex or cell, from any source.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +15,19 @@ namespace flbc {
 template <int Dim>
 using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Dim>;
 
-//! Views of weights and duals, in the lengths of the problem that starts. Whatever the functions
-//! refer to must outlive them. Without `weights` the start is cold: an iteration then begins with
-//! its own weights, which are harmonic coordinates or the least-norm solution.
+//! Views of weights and duals, in the units of the new problem. The data they refer to must outlive
+//! them. Without `weights` the start is cold: an iteration then begins with its own weights, which
+//! are harmonic coordinates or the least-norm solution.
 template <int Dim>
 struct Start {
-  double penalty = 0;             //!< that the vertex duals belong to
-  VectorsAt<1> weights{};         //!< of an interior vertex, n numbers
+  double penalty = 0;             //!< penalty of the vertex duals
+  VectorsAt<1> weights{};         //!< of an interior vertex, n values
   VectorsAt<Dim> flux_density{};  //!< p / A of a cell, n x Dim, at most phi long
-  VectorsAt<1> vertex_dual{};     //!< q - w of an interior vertex, n numbers; null for none
+  VectorsAt<1> vertex_dual{};     //!< q - w of an interior vertex, n values; null: none
 
   bool is_cold() const { return !weights; }
 
-  //! q - w for another penalty: the multiplier stays.
+  //! q - w for another penalty, with the same multiplier.
   VectorsAt<1> vertex_dual_at(double other) const {
     if (!vertex_dual) return {};
     return [dual = vertex_dual, factor = penalty / other](Index vertex) -> Eigen::VectorXd {
@@ -44,7 +43,7 @@ struct Start {
   }
 };
 
-//! Weights of any vertex, with the known ones on the boundary, from those of interior vertices.
+//! Weights of any vertex, from the known boundary weights and those of interior vertices.
 template <int Dim>
 VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weights) {
   return [&problem, weights = std::move(weights)](Index v) -> Eigen::VectorXd {
@@ -55,8 +54,8 @@ VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weig
   };
 }
 
-//! Shortens the rows that are longer than phi on a cell. Where most rows are zero it takes longer
-//! to ask for phi than to see that. \param density  n x Dim
+//! Shortens the rows that are longer than phi on a cell. Checks for zero rows first, because
+//! evaluating phi takes longer. \param density  n x Dim
 template <class Rows>
 void shorten_to(const WeightFunctions& phi, Index cell, Rows& density) {
   Eigen::ArrayXd squared = density.col(0).array().square();

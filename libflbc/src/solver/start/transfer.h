@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From the duals on one mesh to the start on another mesh of the same cage, or on the same mesh
-//! after it has moved.
+//! Transfers duals to a start on another mesh of the same cage, or on the same mesh after a move.
 #pragma once
 
 #include <vector>
@@ -13,36 +12,35 @@
 
 namespace flbc {
 
-//! The cells of a problem that contain points of another problem of the same cage. A point that
-//! rounding puts outside belongs to the nearest cell.
+//! The cells of a problem that contain points of another problem of the same cage. A point outside
+//! by rounding belongs to the nearest cell.
 template <int Dim>
 std::vector<Location<Dim>> places_in(const LbcProblem<Dim>& problem, const PointList<Dim>& points) {
   return walk_to_points(problem.mesh, problem.topology, points);
 }
 
-//! Evaluates the duals of a coarse mesh where the fine mesh of the same cage needs them. The meshes
-//! need not be nested. Keeps references to all three arguments.
+//! Evaluates the duals of a coarse mesh on a fine mesh of the same cage. The meshes need not be
+//! nested. Keeps references to all three arguments.
 template <int Dim>
 class Transfer {
  public:
-  //! \param vertices  places of the fine vertices in the coarse mesh, if they are known
+  //! \param vertices  locations of the fine vertices in the coarse mesh, if known
   Transfer(const LbcProblem<Dim>& coarse, const Duals<Dim>& duals, const LbcProblem<Dim>& fine,
            std::vector<Location<Dim>> vertices = {});
 
-  //! Between two shapes of one mesh, where every cell is its own place. Flux densities stay as they
-  //! are: turning and stretching them with their cells saves no iterations.
+  //! Transfers between two rest cages of one mesh, cell by cell. Flux densities are unchanged,
+  //! because deforming them with their cells saves no iterations.
   static Transfer between_shapes(const LbcProblem<Dim>& before, const Duals<Dim>& duals,
                                  const LbcProblem<Dim>& after);
 
   //! Whether it was made by between_shapes().
   bool is_between_shapes() const { return between_shapes_; }
 
-  //! The start on the fine mesh, which refers to this object. Its weights are interpolated. Its
-  //! flux density is that of the coarse cell which contains the middle of the fine one, shortened
-  //! to phi.
+  //! The start on the fine mesh; it refers to this object. Weights are interpolated. The flux
+  //! density is that of the coarse cell containing the fine centroid, shortened to phi.
   Start<Dim> start() const;
 
-  //! The place of a fine vertex in the coarse mesh.
+  //! The location of a fine vertex in the coarse mesh.
   const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
 
   const DomainMesh<Dim>& coarse_mesh() const { return coarse_.mesh; }
@@ -58,7 +56,7 @@ class Transfer {
   const LbcProblem<Dim>& fine_;
   const bool between_shapes_;
   std::vector<Location<Dim>> vertices_;
-  std::vector<Index> cells_;  // the coarse ones that contain the middles of the fine ones
+  std::vector<Index> cells_;  // coarse cells that contain the fine centroids
 };
 
 }  // namespace flbc

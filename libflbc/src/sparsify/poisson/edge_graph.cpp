@@ -7,7 +7,7 @@
 namespace flbc {
 namespace {
 
-// The first of all points with the same place and the same weights, for every point.
+// For every point, the first point with the same position and weights.
 template <int Dim>
 std::vector<Index> find_representatives(const PointList<Dim>& points, const WeightMatrix& weights) {
   std::vector<Index> order(points.cols()), representatives(points.cols());
@@ -18,7 +18,7 @@ std::vector<Index> find_representatives(const PointList<Dim>& points, const Weig
     return std::lexicographical_compare(p, p + Dim, q, q + Dim);
   };
   std::stable_sort(order.begin(), order.end(), is_before);
-  std::vector<Index> distinct;  // at one place
+  std::vector<Index> distinct;  // distinct weights at one position
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Index point = order[k];
     if (k == 0 || is_before(order[k - 1], point)) distinct.clear();
@@ -56,7 +56,7 @@ EdgeGraph::EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights,
   color();
 }
 
-// Every point gets the first color that none of its neighbours has.
+// Greedy coloring: every point gets the first color that no neighbor has.
 void EdgeGraph::color() {
   const auto count = static_cast<Index>(representatives_.size());
   std::vector<Index> color_of(count, -1), taken_by;

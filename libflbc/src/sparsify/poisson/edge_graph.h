@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Points and their neighbours, ready for passes over them that are parallel and yet give the same
-//! result for any number of threads.
+//! Points and their neighbors, colored for parallel passes whose results do not depend on the
+//! number of threads.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace flbc {
 
-//! Points that coincide and have the same weights are one point here, with all their edges: where a
-//! file has a vertex twice, as at the borders of texture charts, nothing must tear.
+//! Coincident points with equal weights are merged, including their edges, so that duplicated
+//! vertices (for example at texture seams) do not separate.
 class EdgeGraph {
  public:
   struct Neighbour {
@@ -24,16 +24,16 @@ class EdgeGraph {
   template <int Dim>
   EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights, const EdgeList& edges);
 
-  //! The first of the points that are one with this one.
+  //! The representative of a point: the first of its merged points.
   Index representative(Index point) const { return representatives_[point]; }
 
-  //! Of a representative; others have none.
+  //! The neighbors of a representative; other points have none.
   VertexItems<Neighbour>::Range neighbours_of(Index point) const { return neighbours_.of(point); }
 
-  //! The sum of k_e |edge|^2 / 2 over the edges of a point: its share of area or volume.
+  //! The sum of k_e |edge|^2 / 2 over the edges of a point, its share of area or volume.
   double mass(Index point) const { return masses_[point]; }
 
-  //! The representatives that have neighbours, in groups without neighbours inside.
+  //! The representatives with neighbors, in groups that contain no neighbors.
   const std::vector<std::vector<Index>>& colors() const { return colors_; }
 
  private:

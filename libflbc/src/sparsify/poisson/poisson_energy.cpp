@@ -13,10 +13,10 @@
 namespace flbc {
 namespace {
 
-// Over shorter distances gradients count for more than positions. With longer ones gradients hardly
-// get better, but positions worse, and descent slower.
-constexpr double kReach = 0.05;        // of the points' size
-constexpr double kReachOverEdges = 5;  // in mean lengths of an edge, for coarse meshes
+// Length below which gradients dominate over positions. Larger values hardly improve gradients, but
+// worsen positions and slow down descent.
+constexpr double kReach = 0.05;        // relative to the size of the points
+constexpr double kReachOverEdges = 5;  // in mean edge lengths, for coarse meshes
 
 template <int Dim>
 double reach_of(const PointList<Dim>& points, const EdgeList& edges) {
@@ -26,7 +26,7 @@ double reach_of(const PointList<Dim>& points, const EdgeList& edges) {
   return std::max(kReach * bounding_box_diagonal<Dim>(points), kReachOverEdges * mean);
 }
 
-// Weight of the expectation beside given poses.
+// Weight of the expectation relative to the given poses.
 constexpr double kGeneral = 0.1;
 
 // The sum of the expectations over all poses of both kinds, each of which displaces by about a
@@ -54,7 +54,7 @@ Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
   if (poses.empty()) return metric;
   metric *= kGeneral;
   for (const auto& pose : poses) {
-    // Where a pose is does not matter, as sum d = 0, but would cost digits.
+    // Centers the pose. Its translation has no effect because sum d = 0, but would lose digits.
     const PointList<Dim> places = 10 / size * (pose.colwise() - pose.rowwise().mean());
     metric += places.transpose().lazyProduct(places) / static_cast<double>(poses.size());
   }

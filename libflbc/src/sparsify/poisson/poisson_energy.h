@@ -12,26 +12,26 @@ namespace flbc {
 
 //! H, n x n, symmetric and positive definite, such that d . H d is, for differences d of weights
 //! with sum d = 0 and sum d c = 0, the squared distance by which d moves a point, in units of a
-//! tenth of the cage's size: the mean over the poses, to which a tenth of the expectation for poses
-//! like those of independent_poses() and smooth_poses() is added, which keeps control points in
-//! check that the given poses do not move. Without poses H is that expectation.
+//! tenth of the cage's size: the mean over the poses plus a tenth of the expectation over poses
+//! like those of independent_poses() and smooth_poses(). The second term controls control points
+//! that the given poses do not move. Without poses, H is that expectation.
 //! \param control_points  Dim x n \param poses  Dim x n each
 template <int Dim>
 Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
                             const std::vector<PointList<Dim>>& poses);
 
-//! With d_a the new less the given weights of point a and x_a its place:
+//! With d_a the new minus the given weights of point a, and x_a its position:
 //!
 //!     sum_ab k_ab (d_a - d_b) . H (d_a - d_b)  +  sum_a pin m_a d_a . H d_a
 //!
 //! over edges ab and points a, where m_a = sum_b k_ab |x_a - x_b|^2 / 2.
 struct PoissonEnergy {
   Eigen::MatrixXd metric;  //!< H, n x n
-  double pin;              //!< what keeps points in place, 1 / length^2
+  double pin;              //!< weight of absolute displacements, 1 / length^2
 };
 
 //! \param control_points  Dim x n \param points  Dim x P \param edges  validated
-//! \param poses  Dim x n each \throws InputError if a pose does not fit
+//! \param poses  Dim x n each \throws InputError if a pose has the wrong size
 template <int Dim>
 PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
                                   const PointList<Dim>& points, const EdgeList& edges,

@@ -19,12 +19,11 @@
 namespace flbc {
 namespace {
 
-// Steps go beyond the minimum of a point by this factor, as in successive over-relaxation. Below 2
-// the energy never rises by that.
+// Over-relaxation factor of the steps. Below 2, the energy never increases.
 constexpr double kOvershoot = 1.5;
-// Supports of neighbours that are tried at a point.
+// Number of neighbor supports that are tried at a point.
 constexpr std::size_t kSupports = 16;
-// Gains in squared distance, in units of a tenth of the cage's size, that nobody can see.
+// Invisible gains in squared distance, in units of a tenth of cage size.
 constexpr double kInvisible = 1e-11;
 
 void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weights) {
@@ -33,8 +32,8 @@ void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weigh
   for (const Index i : weights.support) weights.values.push_back(column[i]);
 }
 
-// Beyond the minimum, too, if no control point left: but not more than half the way to zero, so
-// that none leaves here.
+// Over-relaxes if no control point was removed, but at most half the way to zero, so that none is
+// removed here.
 void overshoot(const PointWeights& before, PointWeights& after) {
   if (!std::includes(after.support.begin(), after.support.end(), before.support.begin(),
                      before.support.end())) {
@@ -54,16 +53,16 @@ void overshoot(const PointWeights& before, PointWeights& after) {
   }
 }
 
-// Moves the sparse weights of one point at a time to where the energy is less. Points that are one
-// in the graph are taken for one.
+// Decreases the energy by changing the sparse weights of one point at a time. Points merged in the
+// graph count as one.
 template <int Dim>
 class PoissonDescent {
  public:
-  // All kept by reference, but the options.
+  // Everything is kept by reference, except the options.
   // \param control_points  Dim x n
   // \param points  Dim x P
-  // \param given  n x P, the weights to stay near to
-  // \param plain  n x P, some feasible weights that are as sparse as the options say
+  // \param given  n x P, target weights
+  // \param plain  n x P, feasible weights within the limits of the options
   PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
                  const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const WeightMatrix& given, const WeightMatrix& plain,
@@ -83,13 +82,13 @@ class PoissonDescent {
     for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
       stiffness_[a] = energy.pin * graph.mass(a);
       for (const auto& neighbour : graph.neighbours_of(a)) stiffness_[a] += neighbour.weight;
-      // On the cage weights are those of its facet.
+      // On the cage, weights are those of the facet.
       fixed_[a] = (given.col(a).array() != 0).count() <= Dim && plain.col(a) == given.col(a);
     }
   }
 
-  // Starts from these feasible weights, n x P, which may have more influences than the options
-  // allow: what is too much is removed when the descent first comes to a point.
+  // Starts from feasible weights, n x P. They may have more influences than allowed; the first
+  // visit of a point removes the excess.
   void start(const WeightMatrix& weights) {
     const auto num_points = static_cast<Index>(points_.cols());
 #pragma omp parallel for schedule(static) if (num_points >= 256)
@@ -97,7 +96,7 @@ class PoissonDescent {
       gather(weights.col(a), weights_[a]);
       potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
     }
-    // Where all differences are 0 there is nothing to gain, but maybe something to remove.
+    // If all differences are 0 there is nothing to gain, but influences may have to be removed.
     std::fill(open_.begin(), open_.end(), 0);
     for (Index a = 0; a < num_points; ++a) {
       if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = 1;
@@ -107,10 +106,9 @@ class PoissonDescent {
     }
   }
 
-  // Goes over the points until no point gains more than `least_gain` any more, but at most
-  // `sweeps` times.
+  // Sweeps over the points until no point gains more than `least_gain`, at most `sweeps` times.
   void run(int sweeps, double least_gain) {
-    // Each sweep leaves about so much work to the next.
+    // Each sweep leaves about this fraction of work to the next.
     constexpr double kFall = 0.6;
     for (int k = 0; k < sweeps; ++k) {
       const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
@@ -118,7 +116,7 @@ class PoissonDescent {
     }
   }
 
-  // The weights of a representative of the graph, n, up to about 1e-8.
+  // The n weights of a representative of the graph, accurate to about 1e-8.
   Eigen::VectorXd weights_of(Index point) const {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
     const PointWeights& few = weights_[point];
@@ -136,8 +134,8 @@ class PoissonDescent {
     std::vector<const std::vector<Index>*> supports;
   };
 
-  // Color by color: points of one color do not see each other, so that their order and the threads
-  // do not matter.
+  // Processes color by color. Points of one color are independent, so order and threads have no
+  // effect.
   bool sweep(double least_gain) {
     Index changes = 0;
     LoopProgress progress(static_cast<Index>(points_.cols()));
@@ -191,8 +189,8 @@ class PoissonDescent {
     return true;
   }
 
-  // For fixed neighbours b the energy is s (w - t) . H (w - t) and a constant, with the stiffness
-  // s = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
+  // For fixed neighbors b, the energy is s (w - t) . H (w - t) and a constant, with the stiffness s
+  // = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
   void aim(Index point, Workspace& work) const {
     Eigen::VectorXd& pull = work.selection.qp().aim_at(points_.col(point));
     pull = -potential_.col(point);
@@ -213,7 +211,7 @@ class PoissonDescent {
     }
   }
 
-  // A support that suits a neighbour often suits here, too, and then there is no seam between them.
+  // The support of a neighbor often works here too, and then there is no seam between them.
   void find_supports_around(Index point, Workspace& work) const {
     auto& supports = work.supports;
     supports.clear();
@@ -251,15 +249,15 @@ class PoissonDescent {
   std::vector<bool> fixed_;
   std::vector<PointWeights> weights_;
   Eigen::MatrixXd potential_;        // n x P: H (w - given)
-  std::vector<unsigned char> open_;  // per point: may it have something to gain?
+  std::vector<unsigned char> open_;  // per point: whether it may gain
 };
 
 constexpr int kSweeps = 20;
-// Least gain of a change of one point's weights, as a part of the mean energy of a point.
+// Minimum gain of a change of one point, relative to the mean energy of a point.
 constexpr double kLeastGain = 1e-3;
 
-// The weights of the descent with exact sum and reproduction; where rounding is in the way, or
-// nothing is connected, the plain weights.
+// The weights of the descent with exact sum and reproduction. Points without edges, or where
+// rounding prevents this, get the plain weights.
 template <int Dim>
 WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph,
                       const WeightProjection<Dim>& projection, const PointList<Dim>& points,
@@ -289,14 +287,14 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
                                const std::vector<PointList<Dim>>& poses,
                                const SparsifyOptions& user_options) {
   validate(edges, points.cols());
-  // About as long as each of them takes.
+  // Share of the progress: both stages take about the same time.
   constexpr double kPlain = 0.15, kStart = 0.3;
   const StageScope scope(user_options.progress);
   SparsifyOptions options = user_options;
-  options.progress = {};  // told by the scope
+  options.progress = {};  // progress is reported by the scope
   auto plain = [&] {
     const StagePart part(0, kPlain);
-    return sparsify(control_points, points, weights, options);  // checks the input, too
+    return sparsify(control_points, points, weights, options);  // also checks the input
   }();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
@@ -316,7 +314,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   };
   const auto start = [&] {
     const StagePart part(kPlain, kStart);
-    // With one influence more to begin with, neighbours can agree on which one to drop.
+    // Starting with one more influence lets neighbors agree on which one to drop.
     if (options.max_influences < static_cast<Index>(weights.rows())) ++options.max_influences;
     return sparsify(control_points, points, weights, options);
   }();

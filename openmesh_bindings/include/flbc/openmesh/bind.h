@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From a model and a cage to weights on the model, in one call; with deform.h it follows the cage.
+//! Computes weights on a model from a cage in one call. deform.h then moves the model with the
+//! cage.
 #pragma once
 
 #include <algorithm>
@@ -20,30 +21,30 @@
 
 namespace flbc::openmesh {
 
-//! Treatment of the model's vertices outside the cage. With kNearest they move as the nearest point
-//! of the cage does, keeping their offset from it. kExtend needs BindOptions::max_influences = 0,
-//! because negative weights cannot be reduced.
+//! Treatment of the model's vertices outside the cage. With kNearest they follow the nearest point
+//! of the cage at a constant offset. kExtend needs BindOptions::max_influences = 0, because
+//! negative weights cannot be reduced.
 using flbc::OutsidePoints;
 
 //! Options of bind().
 struct BindOptions {
-  //! Vertices of the mesh of the interior; 0: the minimum that element quality allows. If the
-  //! default is too few for a cage, it is increased automatically.
+  //! Number of vertices of the domain mesh; 0: the minimum that element quality allows. The default
+  //! is increased automatically if a cage needs more.
   Index vertices = kDefaultVertices;
-  static constexpr Index kDefaultVertices = 10000;  //!< that of the program, too
+  static constexpr Index kDefaultVertices = 10000;  //!< same as for the program flbc
 
   SolverOptions solver{};                        //!< method, tolerance, threads, progress
-  Index max_influences = 8;                      //!< per vertex; 0 = all weights are kept
-  Reduction reduction = Reduction::kPoisson;     //!< how the others are left out
+  Index max_influences = 8;                      //!< per vertex; 0 = keep all weights
+  Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
   OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage
   std::string weights = kWeights;                //!< name of the property
-  bool persistent = false;                       //!< whether .om files keep what is left
+  bool persistent = false;                       //!< whether .om files store the properties
 };
 
 //! Report of bind().
 struct BindReport {
-  SolveReport solve{};  //!< on the mesh of the interior, with its size
-  Quality quality{};    //!< of the weights that are left on the model
+  SolveReport solve{};  //!< on the domain mesh
+  Quality quality{};    //!< of the final weights on the model
   Index outside = 0;    //!< number of vertices outside the cage
   double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
 };
@@ -61,7 +62,7 @@ struct BindInput {
   Mesher<Dim> mesher;
 };
 
-//! The weights of points.
+//! Weights of points.
 template <int Dim>
 struct Binding {
   SparseWeights weights;
@@ -123,17 +124,17 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
 
 }  // namespace internal
 
-//! Binds a model to a cage: meshes the interior, solves, evaluates the weights at the model's
-//! vertices and leaves the most important ones as a property, by which deform() moves the model.
-//! Where the vertices are now is where they rest; restore_rest() puts them back there.
+//! Binds a model to a cage: meshes the interior, solves, evaluates weights at the model vertices,
+//! and reduces influences. The weights become a property, which deform() uses to move the model.
+//! The current vertex positions become the rest positions; restore_rest() restores them.
 //!
-//! The mesh comes from tetrahedralize() or, for a cage in the plane, triangulate(): link the
-//! component flbc::tetgen or flbc::cgal.
+//! The domain mesh comes from tetrahedralize(), or from triangulate() for a cage in the plane. Link
+//! the component flbc::tetgen or flbc::cgal.
 //! \param model  a mesh of triangles or polygons, with points of floats or doubles, or a TetMesh
-//! \param cage  a Cage, or a mesh: a closed surface or, if its points have two coordinates, one
-//! whose outline is the cage
-//! \throws InputError naming what is wrong with cage or model, OptionError, SolverError; the model
-//! is then as it was
+//! \param cage  a Cage, or a mesh: a closed surface, or a planar mesh whose boundary is the cage
+//! (points with two coordinates)
+//! \throws InputError naming the defect of cage or model; OptionError, SolverError. The model is
+//! then unchanged
 template <class Model, class AnyCage>
 BindReport bind(Model& model, const AnyCage& any_cage, const BindOptions& options = {}) {
   const auto cage = internal::as_cage(any_cage);
@@ -144,8 +145,8 @@ BindReport bind(Model& model, const AnyCage& any_cage, const BindOptions& option
   }
 }
 
-//! The same with a mesh of the interior of one's own, for which no component is needed; if one is
-//! linked, the solve may start from coarser meshes by it.
+//! The same with a given domain mesh, which needs no component. If a mesher component is linked,
+//! the solve may use it for a multilevel start.
 //! \param domain  see normalize_and_validate()
 template <class Model, int Dim>
 BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
@@ -153,8 +154,8 @@ BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& doma
   return internal::bind_to<Dim>(model, cage, &domain, internal::linked_mesher<Dim>(), options);
 }
 
-//! Puts the vertices back where they were when the model was bound.
-//! \throws InputError if it was not
+//! Restores the vertex positions at the time of bind().
+//! \throws InputError if the model was not bound
 template <class Model>
 void restore_rest(Model& model, const std::string& weights = kWeights) {
   const auto* rest = internal::find_property<Wide<double>>(model, internal::name_of_rest(weights));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Properties of OpenMesh meshes whose elements all have the same number of numbers, in one block.
-//! The tools of OpenMesh copy, sort, save and load them like any other property.
+//! Properties of OpenMesh meshes with the same number of values for every element, stored in one
+//! block. OpenMesh copies, sorts, saves, and loads them like any other property.
 #pragma once
 
 #include <cassert>
@@ -21,12 +21,12 @@
 
 namespace flbc::openmesh {
 
-//! The block behind properties with this value type: a type `Block`, whose operator[] gives a view
-//! of an element, and the name `kName` of the type in .om files.
+//! The storage of properties with this value type: a type `Block`, whose operator[] returns a view
+//! of an element, and the type name `kName` in .om files.
 template <class Value>
 struct BlockOf;
 
-//! Types that OpenMesh asks for.
+//! Types required by OpenMesh.
 template <class V>
 struct BlockTypes {
   using Value = V;
@@ -78,7 +78,7 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
   void set_persistent(bool yes) override { this->template check_and_set_persistent<V>(yes); }
   std::string get_storage_name() const override { return BlockOf<V>::kName; }
   std::size_t n_elements() const override { return block_.size(); }
-  //! Always unknown: OpenMesh asks before it reads a property, and its shape is in the file.
+  //! Always unknown: OpenMesh calls this before it reads a property, and the shape is in the file.
   std::size_t element_size() const override { return UnknownSize; }
   std::size_t size_of(std::size_t /*elements*/) const override { return UnknownSize; }
   //! Bytes in an .om file.
@@ -94,7 +94,7 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
   }
 
  protected:
-  //! Gives all elements another shape and sets them to 0. If this throws, nothing has changed.
+  //! Changes the shape of all elements and sets them to 0. If this throws, nothing changes.
   void set_block_shape(std::size_t components, std::size_t width) {
     vector_type block(components, width);
     block.resize(block_.size());
@@ -105,7 +105,7 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
   vector_type block_;
 };
 
-//! Tells OpenMesh that such properties can be saved, and under which name.
+//! Registers these properties with OpenMesh for saving, with their type name.
 template <class V>
 struct BlockBinary {
   using value_type = V;
@@ -115,9 +115,9 @@ struct BlockBinary {
   static std::string type_identifier() { return BlockOf<V>::kName; }
 };
 
-//! Makes the properties of a file in a mesh that has none of their name. This is what
-//! OM_REGISTER_PROPERTY_TYPE makes, once per program instead of once per source file; its variables
-//! are named by their line only and could collide with those of another header.
+//! Creates properties that a file contains but the mesh lacks. OM_REGISTER_PROPERTY_TYPE would
+//! create one variable per source file, named only by its line, which could collide with another
+//! header.
 template <class V>
 class BlockCreator : public OpenMesh::PropertyCreatorImpl<BlockCreator<V>> {
  public:

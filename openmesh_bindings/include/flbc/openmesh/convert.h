@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From meshes of OpenMesh to cages, domains, and matrices, and back. Elements keep their numbers;
-//! coordinates are exact unless the mesh's points have single precision.
+//! Converts OpenMesh meshes to cages, domain meshes, and matrices, and back. Elements keep their
+//! indices. Coordinates are exact unless the mesh points have single precision.
 #pragma once
 
 #include <string>
@@ -19,12 +19,12 @@
 
 namespace flbc::openmesh {
 
-//! Number of coordinates of a mesh's points.
+//! Number of coordinates of mesh points.
 template <class Mesh>
 inline constexpr int kPointSize =
     static_cast<int>(OpenMesh::vector_traits<typename Mesh::Point>::size_);
 
-//! The points, a column per vertex.
+//! The points, one column per vertex.
 //! \return Dim x V
 //! \throws InputError naming the vertex if Dim is 2 and the mesh is not in a plane z = const
 template <int Dim, class Mesh>
@@ -42,8 +42,8 @@ PointList<Dim> points_of(const Mesh& mesh) {
   }
 }
 
-//! Moves the vertices. A third coordinate stays if there are only two.
-//! \param points  Dim x V \throws InputError if there is not one for each vertex
+//! Moves the vertices. With Dim = 2, a third coordinate is unchanged.
+//! \param points  Dim x V \throws InputError if their number is not V
 template <class Mesh, int Dim>
 void set_points(Mesh& mesh, const PointList<Dim>& points) {
   static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");
@@ -90,7 +90,7 @@ Eigen::Matrix<Index, 2, Eigen::Dynamic> edges_of(const Mesh& mesh) {
 
 namespace internal {
 
-//! Polygons with more than three corners are cut as io::to_cage() does.
+//! Polygons with more than three corners are triangulated as in io::to_cage().
 Cage<3> cage_of_polygons(const PointList<3>& points,
                          const std::vector<std::vector<Index>>& polygons);
 
@@ -124,8 +124,8 @@ void add_triangles(Mesh& mesh, const Eigen::Matrix<Index, 3, Eigen::Dynamic>& fa
 
 }  // namespace internal
 
-//! A closed surface as a cage: control points are its vertices, facets its faces, polygons cut into
-//! triangles. The cage is not validated.
+//! A closed surface as a cage: its vertices become control points, its faces facets. Polygons are
+//! triangulated. The cage is not validated.
 //! \throws InputError if the mesh has deleted elements or is a single polygon
 template <class Mesh>
 Cage<3> to_cage(const Mesh& mesh) {
@@ -196,7 +196,8 @@ Mesh to_mesh(const Cage<2>& cage) {
   return mesh;
 }
 
-//! The triangles of a domain. \throws InputError naming a triangle that no half-edge mesh can hold
+//! The triangles of a domain mesh. \throws InputError naming a triangle that no half-edge mesh can
+//! hold
 template <class Mesh>
 Mesh to_mesh(const DomainMesh<2>& domain) {
   Mesh mesh;
@@ -205,21 +206,22 @@ Mesh to_mesh(const DomainMesh<2>& domain) {
   return mesh;
 }
 
-//! The tetrahedra of a domain, Mesh = TetMesh. \throws InputError as TetMesh::assign()
+//! The tetrahedra of a domain mesh, Mesh = TetMesh. \throws InputError as TetMesh::assign()
 template <class Mesh = TetMesh>
 TetMesh to_mesh(const DomainMesh<3>& domain) {
   static_assert(std::is_same_v<Mesh, TetMesh>, "a mesh of surfaces holds no tetrahedra");
   return TetMesh::from(domain);
 }
 
-//! The domain of a triangle mesh in a plane: its vertices and faces, turned anticlockwise.
+//! The domain mesh of a triangle mesh in a plane: its vertices and faces, oriented
+//! counterclockwise.
 //! \throws InputError as make_domain()
 template <class Traits>
 DomainMesh<2> to_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
   return make_domain(mesh).mesh;
 }
 
-//! The domain of a tetrahedral mesh. \throws InputError as make_domain()
+//! The domain mesh of a tetrahedral mesh. \throws InputError as make_domain()
 inline DomainMesh<3> to_domain(const TetMesh& mesh) {
   DomainMesh<3> domain = mesh.domain();
   normalize_and_validate(domain);
@@ -228,7 +230,7 @@ inline DomainMesh<3> to_domain(const TetMesh& mesh) {
 
 namespace internal {
 
-//! edge_list() for vertices at other places.
+//! edge_list() for vertices at other positions.
 template <int Dim, class Mesh>
 EdgeList edge_list_at(const Mesh& mesh, const PointList<Dim>& points) {
   if constexpr (std::is_same_v<Mesh, TetMesh>) {

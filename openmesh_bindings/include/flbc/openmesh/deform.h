@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Moving a mesh with its cage by the weights that its vertices have.
+//! Moves a mesh with its cage by the weights of its vertices.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace flbc::openmesh {
 
-//! How deform() works.
+//! Options of deform().
 struct DeformOptions {
-  //! The property of weights, in either form.
+  //! Name of the property of weights, in either form.
   std::string weights = kWeights;
 
-  //! Update the normals that the mesh has of its vertices, halfedges and faces.
+  //! Whether to update the vertex, halfedge, and face normals that the mesh has.
   bool normals = false;
 
-  //! Maximum number of threads; 0: as many as OpenMP offers. Below four million weights, which are
-  //! half a million vertices with 8 influences, one thread does the work, because that is faster.
+  //! Maximum number of threads; 0: as many as OpenMP offers. Below four million weights (half a
+  //! million vertices with 8 influences) one thread is used, because that is faster.
   int threads = 0;
 };
 
@@ -46,8 +46,8 @@ auto view_points(Mesh& mesh) {
   return PointsView<Scalar>{data, sizeof(Point) / sizeof(Scalar)};
 }
 
-//! Moves a point per element of `weights` to where control points (Dim x n) take it.
-//! \param offsets  Dim numbers per point to be added, every offset_stride of them; may be null
+//! Deforms one point per element of `weights` with the control points (Dim x n).
+//! \param offsets  Dim values per point to add, at distances of offset_stride; may be null
 //! \throws InputError if the numbers of control points differ
 template <class Block, class Scalar, int Dim>
 void move_points(const Block& weights, const PointList<Dim>& control_points,
@@ -57,7 +57,7 @@ template <class Mesh>
 void update_normals(Mesh& mesh) {
   if constexpr (!std::is_same_v<Mesh, TetMesh> && kPointSize<Mesh> == 3) {
     const bool has_face_normals = mesh.has_face_normals();
-    // OpenMesh makes all others of them.
+    // OpenMesh computes all other normals from them.
     if (!has_face_normals) mesh.request_face_normals();
     mesh.update_normals();
     if (!has_face_normals) mesh.release_face_normals();
@@ -66,12 +66,11 @@ void update_normals(Mesh& mesh) {
 
 }  // namespace internal
 
-//! Moves the mesh's points to where the control points take them, x = sum_i w_i c_i, plus the
-//! offset of those that bind() found outside. Where points were before has no effect. A third
-//! coordinate of a mesh in a plane stays.
+//! Moves mesh points to x = sum_i w_i c_i, plus the offset for points outside the cage at bind().
+//! The current positions have no effect. The third coordinate of a planar mesh is unchanged.
 //! \param control_points  Dim x n
-//! \throws InputError if the mesh has no weights of this name, or for another number of control
-//! points
+//! \throws InputError if the mesh has no weights of this name, or the number of control points
+//! differs
 template <class Mesh, int Dim>
 void deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
   static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");
@@ -89,14 +88,14 @@ void deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOption
   if (options.normals) internal::update_normals(mesh);
 }
 
-//! The same for a cage in its pose.
+//! The same for a posed cage.
 template <class Mesh, int Dim>
 void deform(Mesh& mesh, const Cage<Dim>& pose, const DeformOptions& options = {}) {
   deform(mesh, pose.points, options);
 }
 
-//! The same for a cage that is a mesh: a surface whose vertices are the control points or, if its
-//! points have two coordinates, one whose outline is the cage.
+//! The same for a cage given as a mesh: a surface whose vertices are the control points, or a
+//! planar mesh whose boundary is the cage (points with two coordinates).
 template <class Mesh, class CageMesh>
 void deform(Mesh& mesh, const CageMesh& pose, const DeformOptions& options = {}) {
   if constexpr (kPointSize<CageMesh> == 2) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The domain of a solve from a mesh of OpenMesh, or a TetMesh. Vertices, cells, and facets keep
-//! the numbers of their handles.
+//! Makes the domain mesh of a solve from an OpenMesh mesh or a TetMesh. Vertices, cells, and facets
+//! keep the indices of their handles.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@
 
 namespace flbc::openmesh {
 
-//! A mesh of the interior with its facets.
+//! A domain mesh with its facets.
 template <int Dim>
 struct Domain {
-  DomainMesh<Dim> mesh;        //!< cells turned to positive orientation
-  MeshTopology<Dim> topology;  //!< facets numbered as the mesh's edges (2D) or faces (3D)
+  DomainMesh<Dim> mesh;        //!< cells have positive orientation
+  MeshTopology<Dim> topology;  //!< facets numbered as mesh edges (2D) or faces (3D)
 };
 
 namespace internal {
@@ -49,7 +49,7 @@ void refuse_deleted_elements(const Mesh& mesh) {
   }
 }
 
-//! The points, of which the third coordinate, if there is one, has to be constant.
+//! The points; a third coordinate must be constant.
 template <class Mesh>
 PointList<2> plane_points(const Mesh& mesh) {
   using Point = typename Mesh::Point;
@@ -78,10 +78,10 @@ PointList<2> plane_points(const Mesh& mesh) {
 
 }  // namespace internal
 
-//! Walks the halfedges of a triangle mesh in the plane (points with two coordinates, or with three
-//! of which the last is constant).
+//! Makes the domain of a triangle mesh in the plane. Points have two coordinates, or three of which
+//! the last is constant.
 //! \throws InputError naming the element if the mesh has deleted elements, vertices without faces,
-//! faces without area, or is no connected domain
+//! or faces without area, or is not a connected domain
 template <class Traits>
 Domain<2> make_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
   internal::refuse_deleted_elements(mesh);
@@ -100,7 +100,7 @@ Domain<2> make_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
   for (const auto edge : mesh.edges()) {
     const auto first = mesh.halfedge_handle(edge, 0);
     const auto second = mesh.halfedge_handle(edge, 1);
-    // A boundary edge has its one face on the first side.
+    // The face of a boundary edge is on the first side.
     const bool swapped = mesh.is_boundary(first);
     const auto inner = swapped ? second : first;
     const auto outer = swapped ? first : second;
@@ -126,8 +126,8 @@ Domain<2> make_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
 //! The faces of a tetrahedral mesh.
 Domain<3> make_domain(const TetMesh& mesh);
 
-//! The domain of a mesh, whose boundary vertices are moved onto the cage if they are within 1e-6 of
-//! its size: text formats and default points of OpenMesh have single precision.
+//! The domain of a mesh. Boundary vertices within 1e-6 of cage size are moved onto the cage,
+//! because text formats and default OpenMesh points have single precision.
 //! \throws InputError as make_domain()
 template <class Mesh, int Dim>
 Domain<Dim> snapped_domain(const Mesh& mesh, const Cage<Dim>& cage) {

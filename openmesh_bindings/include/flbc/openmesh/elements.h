@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Cells and facets of a mesh in the same words for triangle meshes and tetrahedral meshes.
+//! A common interface to cells and facets of triangle meshes and tetrahedral meshes.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr int kDimension = 2;
 template <>
 inline constexpr int kDimension<TetMesh> = 3;
 
-//! Meshes of OpenMesh: cells are faces, facets are edges.
+//! OpenMesh meshes: cells are faces, facets are edges.
 template <class Mesh>
 struct Elements {
   using Cell = OpenMesh::FaceHandle;

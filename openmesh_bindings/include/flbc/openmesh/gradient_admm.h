@@ -38,15 +38,15 @@ struct GradientAdmmOptions {
 //!     G-step   g = mean of x + u, y + u, z + u, projected on (8)  cells (11)
 //!
 //! Each step updates its dual lambda relative to the extrapolated gradient e = 2 g - (g before)
-//! (docs/method.md, section 7). Then the dual is a tangential vector per facet or a vector of
-//! length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be stored. The
-//! gradients are those of the paper, iterate by iterate; tests/support/textbook_admm.h is the
-//! version with all copies. If the boundary has several components, each one after the first adds a
-//! period constraint (section 8).
+//! (docs/explanation/method/gradient_admm.md). Then the dual is a tangential vector per facet or a
+//! vector of length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be
+//! stored. The gradients are those of the paper, iterate by iterate;
+//! tests/support/textbook_admm.h is the version with all copies. If the boundary has several
+//! components, each one after the first adds a period constraint.
 //!
-//! The state is in the properties named below, in the units of the mesh. A new object on a mesh
-//! that has them resumes. A state for another cage with as many control points, or another penalty,
-//! is a valid start: the iteration converges from any. The elements of the mesh must not change
+//! The state is stored in the properties named below, in the units of the mesh. A new object on a
+//! mesh with these properties resumes. The iteration converges from any state, also one for another
+//! penalty or another cage with the same number of control points. Mesh elements must not change
 //! meanwhile.
 //! \tparam Mesh  a TriMesh of OpenMesh in the plane, or a TetMesh
 template <class Mesh>
@@ -115,12 +115,13 @@ class GradientAdmm {
     if (!std::isfinite(change.dual + change.gradient)) {
       throw SolverError("GradientAdmm: the state on the mesh is not finite; call restart()");
     }
-    // The duals here lead those of the paper by a part that the G-step removes (method.md, 7).
+    // The duals here lead those of the paper by a part that the G-step removes
+    // (docs/explanation/method/gradient_admm.md).
     const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
     return {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
   }
 
-  //! Writes the weights whose gradients are nearest to the present ones as a property.
+  //! Writes the weights whose gradients are nearest to the current ones as a property.
   void recover_weights() {
     const CellFieldView<double, kDim> gradients{gradient_->data(), static_cast<std::size_t>(n_),
                                                 n_};
@@ -240,7 +241,7 @@ class GradientAdmm {
   }
 
   // The sum of what `step` returns for all elements of a range of the mesh, in parallel. Each
-  // thread lends it two matrices to work with.
+  // thread passes two work matrices to it.
   template <class Range, class Step>
   Change for_all(const Range& range, const Step& step) const {
     Change sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What is constant during the iteration of GradientAdmm, in the units of the mesh.
+//! Constants of the GradientAdmm iteration, in the units of the mesh.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,9 @@ namespace flbc::openmesh {
 template <int Dim>
 using VectorRows = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::RowMajor>;
 
-//! If the boundary has several components, (8)-(10) leave one constant per control point and
-//! further component open (docs/method.md, section 8). One condition each fixes it:
-//! sum_s field_s . g_i(s) = values_i.
+//! If the boundary has several components, (8)-(10) do not determine one constant per control point
+//! and additional component (docs/explanation/method/gradient_admm.md). One condition fixes each
+//! constant: sum_s field_s . g_i(s) = values_i.
 template <int Dim>
 struct PeriodConstraint {
   PointList<Dim> field;       //!< Dim x F, with norm 1
@@ -29,7 +29,7 @@ struct GradientProblem {
   LbcProblem<Dim> base;                //!< not scaled
   Eigen::MatrixXd radius;              //!< n x F, phi A
   std::vector<VectorRows<Dim>> slope;  //!< per facet, empty inside: tangential gradients h of (9)
-  //! Per facet: onto its tangents.
+  //! Per facet: projector onto its tangents.
   std::vector<Eigen::Matrix<double, Dim, Dim>> projector;
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis;  //!< Q: orthonormal columns, span [1; c]
   Eigen::Matrix<double, Dim, Dim + 1> target;            //!< g Q for every g that satisfies (8)
@@ -37,8 +37,8 @@ struct GradientProblem {
   double penalty;  //!< mu that needs few iterations, length^(Dim + 1)
 };
 
-//! \param domain  its facets are those of the mesh
-//! \throws InputError if mesh and cage do not belong together; SolverError
+//! \param domain  with the facets of the mesh
+//! \throws InputError if the mesh does not match the cage; SolverError
 template <int Dim>
 GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
                                            DistanceScheme phi);

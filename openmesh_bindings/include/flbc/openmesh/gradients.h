@@ -42,11 +42,11 @@ void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const WeightMatrix
 
 }  // namespace internal
 
-//! Attaches the gradients of the weights of this name to the cells, as Wide<double>: Dim rows of n
-//! numbers, in 1 / units of the mesh where it is now. Their name is gradients_name(weights); they
-//! are removed when the weights are replaced.
+//! Attaches the gradients of the named weights to the cells, as Wide<double>: Dim rows of n values,
+//! in 1 / units of the current mesh. The property name is gradients_name(weights). Replacing the
+//! weights removes the gradients.
 //! \param mesh  a TriMesh in the plane, or a TetMesh \param persistent  whether .om files keep them
-//! \throws InputError if the mesh has no weights of this name, or make_domain() refuses it
+//! \throws InputError if the mesh has no weights of this name, or if make_domain() throws
 template <class Mesh>
 void set_gradients(Mesh& mesh, const std::string& weights = kWeights, bool persistent = false) {
   internal::set_gradients(mesh, make_domain(mesh).mesh, get_weights(mesh, weights),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The memory of a property of few weights per element.
+//! Storage of a property with few weights per element.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace flbc::openmesh {
 
-//! The weights of one element: as many pairs of a control point and its weight as the property has
-//! for every element. Pairs that are not used come last and have weight 0. A copy of the view
-//! refers to the same numbers; assigning to it copies the numbers, as OpenMesh's copy_property()
-//! and copy_to() expect. Valid until the property changes its number of elements or its shape.
-//! \tparam Weight  double, const for numbers that may only be read
+//! A view of the weights of one element: pairs of a control point and its weight, the same number
+//! for every element. Unused pairs come last and have weight 0. A copy of the view refers to the
+//! same values. Assigning to it copies the values, as copy_property() and copy_to() of OpenMesh
+//! expect. Valid until the property changes its number of elements or its shape.
+//! \tparam Weight  double, or const double for read-only views
 template <class Weight>
 class InfluencesView {
  public:
@@ -30,7 +30,7 @@ class InfluencesView {
       : control_points_(control_points), weights_(weights), size_(size) {}
   InfluencesView(const InfluencesView& view) = default;
 
-  //! A view for writing converts to one for reading.
+  //! A writable view converts to a read-only view.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Weight>>>
   InfluencesView(const InfluencesView<Other>& view)
       : InfluencesView(view.control_points(), view.weights(), view.size()) {}
@@ -55,7 +55,7 @@ class InfluencesView {
         std::count_if(weights_, weights_ + size_, [](double weight) { return weight != 0; }));
   }
 
-  //! The control point of pair j < size(), ascending among those that are used.
+  //! The control point of pair j < size(); used pairs are ascending.
   ControlPoint& control_point(std::size_t j) const {
     assert(j < size_);
     return control_points_[j];
@@ -86,8 +86,8 @@ class InfluencesView {
   std::size_t size_;
 };
 
-//! Like a std::vector whose elements are `most` pairs each: those of element e are numbers
-//! e * most() and following of control_points() and weights(). New pairs are 0.
+//! Like a std::vector whose elements are `most` pairs each. The pairs of element e start at index e
+//! * most() of control_points() and weights(). New pairs are 0.
 class InfluenceBlock {
  public:
   InfluenceBlock() : InfluenceBlock(0, 0) {}

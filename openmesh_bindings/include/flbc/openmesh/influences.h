@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A property of OpenMesh meshes whose elements are a few control points with their weights: the
-//! form of sparse weights on a mesh.
+//! A property of OpenMesh meshes for sparse weights: a few control points with their weights per
+//! element.
 //!
 //!     OpenMesh::VProp<flbc::openmesh::Influences> weights(mesh, "flbc:weights");
 //!     for (std::size_t j = 0; j < weights[vertex].count(); ++j)
@@ -17,7 +17,7 @@
 
 namespace flbc::openmesh {
 
-//! Value type of a property of few weights per element, seen as InfluencesView.
+//! Value type of a property with few weights per element, accessed as InfluencesView.
 struct Influences {};
 
 template <>
@@ -29,12 +29,12 @@ struct BlockOf<Influences> {
 //! Bytes that store_block() writes.
 std::size_t stored_size(const InfluenceBlock& block);
 
-//! Writes a block as .om files hold it. \return bytes written, 0 if the stream fails
-//! \throws IoError if the block is larger than .om files allow, 4 GiB - 1
+//! Writes a block in the format of .om files. \return bytes written, 0 if the stream fails
+//! \throws IoError if the block exceeds the limit of .om files, 4 GiB - 1
 std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
                         const InfluenceBlock& block);
 
-//! Reads what store_block() wrote; leaves `block` as it is if that fails. \return bytes read
+//! Reads the output of store_block(); `block` is unchanged on failure. \return bytes read
 //! \throws InputError if this is not a block for block.size() elements, or is damaged
 std::size_t restore_block(std::istream& in, bool swap, const std::string& name,
                           InfluenceBlock& block);
@@ -58,14 +58,14 @@ struct BasePropHandleT<flbc::openmesh::Influences>
   explicit BasePropHandleT(int index = -1) : BaseHandle(index) {}
 };
 
-//! Every element has the same number of pairs, at first 0: call set_shape().
+//! Every element has the same number of pairs, initially 0; set_shape() changes it.
 template <>
 class PropertyT<flbc::openmesh::Influences>
     : public flbc::openmesh::BlockProperty<flbc::openmesh::Influences> {
  public:
   using BlockProperty::BlockProperty;
 
-  //! Gives all elements another number of pairs and sets them to 0.
+  //! Changes the number of pairs of all elements and sets them to 0.
   //! \param num_control_points  n \param most  pairs per element
   void set_shape(std::size_t num_control_points, std::size_t most) {
     set_block_shape(num_control_points, most);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Local barycentric coordinates on a mesh of OpenMesh, or a TetMesh, as properties of the mesh.
+//! Local barycentric coordinates on an OpenMesh mesh or a TetMesh, as mesh properties.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ namespace flbc::openmesh {
 //! The properties that solve() writes.
 struct PropertyOptions {
   std::string weights = kWeights;  //!< name of the weights, a row of n doubles per vertex
-  bool gradients = false;          //!< write their gradients on the cells, too (gradients.h)
-  bool persistent = false;         //!< whether .om files keep both
+  bool gradients = false;          //!< also write their gradients on the cells (gradients.h)
+  bool persistent = false;         //!< whether .om files store both
 };
 
 //! solve() on a mesh of a valid type.
@@ -40,15 +40,14 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& opt
   return std::move(solution.report);
 }
 
-//! Solves on a mesh of the interior of the cage, a triangle mesh in the plane or a TetMesh, and
-//! writes the weights as properties; the mesh itself does not change. The solve runs on arrays; for
-//! an iteration on the mesh itself see gradient_admm.h. Boundary vertices within 1e-6 of the cage
-//! size count as on the cage.
+//! Solves on a domain mesh, a triangle mesh in the plane or a TetMesh, and writes the weights as
+//! properties. The mesh itself does not change. The solve runs on arrays; gradient_admm.h iterates
+//! on the mesh itself. Boundary vertices within 1e-6 of the cage size count as on the cage.
 //! \param mesher  makes coarser meshes for a multilevel start where that pays
 //! (flbc/coarse_to_fine.h); {} for no such start. By default, the mesher of the component that the
 //! program links in addition to flbc::openmesh: flbc::cgal in the plane, flbc::tetgen in space
-//! \throws InputError naming the element if mesh and cage do not belong together or the mesh has
-//! deleted elements; OptionError, SolverError. The properties are then as they were
+//! \throws InputError naming the element if the mesh does not match the cage or has deleted
+//! elements; OptionError, SolverError. The properties are then unchanged
 template <class Mesh, int Dim>
 SolveReport solve(
     Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},

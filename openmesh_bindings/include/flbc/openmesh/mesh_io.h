@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Reading surface meshes through OpenMesh without the losses of a half-edge mesh on the way.
+//! Reads surface meshes with OpenMesh, without the restrictions of a half-edge mesh.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace flbc::openmesh {
 
-//! Reads .ply and .om (by io::ModelFile, exactly, because OpenMesh's readers crash on damaged
-//! files) and any other format OpenMesh reads. Polygons stay polygons, and faces that no half-edge
-//! mesh could hold (non-manifold edges) are kept, so that a cage's defects can be named instead of
-//! vanishing. OpenMesh's readers keep single precision only; read .obj and .off exactly with
-//! io::read_polygons. Corners of .stl files are merged where they coincide.
-//! \throws IoError if the file cannot be opened, InputError if it makes no sense
+//! Reads all formats of OpenMesh. Polygons are not triangulated. Faces that a half-edge mesh cannot
+//! represent (non-manifold edges) are kept, so defects of a cage can be reported. io::ModelFile
+//! reads .ply and .om exactly, because the OpenMesh readers crash on damaged files. Other formats
+//! have single precision; use io::read_polygons() to read .obj and .off exactly. Coincident corners
+//! of .stl files are merged.
+//! \throws IoError if the file cannot be opened; InputError if it is malformed
 io::PolygonSoup read_polygons(const std::string& path);
 
 }  // namespace flbc::openmesh

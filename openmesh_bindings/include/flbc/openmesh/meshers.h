@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The meshers of the components that a program links.
+//! The meshers of the linked components.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace flbc::openmesh {
 
-//! Makes the mesh of a cage's interior, as triangulate() and tetrahedralize() do.
+//! Makes a domain mesh, such as triangulate() or tetrahedralize().
 template <int Dim>
 using Mesher = std::function<DomainMesh<Dim>(const Cage<Dim>&, const MeshingOptions<Dim>&)>;
 
@@ -34,12 +34,14 @@ constexpr bool kLinksTetgen = false;
 template <int Dim>
 constexpr bool kLinksMesher = Dim == 2 ? kLinksCgal : kLinksTetgen;
 
-//! Coarser meshes by a mesher, about as fine as asked and within a minute; none without a mesher.
+//! Makes coarse meshes with a mesher, with about the requested number of vertices and a time limit
+//! of one minute. Empty if the mesher is empty.
 template <int Dim>
 CoarseMesher<Dim> coarse_mesher(Mesher<Dim> mesher);
 
-//! The mesher that the program links; empty if it links none.
-//! \tparam kLinked  whether it does: parts of a program that differ in it get functions of their own
+//! The linked mesher; empty if no component is linked.
+//! \tparam kLinked  whether a mesher is linked; distinguishes parts of a program with different
+//! components
 template <int Dim, bool kLinked = kLinksMesher<Dim>>
 Mesher<Dim> linked_mesher() {
 #ifdef FLBC_LINKS_CGAL

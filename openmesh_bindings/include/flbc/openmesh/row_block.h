@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The memory of a wide property: rows of numbers for all elements, in one block.
+//! Storage of a wide property: rows of values for all elements, in one block.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,10 @@
 
 namespace flbc::openmesh {
 
-//! `components` rows of `width` numbers, one after the other: a reference to the numbers of one
-//! element, as those of std::vector<bool> are. A copy of the view refers to the same numbers.
-//! Assigning to it copies the numbers, as copy_property() and copy_to() of OpenMesh expect. Valid
-//! until the property changes its number of elements or its shape.
-//! \tparam Scalar  the numbers, const for numbers that may only be read
+//! A view of the values of one element: `components` rows of `width` values. A copy of the view
+//! refers to the same values. Assigning to it copies the values, as copy_property() and copy_to()
+//! of OpenMesh expect. Valid until the property changes its number of elements or its shape.
+//! \tparam Scalar  type of the values, const for read-only views
 template <class Scalar>
 class RowsView {
  public:
@@ -30,7 +29,7 @@ class RowsView {
       : data_(data), components_(components), width_(width) {}
   RowsView(const RowsView& rows) = default;
 
-  //! A view for writing converts to one for reading.
+  //! A writable view converts to a read-only view.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Scalar>>>
   RowsView(const RowsView<Other>& rows) : RowsView(rows.data(), rows.components(), rows.width()) {}
 
@@ -50,16 +49,16 @@ class RowsView {
   Scalar* data() const { return data_; }
   Scalar* row(std::size_t component) const { return data_ + component * width_; }
 
-  //! Number i < width() of a component.
+  //! Value i < width() of a component.
   Scalar& operator()(std::size_t component, std::size_t i) const {
     assert(component < components_ && i < width_);
     return row(component)[i];
   }
 
-  //! Number i of the first component.
+  //! Value i of the first component.
   Scalar& operator[](std::size_t i) const { return (*this)(0, i); }
 
-  //! The numbers as a matrix of Eigen, components x width.
+  //! The values as an Eigen matrix, components x width.
   auto matrix() const {
     using Matrix =
         Eigen::Matrix<std::remove_const_t<Scalar>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -83,8 +82,8 @@ class RowsView {
   std::size_t components_, width_;
 };
 
-//! Like a std::vector whose elements are `components` rows of `width` numbers each: number i of
-//! component c of element e is at data()[(e * components() + c) * width() + i]. New numbers are 0.
+//! Like a std::vector whose elements are `components` rows of `width` values each. Value i of
+//! component c of element e is at data()[(e * components() + c) * width() + i]. New values are 0.
 template <class Scalar>
 class RowBlock {
  public:
@@ -116,7 +115,7 @@ class RowBlock {
   //! Keeps the shape, frees the memory.
   void clear() { *this = RowBlock(components_, width_); }
 
-  //! Takes the numbers of all elements. \param numbers  element_size() per element
+  //! Takes the values of all elements. \param numbers  element_size() per element
   void assign(std::size_t elements, std::vector<Scalar> numbers) {
     assert(numbers.size() == numbers_of(elements));
     numbers_ = std::move(numbers);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! OpenMesh without its messages.
+//! Suppresses messages of OpenMesh.
 #pragma once
 
 #include <OpenMesh/Core/System/omstream.hh>
 
 namespace flbc::openmesh {
 
-//! OpenMesh explains its refusals, and tells how many bytes it wrote, on streams of its own that
-//! lead to standard error; the library must not print. They are silent while this lives.
+//! Disables the message streams of OpenMesh during its lifetime. OpenMesh prints errors and byte
+//! counts to standard error, and the library must not print.
 class SilencedOpenMesh {
  public:
   SilencedOpenMesh() : errors_(omerr().is_enabled()), log_(omlog().is_enabled()) {
@@ -23,7 +23,7 @@ class SilencedOpenMesh {
   SilencedOpenMesh& operator=(const SilencedOpenMesh&) = delete;
 
  private:
-  bool errors_, log_;  // whether they spoke before
+  bool errors_, log_;  // whether they were enabled before
 };
 
 }  // namespace flbc::openmesh

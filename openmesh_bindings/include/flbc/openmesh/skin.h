@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A mesh with its weights as a skin for engines and viewers, in which every control point is a
+//! Exports a mesh with its weights as a skin for engines and viewers. Every control point is a
 //! joint.
 #pragma once
 
@@ -17,11 +17,11 @@
 
 namespace flbc::openmesh {
 
-//! How write_skin() works.
+//! Options of write_skin().
 struct SkinOptions {
-  std::string weights = kWeights;  //!< the property, in either form
-  Index max_influences = 8;        //!< per vertex in the file, 8 or 4, which every reader knows
-  double frames_per_second = 24;   //!< of the poses, if there are any
+  std::string weights = kWeights;  //!< name of the property, in either form
+  Index max_influences = 8;        //!< per vertex, 8 or 4; every reader supports 4
+  double frames_per_second = 24;   //!< of the poses, if any
 };
 
 namespace internal {
@@ -31,14 +31,14 @@ template <int Dim>
 struct SkinInput {
   PointList<Dim> cage;
   WeightMatrix weights;
-  io::Model model;  //!< without points: these are where the weights place them
+  io::Model model;  //!< without points, which follow from the weights
 };
 
 template <int Dim>
 void write_skin_file(const std::string& path, SkinInput<Dim> input,
                      const std::vector<PointList<Dim>>& poses, const SkinOptions& options);
 
-//! Faces, and what OpenMesh's standard properties say of vertices.
+//! Faces, and vertex attributes from the standard properties of OpenMesh.
 template <class Mesh>
 io::Model faces_and_attributes(const Mesh& mesh) {
   io::Model model;
@@ -69,15 +69,16 @@ io::Model faces_and_attributes(const Mesh& mesh) {
 
 }  // namespace internal
 
-//! Writes the mesh at rest as a glTF 2.0 skin (.glb) or for USD (.usda), as flbc export does: its
-//! joints are the control points, which only translate, so that programs move it as deform() does.
-//! Where the vertices are now does not matter. Colours and texture coordinates of vertices are
-//! written if the mesh has them; normals are those at rest. Vertices that bind() found outside the
-//! cage stand where their weights place them, on it.
-//! \param mesh  with weights and the cage that bind() or solve() left with them (set_rest_cage())
-//! \param poses  an animation: the control points, Dim x n each; may be empty
-//! \throws InputError if the mesh has no weights or faces, if the cage is missing or of another
-//! dimension, for another number of control points, or for another extension; OptionError; IoError
+//! Writes the rest mesh as a glTF 2.0 skin (.glb) or a USD skin (.usda), like `flbc export`. The
+//! joints are the control points and only translate, so other programs deform the mesh as deform()
+//! does. The current vertex positions have no effect. Vertex colors and texture coordinates are
+//! written if the mesh has them; normals are those of the rest mesh. Vertices that were outside the
+//! cage at bind() are moved onto it.
+//! \param mesh  with weights and the rest cage from bind() or solve() (set_rest_cage())
+//! \param poses  an animation: control points, Dim x n each; may be empty
+//! \throws InputError if the mesh has no weights or faces, the rest cage is missing or has another
+//! dimension, the number of control points differs, or the extension is unknown; OptionError;
+//! IoError
 template <int Dim, class Mesh>
 void write_skin(const std::string& path, const Mesh& mesh, const std::vector<PointList<Dim>>& poses,
                 const SkinOptions& options = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Few influences per vertex, on the mesh itself.
+//! Reduces influences per vertex on a mesh.
 #pragma once
 
 #include <algorithm>
@@ -17,22 +17,22 @@ namespace flbc::openmesh {
 
 //! How influences are reduced.
 enum class Reduction {
-  kPoisson,   //!< neighbours agree, so that no seams appear (flbc/sparsify.h)
-  kQuadratic  //!< every vertex for itself, faster (flbc/sparsify.h)
+  kPoisson,   //!< jointly for all vertices, without seams: reduce_by_poisson()
+  kQuadratic  //!< each vertex independently, faster: flbc::sparsify()
 };
 
-//! How sparsify() works and what it leaves on the mesh.
+//! Options of sparsify().
 struct ReductionOptions {
   Reduction reduction = Reduction::kPoisson;  //!< meshes without edges are reduced quadratically
   double threshold = 0;                       //!< as SparsifyOptions::threshold, in [0, 1)
   std::string weights = kWeights;             //!< the property to reduce
-  std::string into{};       //!< the property that is made; empty: it replaces `weights`
-  bool persistent = false;  //!< whether .om files keep it
+  std::string into{};       //!< name of the new property; empty: replace `weights`
+  bool persistent = false;  //!< whether .om files store it
 };
 
 namespace internal {
 
-//! \param most  influences per point
+//! \param most  maximum influences per point
 template <int Dim>
 SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
                      const EdgeList& edges, const SparseWeights& weights, Index most,
@@ -42,18 +42,19 @@ void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
 
 }  // namespace internal
 
-//! Leaves at most `most` influences per vertex, as a property of type Influences: w >= 0, sum w =
-//! 1, and every vertex rests where it did. \param cage  at rest, the one the weights belong to
-//! \return of the weights that are left
-//! \throws OptionError for fewer than Dim + 1 influences, InputError if the mesh has no weights of
-//! this name or they belong to another cage
+//! Reduces the weights to at most `most` influences per vertex, as a property of type Influences.
+//! Weights are non-negative, sum to 1, and keep the rest positions. \param cage  rest cage of the
+//! weights
+//! \return quality of the new weights
+//! \throws OptionError for fewer than Dim + 1 influences; InputError if the mesh has no weights of
+//! this name, or weights for another cage
 template <class Mesh, int Dim>
 Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
                  const ReductionOptions& options = {}) {
   const auto weights = get_weights(mesh, options.weights);
   internal::require_control_points(static_cast<std::size_t>(weights.rows()), cage.cols());
   const PointList<Dim> rest = cage * weights;
-  // Their lengths are those at rest, wherever the mesh is now.
+  // Edge lengths are those of the rest mesh.
   const auto edges = internal::edge_list_at<Dim>(mesh, rest);
   const auto reduced = internal::reduce(cage, rest, edges, SparseWeights(weights), most,
                                         options.reduction, options.threshold);
@@ -66,8 +67,8 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
   return measure_quality<Dim>(cage, rest, reduced);
 }
 
-//! The same with the cage that solve() or bind() left with the weights.
-//! \throws InputError also if there is none
+//! The same with the rest cage stored by solve() or bind().
+//! \throws InputError also if there is no rest cage
 template <class Mesh>
 Quality sparsify(Mesh& mesh, Index most, const ReductionOptions& options = {}) {
   const auto cage = get_rest_cage(mesh, options.weights);

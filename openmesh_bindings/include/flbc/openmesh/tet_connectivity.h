@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which vertices, edges, faces, and cells of a tetrahedral mesh meet.
+//! Connectivity of a tetrahedral mesh: vertices, edges, faces, and cells.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ class TetConnectivity {
   ElementRange<FaceHandle> faces() const { return ElementRange<FaceHandle>(n_faces()); }
   ElementRange<CellHandle> cells() const { return ElementRange<CellHandle>(n_cells()); }
 
-  //! The 4 vertices in the order in which they were given.
+  //! The 4 vertices in their given order.
   HandleRange<VertexHandle> cv_range(CellHandle cell) const { return {&cells_(0, cell.idx()), 4}; }
 
   //! The 4 faces; the k-th is opposite the k-th vertex.
@@ -47,8 +47,8 @@ class TetConnectivity {
     return {&topology_.cell_facets(0, cell.idx()), 4};
   }
 
-  //! The 3 vertices, counterclockwise as seen from outside the first cell; so the boundary faces
-  //! look outward.
+  //! The 3 vertices, counterclockwise as seen from outside the first cell. Boundary faces therefore
+  //! have outward orientation.
   HandleRange<VertexHandle> fv_range(FaceHandle face) const {
     return {&topology_.facets(0, face.idx()), 3};
   }
@@ -84,7 +84,7 @@ class TetConnectivity {
   EdgeHandle find_edge(VertexHandle a, VertexHandle b) const;
 
  private:
-  //! The neighbors of one kind of all vertices: those of v are items[starts[v]] and following.
+  //! The neighbors of one kind of all vertices; those of v start at items[starts[v]].
   template <class Handle>
   struct Neighbors {
     HandleRange<Handle> at(VertexHandle vertex) const {
@@ -95,7 +95,7 @@ class TetConnectivity {
   };
 
   CellList<3> cells_;
-  MeshTopology<3> topology_;  // facets turned outward from their first cell
+  MeshTopology<3> topology_;  // facets oriented outward from their first cell
   Eigen::Matrix<Index, 2, Eigen::Dynamic> edges_;
   Neighbors<CellHandle> vertex_cells_;
   Neighbors<EdgeHandle> vertex_edges_;

@@ -10,12 +10,12 @@
 
 namespace flbc::openmesh {
 
-//! A tetrahedron. Like OpenMesh's handles it is invalid unless it was given an index.
+//! Handle of a tetrahedron. Like OpenMesh handles, it is invalid unless it has an index.
 struct CellHandle : OpenMesh::BaseHandle {
   explicit CellHandle(int index = -1) : OpenMesh::BaseHandle(index) {}
 };
 
-//! A property of the cells.
+//! Handle of a property of the cells.
 template <class T>
 struct CPropHandleT : OpenMesh::BasePropHandleT<T> {
   using Value = T;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A tetrahedral mesh in the manner of OpenMesh: handles, ranges, circulators, properties.
+//! A tetrahedral mesh with the interface of OpenMesh: handles, ranges, circulators, properties.
 #pragma once
 
 #include <array>
@@ -32,13 +32,13 @@ class TetMesh : public TetConnectivity {
   //! A mesh with these vertices and cells. \throws InputError as assign() does
   static TetMesh from(const DomainMesh<3>& mesh);
 
-  //! Replaces points and cells. Cells with negative volume are turned (their last two vertices
-  //! change places). Properties stay and are resized: elements keep the values of their numbers,
-  //! and new elements have default values.
-  //! \throws InputError naming the element, and changes nothing, if normalize_and_validate() does
+  //! Replaces points and cells. Cells with negative volume are reversed by swapping their last two
+  //! vertices. Properties are kept and resized: values stay with their indices, and new elements
+  //! have default values.
+  //! \throws InputError naming the element if normalize_and_validate() throws; then nothing changes
   void assign(const DomainMesh<3>& mesh);
 
-  //! The same for a mesh that normalize_and_validate() has accepted; makes only the connectivity.
+  //! The same for a mesh that passed normalize_and_validate(); only builds the connectivity.
   void assign_valid(const DomainMesh<3>& mesh);
 
   //! The points and cells in their order.
@@ -63,7 +63,8 @@ class TetMesh : public TetConnectivity {
     container<Handle>().resize(n_elements<Handle>());
   }
 
-  //! Removes a property with its data. \param handle  becomes invalid; an invalid one does nothing
+  //! Removes a property with its data. \param handle  becomes invalid; an invalid handle has no
+  //! effect
   template <class PropHandle>
   void remove_property(PropHandle& handle) {
     if (handle.is_valid()) container<typename PropHandle::Handle>().remove(handle);
@@ -79,7 +80,7 @@ class TetMesh : public TetConnectivity {
     return handle.is_valid();
   }
 
-  //! The property itself; for a property of the mesh, its one value.
+  //! The property itself; for a property of the mesh, its single value.
   template <class PropHandle>
   decltype(auto) property(PropHandle handle) {
     return access<PropHandle>(container<typename PropHandle::Handle>().property(handle));
@@ -99,7 +100,7 @@ class TetMesh : public TetConnectivity {
     return properties_[kind<OpenMesh::MeshHandle>()].property(handle);
   }
 
-  //! A property's value for an element.
+  //! The value of a property for an element.
   template <class PropHandle>
   typename OpenMesh::PropertyT<typename PropHandle::Value>::reference property(
       PropHandle handle, typename PropHandle::Handle element) {

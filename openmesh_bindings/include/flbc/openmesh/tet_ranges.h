@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The ranges of loops over a TetMesh. A range is valid until the mesh gets other elements.
+//! Ranges for loops over a TetMesh. A range is valid until the elements of the mesh change.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace flbc::openmesh {
 
 namespace internal {
 
-//! The types of a forward iterator over handles, which are made from numbers when they are read.
+//! Types of a forward iterator over handles, which are created from indices on access.
 template <class HandleType>
 struct HandleIterator {
   using iterator_category = std::forward_iterator_tag;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights as properties of a mesh's vertices. Under one name there is one property, in one of two
-//! forms: Wide<double>, a row of all n weights per vertex, or Influences, the few that are not 0.
+//! Weights as vertex properties. A name has one property, in one of two forms: Wide<double> with
+//! all n weights per vertex, or Influences with the nonzero weights.
 #pragma once
 
 #include <string>
@@ -54,15 +54,15 @@ void require_number_of_vertices(Eigen::Index in_weights, std::size_t in_mesh);
 void require_control_points(std::size_t in_weights, Eigen::Index in_cage);
 [[noreturn]] void refuse_without_weights(const std::string& name);
 
-//! n x V. The numbers behind a row's width are padding.
+//! The weights, n x V. Values beyond the width of a row are padding.
 WeightMatrix to_matrix(const RowBlock<double>& rows);
 WeightMatrix to_matrix(const InfluenceBlock& block);
 
-//! \param most  pairs per point; 0 = as many as the point with the most of them has
+//! \param most  pairs per point; 0 = the maximum over all points
 InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
 
-//! Finds a wide property or adds it, and gives it a shape. \return the property, and whether it was
-//! there with this shape; else its numbers are 0
+//! Finds or adds a wide property with a shape. \return the property, and whether it existed with
+//! this shape; otherwise its values are 0
 template <class Handle, class Mesh>
 std::pair<OpenMesh::PropertyT<Wide<double>>*, bool> attach_rows(Mesh& mesh, const std::string& name,
                                                                 std::size_t components,
@@ -87,7 +87,7 @@ std::string name_of_cage(const std::string& weights);
 std::string name_of_offset(const std::string& weights);
 std::string name_of_rest(const std::string& weights);
 
-//! Removes what was under this name, in the other form than T, and what belonged to it.
+//! Removes the property of this name in the form other than T, with its associated properties.
 template <class T, class Mesh>
 void make_way_for(Mesh& mesh, const std::string& name) {
   if constexpr (!std::is_same_v<T, Influences>) remove_property<Influences>(mesh, name);
@@ -97,8 +97,8 @@ void make_way_for(Mesh& mesh, const std::string& name) {
   if (mesh.get_property_handle(gradients, gradients_name(name))) mesh.remove_property(gradients);
 }
 
-//! Offsets of points outside the cage from their weights' place: a row of Dim numbers per
-//! vertex; of width 0 if there is none.
+//! Offsets of points outside the cage from the position that their weights reproduce: a row of Dim
+//! values per vertex, of width 0 if there are no such points.
 template <class Mesh>
 RowBlock<double> offsets_of(const Mesh& mesh, const std::string& weights) {
   const auto* property = find_property<Wide<double>>(mesh, name_of_offset(weights));
@@ -115,9 +115,9 @@ void set_offsets(Mesh& mesh, const RowBlock<double>& offsets, const std::string&
 
 }  // namespace internal
 
-//! Attaches weights to the vertices of any mesh, for example a model's, as Wide<double>.
-//! \param weights  n x V \param persistent  whether .om files keep them
-//! \throws InputError if their number is not that of the vertices
+//! Attaches weights to the vertices of any mesh, such as a model, as Wide<double>.
+//! \param weights  n x V \param persistent  whether .om files store them
+//! \throws InputError if their number is not the number of vertices
 template <class Mesh>
 void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& name = kWeights,
                  bool persistent = false) {
@@ -130,8 +130,9 @@ void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& nam
 }
 
 //! Attaches weights to the vertices of any mesh as Influences.
-//! \param most  pairs per vertex; 0 = as many as the vertex with the most weights has
-//! \throws InputError if their number is not that of the vertices, or a vertex has more than `most`
+//! \param most  pairs per vertex; 0 = the maximum over all vertices
+//! \throws InputError if their number is not the number of vertices, or a vertex has more than
+//! `most`
 template <class Mesh>
 void set_influences(Mesh& mesh, const SparseWeights& weights, std::size_t most = 0,
                     const std::string& name = kWeights, bool persistent = false) {
@@ -143,8 +144,8 @@ void set_influences(Mesh& mesh, const SparseWeights& weights, std::size_t most =
   if (persistent) property.set_persistent(true);
 }
 
-//! The property of weights in the form with all of them.
-//! \throws InputError if the mesh has none of this name
+//! The property of weights in the form Wide<double>.
+//! \throws InputError if the mesh has no weights of this name
 template <class Mesh>
 const OpenMesh::PropertyT<Wide<double>>& weights_property(const Mesh& mesh,
                                                           const std::string& name = kWeights) {
@@ -153,8 +154,8 @@ const OpenMesh::PropertyT<Wide<double>>& weights_property(const Mesh& mesh,
   return *rows;
 }
 
-//! The weights, whichever their form. \return n x V
-//! \throws InputError if the mesh has none of this name
+//! The weights, from either form. \return n x V
+//! \throws InputError if the mesh has no weights of this name
 template <class Mesh>
 WeightMatrix get_weights(const Mesh& mesh, const std::string& name = kWeights) {
   if (const auto* influences = internal::find_property<Influences>(mesh, name)) {
@@ -163,8 +164,8 @@ WeightMatrix get_weights(const Mesh& mesh, const std::string& name = kWeights) {
   return internal::to_matrix(weights_property(mesh, name).data_vector());
 }
 
-//! Keeps where the control points rest with the weights, as MProp<Wide<double>> of one element: a
-//! row of Dim numbers per control point.
+//! Stores the rest cage with the weights, as MProp<Wide<double>> with one element: a row of Dim
+//! values per control point.
 template <class Mesh, int Dim>
 void set_rest_cage(Mesh& mesh, const PointList<Dim>& control_points,
                    const std::string& weights = kWeights, bool persistent = false) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! From a file's points, polylines and polygons to a cage.
+//! Makes a cage from the points, polylines, and polygons of a file.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace flbc::io {
 
-//! A cage whose dimension the file decides.
+//! A cage whose dimension depends on the file.
 using AnyCage = std::variant<Cage<2>, Cage<3>>;
 
-//! Polygons make a 3D cage, polylines a 2D cage; points alone are one closed polyline in their
-//! order. Polygons in a plane z = const stand for the edges that bound them together, or for the
-//! polylines if there are any. Polygons with more than three vertices
-//! are cut into triangles, because the coordinates are linear on triangles: along the shorter
-//! diagonal if they are convex and have four, fanwise if they are convex, else ear by ear. The cage
-//! is not validated. \param name  of the file, for messages \throws InputError if a 2D cage is not
-//! in a plane z = const, or polygons that are not in a plane and polylines mix
+//! Makes a 3D cage from polygons, a 2D cage from polylines, or a 2D cage from points alone as one
+//! closed polyline. Polygons in a plane z = const are replaced by the polylines, or by their common
+//! boundary if there are no polylines. Polygons with more than three vertices are triangulated as
+//! by cut_polygon(), because the coordinates are linear on triangles. The cage is not validated.
+//! \param name  of the file, for messages
+//! \throws InputError if a 2D cage is not in a plane z = const, or if polylines occur together with
+//! polygons that are not in such a plane
 AnyCage to_cage(const PolygonSoup& soup, const std::string& name);
 
 //! The points of a model in Dim dimensions. \throws InputError naming the vertex if Dim is 2 and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Polygons in space as triangles.
+//! Triangulates polygons in space.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,16 @@
 
 namespace flbc::io {
 
-//! Cuts a polygon along the shorter diagonal if it is convex and has four corners, fanwise if it is
-//! convex, else ear by ear. Triangles go round as the polygon does.
-//! \param points  in which its vertices are \param polygon  at least 3 vertices
-//! \return 3 x (number of corners - 2), vertices
+//! Triangulates a polygon. A convex quadrilateral is cut along its shorter diagonal, another convex
+//! polygon into a fan, and any other by ear clipping. Triangles keep the orientation of the
+//! polygon.
+//! \param points  coordinates of all vertices \param polygon  at least 3 vertices
+//! \return 3 x (number of corners - 2), vertex indices
 FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon);
 
-//! The same for a polygon by itself.
-//! \param corners  where its corners are, at least 3
-//! \return 3 x (number of corners - 2), the numbers of corners
+//! The same for a polygon given by coordinates.
+//! \param corners  coordinates of its corners, at least 3
+//! \return 3 x (number of corners - 2), corner indices
 FacetList<3> cut_polygon(const std::vector<Vector<3>>& corners);
 
 }  // namespace flbc::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Reading whole files, and writing files that appear whole or not at all.
+//! Reads whole files, and writes files atomically.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace flbc::io {
 
-//! The whole content of a file, or of standard input for "-".
-//! \throws IoError with the system's reason
+//! Returns the content of a file, or of standard input for "-".
+//! \throws IoError with the system error
 std::string read_file(const std::string& path);
 
-//! Lets `write` fill a temporary file beside `path`, then renames it to `path`. If anything fails,
-//! an exception thrown by `write` included, no trace is left and an existing file stays as it was.
-//! "-" writes to standard output.
-//! \throws IoError with the system's reason
+//! Lets `write` fill a temporary file next to `path`, then renames it to `path`. If anything fails,
+//! including an exception from `write`, the temporary file is removed and an existing file is
+//! unchanged. "-" writes to standard output.
+//! \throws IoError with the system error
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
-//! The extension in lower case without the dot; empty if there is none.
+//! The extension in lowercase without the dot; empty if there is none.
 std::string extension_of(const std::string& path);
 
 }  // namespace flbc::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A file's format by its extension.
+//! File formats by extension.
 #pragma once
 
 #include <initializer_list>
@@ -8,25 +8,25 @@
 
 namespace flbc::io {
 
-//! Kinds of content of files.
+//! Kinds of file content.
 enum class Content {
   kModel,     //!< polygons and polylines: models and cages
   kMesh2D,    //!< triangles in the plane
   kMesh3D,    //!< tetrahedra
   kWeights,   //!< weight matrices
-  kTriplets,  //!< weights, a line each, without the size of their matrix
-  kColors,    //!< colours of a model's vertices
-  kFields     //!< scalars at a mesh's vertices
+  kTriplets,  //!< weights, one per line, without the matrix size
+  kColors,    //!< vertex colors of a model
+  kFields     //!< scalars at mesh vertices
 };
 
-//! Meshes of the interior in Dim dimensions.
+//! Domain meshes in Dim dimensions.
 template <int Dim>
 constexpr Content kMesh = Dim == 2 ? Content::kMesh2D : Content::kMesh3D;
 
-//! Whether the format that `path` names has a place for one of these contents.
+//! Whether the format of `path` can hold one of these kinds of content.
 bool holds(const std::string& path, std::initializer_list<Content> contents);
 
-//! The extensions of all such formats, as in ".obj, .off or .vtu".
+//! The extensions of all such formats, such as ".obj, .off or .vtu".
 std::string extensions_of(std::initializer_list<Content> contents);
 
 }  // namespace flbc::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Model files: reading them exactly, moving their vertices, writing them in other formats.
+//! Reads model files exactly, moves their vertices, and writes them in other formats.
 #pragma once
 
 #include <iosfwd>
@@ -12,18 +12,19 @@
 
 namespace flbc::io {
 
-//! Reads what cages need of a model file: points, polygons and polylines, exactly as they stand.
-//! Attributes are passed over, so that damage there is none here.
-//! \param path  a file as ModelFile reads it; "-" is standard input, as .obj
+//! Reads points, polygons, and polylines of a model file exactly, which is all a cage needs.
+//! Attributes are skipped, so defects in them are not errors.
+//! \param path  a file that ModelFile can read; "-" is standard input in .obj format
 //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
 //! extension
 PolygonSoup read_polygons(const std::string& path);
 
-//! A file in which the coordinates of the vertices can be exchanged.
+//! A model file whose vertex coordinates can be replaced.
 class ModelFile {
  public:
   //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl or .om (OpenMesh, up to version
-  //! 2.2). Corners of .stl files that coincide are one vertex: numbered as they first occur.
+  //! 2.2). Coincident corners of .stl files are merged into one vertex; vertices are numbered by
+  //! first occurrence.
   //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
   //! extension
   explicit ModelFile(const std::string& path);
@@ -34,25 +35,24 @@ class ModelFile {
   //! The model in the file.
   const Model& model() const;
 
-  //! The file as it was read, byte by byte.
+  //! The unmodified bytes of the file.
   const std::string& text() const;
 
-  //! Number of normals in the file that belong to no polygon with an area: they cannot follow the
-  //! vertices and stay as they are.
+  //! Number of normals that belong to no polygon with nonzero area. They cannot follow the vertices
+  //! and stay unchanged.
   Index num_loose_normals() const;
 
-  //! Writes the file with each vertex moved to its column of `points` (Dim x P) and all else byte
-  //! by byte as it was: text with the digits it takes to read the same numbers back, binary numbers
-  //! in the precision they have in the file. In 2D z and the normals stay. In 3D normals turn with
-  //! the polygons they belong to: rigidly where these move rigidly, and so that one that is their
-  //! area-weighted mean remains it. Normals that someone has chosen, or that point to the other
-  //! side, do so still.
-  //! \throws InputError if the number of points is another, one is not finite or too large for its
-  //! precision, or the file has no room for it (integers; no z in 3D)
+  //! Writes the file with vertices moved to `points` (Dim x P); all other bytes are unchanged. Text
+  //! coordinates have enough digits to read the same numbers back; binary coordinates keep the
+  //! precision of the file. In 2D, z and normals are unchanged. In 3D, normals rotate with their
+  //! polygons: rigidly where these move rigidly, and an area-weighted mean normal remains one.
+  //! Custom and inward normals stay custom and inward.
+  //! \throws InputError if the number of points differs, a coordinate is not finite or too large
+  //! for its precision, or the file cannot store it (integers; no z in 3D)
   template <int Dim>
   void write(std::ostream& out, const PointList<Dim>& points) const;
 
-  //! The model with its vertices and normals moved likewise.
+  //! The model with vertices and normals moved as in write().
   template <int Dim>
   Model moved(const PointList<Dim>& points) const;
 
@@ -61,11 +61,12 @@ class ModelFile {
   std::unique_ptr<const Content> content_;
 };
 
-//! The attributes of a model that a file of the format that `path` names would lose, a phrase each.
+//! Lists the attributes of a model that the format of `path` would lose, one phrase each.
 std::vector<std::string> losses(const Model& model, const std::string& path);
 
-//! Writes by extension: .obj, .off, .ply or .stl, the last two as text or binary as the model is.
-//! Coordinates have all digits, in .stl those of single precision. What losses() tells is left out.
+//! Writes .obj, .off, .ply, or .stl, by extension. The last two are text if Model::is_text,
+//! otherwise binary. Coordinates have full double precision, in .stl single precision. Attributes
+//! listed by losses() are not written.
 //! \throws IoError; InputError if a number is not finite; OptionError for another extension
 void write_model(const std::string& path, const Model& model);
 

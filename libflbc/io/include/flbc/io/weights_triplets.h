@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Weights of other programs: text with "CONTROL_POINT POINT WEIGHT" on every line.
+//! Weights as text, one "CONTROL_POINT POINT WEIGHT" per line, for exchange with other programs.
 #pragma once
 
 #include <string>
@@ -9,20 +9,22 @@
 
 namespace flbc::io {
 
-//! Reads triplets, numbered from 0, in any order; what is missing is 0, and '#' starts a comment.
-//! The file does not say how large the matrix is. \param num_controls, num_points  its size
+//! Reads triplets with indices from 0 in any order. Missing weights are 0; '#' starts a comment.
+//! The file does not contain the matrix size.
+//! \param num_controls, num_points  matrix size
 //! \return num_controls x num_points
-//! \throws IoError if the file cannot be read; InputError naming file and line for a line that is
-//! no triplet, a number out of range or not finite, or a pair that occurs twice, and naming the
-//! file if it has no triplet or none for the last control point or point (it belongs to others)
+//! \throws IoError if the file cannot be read; InputError naming file and line if a line is not a
+//! triplet, a number is out of range or not finite, or a pair occurs twice; InputError naming the
+//! file if it has no triplet, or none for the last control point or the last point (it then belongs
+//! to another cage or model)
 WeightMatrix read_weight_triplets(const std::string& path, Index num_controls, Index num_points);
 
-//! The same where nothing tells the size: it is as large as the largest numbers in the file ask.
-//! \throws IoError; InputError as above, or if it would be large and almost empty
+//! The same without a known size; the largest indices in the file determine it.
+//! \throws IoError; InputError as above, or if the matrix would be large and almost empty
 WeightMatrix read_weight_triplets(const std::string& path);
 
-//! Writes weights that are not 0 point by point, with the digits it takes to read the same numbers
-//! back (at most 17), and the last weight of all even if it is 0, because it tells the size.
+//! Writes nonzero weights point by point, with enough digits to read the same numbers back (at most
+//! 17). The last weight is written even if it is 0, because it determines the matrix size.
 //! \param weights  n x #points
 //! \throws IoError; InputError if a weight is not finite or there are none
 void write_weight_triplets(const std::string& path, const WeightMatrix& weights);

@@ -10,13 +10,13 @@
 namespace flbc::active_set {
 namespace {
 
-// Q and R^-T of [1; c] = Q R for one list, by Gram and Schmidt, every column twice.
+// Q and R^-T of [1; c] = Q R for one list, by Gram-Schmidt with reorthogonalization.
 template <int Dim>
 struct ListBasis {
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> q;
   Eigen::Matrix<double, Dim + 1, Dim + 1> r = Eigen::Matrix<double, Dim + 1, Dim + 1>::Zero();
 
-  // Columns that depend on those before, to rounding, are left out: what they say is said already.
+  // Columns that depend on previous ones up to rounding are redundant and left out.
   void orthogonalise() {
     constexpr double kDependent = 1e-9;
     for (int k = 0; k <= Dim; ++k) {
@@ -90,7 +90,7 @@ void add_list(const PackedLists& lists, ControlPoint n, CellPatches<Scalar, Dim>
   result.items.insert(result.items.end(), items.begin(), items.end());
 }
 
-// Where each interior row of a patch leaves its part of the divergence.
+// Location of the divergence contribution of each interior row of a patch.
 template <class Scalar, int Dim>
 void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result, const Patch& patch) {
   for (Index k = 0; k < patch.num_rows; ++k) {

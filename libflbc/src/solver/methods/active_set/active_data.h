@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! What stays the same during the iteration on the active set: rows of different lengths in one
-//! array, and their constraints. Cells that follow each other share one list of control points, so
-//! that the inner loops of the compact splitting serve them as they are.
+//! Constants of the iteration on the active set: rows of different lengths in one array, and their
+//! constraints. Consecutive cells share one list of control points, so the inner loops of the
+//! compact splitting apply unchanged.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace flbc::active_set {
 
-//! The arrays that Lists point to.
+//! The arrays referenced by Lists.
 struct PackedLists {
   std::vector<std::size_t> starts{0};
   std::vector<std::int32_t> counts;
@@ -23,32 +23,32 @@ struct PackedLists {
 
   Lists view() const { return {starts.data(), counts.data(), items.data()}; }
   Index num_rows() const { return static_cast<Index>(counts.size()); }
-  //! Numbers of all rows, padding included.
+  //! Number of values of all rows, including padding.
   std::size_t size() const { return starts.back(); }
 
-  //! Adds a row. \param n  what stands in the padding
+  //! Adds a row. \param n  value of the padding
   void append(const ActiveLists::Range& list, ControlPoint n);
 };
 
 //! Orthonormal bases of [1; c] on the control points of every row: Dim + 1 rows of its length each.
-//! Where its control points lie in a plane or are too few, some are zero.
+//! Some are zero if the control points are coplanar or too few.
 //! \param points  Dim x rows, or without columns \param targets  Q^T w of all w on the list that
-//! sum to one and reproduce the row's point, Dim + 1 numbers per row; null without points
+//! sum to one and reproduce the point of the row, Dim + 1 values per row; null without points
 template <class Scalar, int Dim>
 AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& control_points,
                                const PointList<Dim>& points, std::vector<Scalar>* targets);
 
-//! As many cells as share most of their corners and control points.
+//! Number of cells per patch, such that cells share most of their corners and control points.
 constexpr Index kPatchCells = 64;
 
-//! Some cells and the rows of their corners. The places are those in the arrays of CellPatches.
+//! A few cells and the rows of their corners, as ranges in the arrays of CellPatches.
 struct Patch {
   Index first_cell, end_cell;
   Index first_row, num_interior, num_rows;
   std::size_t first_item, stride;  // of the list, padded
   std::size_t first_number;        // of the radii; of P, times Dim
 
-  //! The first number of a cell.
+  //! The first value of a cell.
   std::size_t number_of(Index cell) const { return first_number + (cell - first_cell) * stride; }
 };
 
@@ -56,16 +56,18 @@ struct Patch {
 template <class Scalar, int Dim>
 struct CellPatches {
   std::vector<Patch> patches;
-  std::vector<compact::Cell<Scalar, Dim>> cells;  // corners by their place among the patch's rows
+  std::vector<compact::Cell<Scalar, Dim>> cells;  // corners by their position among the rows of the
+                                                  // patch
   std::vector<Index> cell_index;                  // of the mesh
-  std::vector<Index> place_of_cell;               // of a mesh's cell in `cells`, -1 for none
+  std::vector<Index> place_of_cell;               // per mesh cell: position in `cells`; -1: none
   std::vector<Index> rows;                        // of the splitting, interior ones first
   std::vector<ControlPoint> items;                // ascending; n in the padding
-  AlignedArray<unsigned char> radius;             // as the loops store numbers
-  std::vector<std::size_t> leaves;  // place where a row's part of the divergence is left, as rows
+  AlignedArray<unsigned char> radius;             // in the storage format of the loops
+  std::vector<std::size_t> leaves;  // location of the divergence contribution of a row, ordered as
+                                    // rows
   std::size_t num_left = 0;         // numbers
-  std::size_t largest_block = 0;    // numbers of a patch's rows
-  VertexItems<std::size_t> left;    // of every interior row, the places of its parts
+  std::size_t largest_block = 0;    // number of values of the rows of a patch
+  VertexItems<std::size_t> left;    // per interior row, the locations of its contributions
 };
 
 //! \param data  rows and cells \param lists  of all rows \param unit  u
@@ -76,7 +78,8 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
                                       const PackedLists& lists,
                                       const compact::Loops<Scalar, Dim>& loops);
 
-//! Stores numbers of all cells as the loops do, `Rows` per control point; zero in the padding.
+//! Stores values of all cells in the format of the loops, `Rows` per control point; zero in the
+//! padding.
 //! \param of_cell  number(control point, row) of a cell of the mesh
 template <int Rows, class Scalar, int Dim, class OfCell>
 void store_in_cells(const CellPatches<Scalar, Dim>& patches,

@@ -10,7 +10,7 @@
 namespace flbc::active_set::FLBC_ISA {
 namespace {
 
-// work += the matrix's row times source.
+// work += row of the matrix times source.
 template <class Scalar>
 inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const Lists& lists,
                          const Scalar* source, Scalar* work) {
@@ -21,7 +21,7 @@ inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const
     const std::uint16_t* items = lists.items + start;
     const Scalar* numbers = source + start;
     const std::int32_t count = lists.counts[column];
-    // Control points of a list differ, which the compiler cannot know.
+    // Control points of a list are distinct, which the compiler cannot know.
 #ifdef __clang__
 #pragma clang loop vectorize(assume_safety)
 #else
@@ -31,7 +31,7 @@ inline void add_products(const Entries<Scalar>& entries, std::int32_t row, const
   }
 }
 
-// solution (+)= the projection of right_side - the matrix's row times solution over the diagonal.
+// solution (+)= projection of (right_side - row of the matrix times solution) / diagonal.
 template <class Scalar, int Dim, bool Ascends>
 inline void relax_row(const Level<Scalar>& level, std::int32_t row, std::size_t size,
                       Scalar* work) {
@@ -45,7 +45,7 @@ inline void relax_row(const Level<Scalar>& level, std::int32_t row, std::size_t 
   add_products(level.lower, row, level.lists, level.solution, work);
   if (Ascends) {
     add_products(level.upper, row, level.lists, level.solution, work);
-    // The row itself: its diagonal entry is what the change is divided by.
+    // The row itself; the change is divided by its diagonal entry.
     const Scalar diagonal = 1 / level.inverse_diagonal[row];
     for (std::int32_t j = 0; j < level.lists.counts[row]; ++j) {
       work[items[j]] += diagonal * solution[j];

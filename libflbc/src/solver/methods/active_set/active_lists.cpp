@@ -18,7 +18,7 @@ namespace {
 
 using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-// Of every vertex, the control points that matter at it or next to it. n x V
+// Per vertex, the control points that are relevant at it or at a neighbor. n x V
 //! \param matters_at  of a vertex, n flags
 template <int Dim, class MattersAt>
 Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const MattersAt& matters_at) {
@@ -36,7 +36,7 @@ Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const Matt
   return near;
 }
 
-// Weights on a facet have to be taken over by the vertices next to it.
+// Vertices next to a facet need the control points of the weights on the facet.
 template <int Dim>
 void add_boundary(const LbcProblem<Dim>& problem, Flags& flags) {
   const auto& boundary = problem.boundary;
@@ -60,7 +60,7 @@ void add_boundary(const LbcProblem<Dim>& problem, Flags& flags) {
   }
 }
 
-// Whether a vertex lies in the convex hull of its control points, so that it has weights.
+// Whether a vertex lies in the convex hull of its control points, so feasible weights exist.
 template <int Dim>
 bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
   const double tolerance = 1e-9 * problem.cage.points.cwiseAbs().maxCoeff();
@@ -84,7 +84,8 @@ ActiveLists lists_from(const Flags& is_in) {
   });
 }
 
-// Adds what every vertex has to have. \param weights  feasible ones of an interior vertex
+// Adds the control points that every vertex needs. \param weights  feasible ones of an interior
+// vertex
 template <int Dim>
 ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
   add_boundary(problem, flags);
@@ -96,8 +97,8 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
   return lists_from(flags);
 }
 
-// Calls action(place, u) for the places of an interior vertex's list whose control points another
-// interior vertex u of the same cell lacks, in order.
+// Calls action(place, u) for the entries in the list of an interior vertex whose control points are
+// missing at another interior vertex u of the same cell, in order.
 template <int Dim, class Action>
 void for_missing(const LbcProblem<Dim>& problem, const VertexCells& around,
                  const ActiveLists& active, Index v, const Action& action) {
@@ -174,7 +175,7 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 template <int Dim>
 ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
   const DirichletProblem<Dim> laplace(problem.mesh, problem.boundary, linear_solver);
-  // More than exact enough for a start.
+  // Accurate enough for a start.
   const auto harmonic = std::make_shared<const Eigen::MatrixXf>(
       harmonic_coordinates(problem, laplace).template cast<float>());
   ColdStart<Dim> cold;

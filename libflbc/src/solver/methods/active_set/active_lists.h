@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Supports: the control points that may have a weight at a vertex. Elsewhere nothing is stored.
+//! The active set: per vertex, the control points that may have a weight. Nothing else is stored.
 #pragma once
 
 #include <cstdint>
@@ -13,61 +13,62 @@
 
 namespace flbc::active_set {
 
-//! Number of a control point; see plan::active_set() for how many there are at most.
+//! Index of a control point; plan::active_set() limits their number.
 using ControlPoint = std::uint16_t;
 
-//! The control points of every vertex, ascending.
+//! The active control points of every vertex, ascending.
 using ActiveLists = VertexItems<ControlPoint>;
 
-//! Weights that are not above it are as good as zero where a mean squared error is wanted.
+//! Smaller weights count as zero for a given mean squared error.
 double threshold_for(double tolerance);
 
-//! Supports from the weights on a coarser mesh: the control points whose weights are above the
-//! threshold at a corner of the vertex's coarse cell or at a neighbour of one, and those of the
-//! boundary next to the vertex. There are non-negative weights on them at every vertex. Boundary
-//! vertices have those control points whose weights are not zero.
+//! The active set from weights on a coarser mesh. A vertex gets the control points whose weights
+//! exceed the threshold at a corner of its coarse cell or at a neighbor of such a corner, and those
+//! of adjacent boundary vertices. Feasible non-negative weights exist at every vertex. Boundary
+//! vertices get the control points of their nonzero weights.
 template <int Dim>
 ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
                         double threshold);
 
-//! The same from weights on the mesh itself, at the vertex or at a neighbour.
+//! The same from weights on the mesh itself, at the vertex or at a neighbor.
 //! \param weights  of an interior vertex, n numbers, feasible
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                       double threshold);
 
-//! The flux densities of a start where weights above the threshold are near, zero elsewhere.
+//! The flux densities of a start near weights above the threshold; zero elsewhere.
 template <int Dim>
 VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim>& start,
                                  double threshold);
 
-//! Where an iteration on the active set starts from without a coarser mesh: harmonic coordinates,
-//! without duals, and their active set.
+//! Start of an iteration on the active set without a coarser mesh: harmonic coordinates without
+//! duals, and their active set.
 template <int Dim>
 struct ColdStart {
-  Start<Dim> start;  //!< owns what it refers to
+  Start<Dim> start;  //!< refers to data of this object
   ActiveLists active;
 };
 
-//! \param problem  without phi as well \param linear_solver  for the Laplace equation
-//! \throws SolverError if it cannot be solved
+//! \param problem  phi is not needed \param linear_solver  for the Laplace equation
+//! \throws SolverError if the Laplace equation cannot be solved
 template <int Dim>
 ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver);
 
-//! w at one place of an interior vertex's list.
+//! w at one entry in the list of an interior vertex.
 using WeightInList = std::function<double(Index vertex, Index place)>;
 
-//! Sum of the squared weights at the ends of the active set: where a neighbour may not have any.
+//! Sum of the squared weights at the border of the active set: pairs that are missing at a
+//! neighbor.
 template <int Dim>
 double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight);
 
-//! Supports with the control points of neighbours whose weights are above the threshold.
+//! Extends the active set by control points of neighbors whose weights exceed the threshold.
 template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight);
 
-//! Pairs of interior vertices and control points, relative to all there are.
+//! Active pairs of interior vertices and control points, relative to all pairs.
 template <int Dim>
 double density(const LbcProblem<Dim>& problem, const ActiveLists& active);
 

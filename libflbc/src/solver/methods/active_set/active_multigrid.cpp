@@ -11,7 +11,7 @@
 namespace flbc::active_set {
 namespace {
 
-// Fewer unknowns are swept as fast as they are solved for.
+// For fewer unknowns a sweep is as fast as a solve.
 constexpr Index kCoarsest = 16;
 
 // Rows of a product that a thread takes at a time.
@@ -23,14 +23,14 @@ Entries<Scalar> all_of(const MatrixArrays<Scalar>& arrays) {
           arrays.values.data()};
 }
 
-// Few enough for many blocks of a colour, enough to find neighbours in the cache.
+// Small enough for many blocks per color, large enough that neighbors are in the cache.
 constexpr Index kBlock = 32;
 
-// The smallest colour that none of the blocks coupled to it has.
+// The smallest color that no coupled block has.
 std::vector<Index> colours_of_blocks(const RowMatrix& matrix, Index num_blocks) {
   constexpr Index kNone = -1;
   std::vector<Index> colour(num_blocks, kNone);
-  std::vector<Index> taken_by;  // by colour: the last block that may not have it
+  std::vector<Index> taken_by;  // per color: the last block that may not have it
   for (Index block = 0; block < num_blocks; ++block) {
     const auto end = std::min<Index>((block + 1) * kBlock, static_cast<Index>(matrix.rows()));
     for (Index row = block * kBlock; row < end; ++row) {
@@ -47,7 +47,7 @@ std::vector<Index> colours_of_blocks(const RowMatrix& matrix, Index num_blocks) 
   return colour;
 }
 
-// Calls body(begin, end) for the rows of every block of a colour, by all threads of the team.
+// Calls body(begin, end) for the rows of every block of a color, by all threads of the team.
 template <class Body>
 void for_blocks(const SweepOrder& order, std::size_t colour, const Body& body) {
 #pragma omp for schedule(static)
@@ -112,7 +112,7 @@ ActiveMultigrid<Scalar, Dim>::ActiveMultigrid(RowMatrix matrix, const SweepOrder
   }
 }
 
-// Without lists if there is nothing to gain. \param matrix  becomes the coarse one
+// Returns no lists if a coarse level does not pay. \param matrix  becomes the coarse one
 template <class Scalar, int Dim>
 typename ActiveMultigrid<Scalar, Dim>::LevelData ActiveMultigrid<Scalar, Dim>::coarsen(
     RowMatrix& matrix, const PackedLists& lists, LevelData& level) const {
@@ -135,8 +135,8 @@ typename ActiveMultigrid<Scalar, Dim>::LevelData ActiveMultigrid<Scalar, Dim>::c
   return next;
 }
 
-// The control points that are active at every vertex of a coarse unknown's function; none where
-// their number leaves no freedom.
+// The control points that are active at every vertex in the support of a coarse function; none if
+// there are too few for a correction.
 template <class Scalar, int Dim>
 PackedLists ActiveMultigrid<Scalar, Dim>::coarse_lists(const PackedLists& fine,
                                                        const RowMatrix& restriction) const {
@@ -176,7 +176,7 @@ Level<Scalar> ActiveMultigrid<Scalar, Dim>::view(std::size_t l, const Scalar* ri
   return view;
 }
 
-// The kernel's product, by all threads of the team.
+// The product of the kernel, by all threads of the team.
 template <class Scalar, int Dim>
 void ActiveMultigrid<Scalar, Dim>::multiply(const Entries<Scalar>& entries,
                                             const Lists& target_lists, const Lists& source_lists,
@@ -189,8 +189,8 @@ void ActiveMultigrid<Scalar, Dim>::multiply(const Entries<Scalar>& entries,
   }
 }
 
-// Down to the next level: once a row has been relaxed, its residual is what later rows did to it,
-// but for a part that the projection takes away.
+// Restricts to the next level. After relaxation, the residual of a row comes from later rows, up to
+// a part that the projection removes.
 template <class Scalar, int Dim>
 void ActiveMultigrid<Scalar, Dim>::descend(std::size_t l, const Scalar* right_side, Scalar* work) {
   LevelData& level = levels_[l];

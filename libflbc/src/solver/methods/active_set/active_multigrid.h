@@ -12,40 +12,40 @@
 
 namespace flbc::active_set {
 
-//! Blocks of unknowns in an order in which those of one colour do not touch: each may be swept by a
-//! thread of its own, with the same result whoever does it.
+//! Colored blocks of unknowns. Blocks of one color are not coupled, so several threads can sweep
+//! them with a reproducible result.
 struct SweepOrder {
   std::vector<Index> position;       //!< of every unknown
   std::vector<Index> block_starts;   //!< positions, blocks + 1
-  std::vector<Index> colour_starts;  //!< blocks, colours + 1
+  std::vector<Index> colour_starts;  //!< blocks, colors + 1
 };
 
-//! Unknowns that follow each other stay together. \param matrix  symmetric
+//! Consecutive unknowns stay together. \param matrix  symmetric
 SweepOrder sweep_order(const RowMatrix& matrix);
 
-//! An approximate minimiser of d^T K d / 2 - b^T d over all changes d of weights that stay within
-//! the supports, sum to zero and reproduce zero at every vertex,
+//! An approximate minimizer of d^T K d / 2 - b^T d over all changes d of weights that stay within
+//! the active set, sum to zero, and reproduce zero at every vertex,
 //!
 //!     T = { d : d_i(v) = 0 outside the support of v, sum_i d_i(v) = 0, sum_i d_i(v) c_i = 0 }.
 //!
-//! One symmetric multigrid cycle. The constraints couple the control points, so they belong into
-//! the smoother: the block of K of a vertex is K_vv times the identity, and the exact minimiser
-//! over the vertex's own changes in T is P_v r / K_vv, where P_v projects the residual r on those.
-//! Coarse unknowns are those of smoothed aggregation; a control point is active at one only if it
-//! is at every vertex where its function is not zero. Then all corrections are in T, the cycle B^-1
-//! is a subspace correction with exact local minimisers, and B >= K on T.
+//! One symmetric multigrid cycle. The constraints couple the control points, so the smoother
+//! includes them. The block of K of a vertex is K_vv times the identity. The exact minimizer over
+//! changes of this vertex in T is P_v r / K_vv, where P_v projects the residual r onto those
+//! changes. Coarse unknowns are those of smoothed aggregation; a control point is active at one
+//! only if it is active at every vertex where its function is nonzero. All corrections are then in
+//! T, the cycle B^-1 is a subspace correction with exact local minimizers, and B >= K on T.
 template <class Scalar, int Dim>
 class ActiveMultigrid {
  public:
   //! \param matrix  K, symmetric positive definite, both triangles, in the order of the unknowns
   //! \param order  of the unknowns in the rows
-  //! \param lists  of the rows, of which there may be more than unknowns; kept by reference
+  //! \param lists  of the rows, possibly more than unknowns; kept by reference
   //! \param basis  of the rows (see row_bases()); kept by reference
   ActiveMultigrid(RowMatrix matrix, const SweepOrder& order, const PackedLists& lists,
                   const AlignedArray<Scalar>& basis, const PointList<Dim>& control_points,
                   const Kernel<Scalar, Dim>& kernel);
 
-  //! One cycle, in place, by all threads; the same bits for any number of them.
+  //! One cycle, in place, by all threads; bit-identical for any number of threads.
   void cycle(Scalar* rows);
 
  private:

@@ -13,8 +13,8 @@
 namespace flbc::active_set {
 namespace {
 
-// Squared lengths, of which a penalty is the ratio: of the duals, and of how far the weights are
-// from where they started.
+// Squared norms whose ratio gives the penalty: of the duals, and of the change of the weights since
+// the start.
 template <int Dim>
 Eigen::Vector2d moved_lengths2(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
                                const VectorsAt<1>& before, const Start<Dim>& now) {
@@ -115,8 +115,9 @@ double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
   return settings_.part * std::min(balanced, plan::kLargestPenalty);
 }
 
-// Where weights at the ends of the active set are more than a small part of the error there is, or
-// of the one wanted, they would continue beyond. \return iterations to make, 0 if it does not grow
+// Extends the active set if weights at its border exceed a small part of the estimated error or of
+// the tolerance, because they would continue beyond. \return iterations to make, 0 if it does not
+// grow
 template <class Scalar, int Dim>
 int ActiveSet<Scalar, Dim>::grow(double error) {
   const double all =

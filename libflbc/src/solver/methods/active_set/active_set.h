@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Method::kValue where only the active set is stored and computed.
+//! Method::kValue on the active set.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,22 @@
 
 namespace flbc::active_set {
 
-//! What an iteration on the active set needs besides its problem.
+//! Settings of an iteration on the active set.
 struct Settings {
   double penalty = 1;     //!< of all pairs
-  double part = 1;        //!< of it that serves where fewer weights move
+  double part = 1;        //!< factor of the penalty for an active set, where fewer weights move
   double relaxation = 1;  //!< alpha in (0, 2)
-  double tolerance = 1;   //!< mean squared error wanted
-  bool half = false;      //!< stores duals and radii in half precision at first
-  bool balances = false;  //!< adapts the penalty to how far weights move from where they started
+  double tolerance = 1;   //!< target mean squared error
+  bool half = false;      //!< starts with duals and radii in half precision
+  bool balances = false;  //!< adapts the penalty to the change of weights since the start
 };
 
-//! The splitting on the pairs of vertices and control points whose weights may be positive at the
-//! optimum. It extends them where weights reach their ends.
+//! The splitting on the active set: the pairs of vertices and control points whose weights may be
+//! positive at the optimum. It extends the set where weights reach its border.
 template <class Scalar, int Dim>
 class ActiveSet final : public Iteration<Dim> {
  public:
-  //! \param metric  see splitting/metric.h \param active  pairs at first, with feasible weights
+  //! \param metric  see splitting/metric.h \param active  initial pairs, with feasible weights
   ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric, const Settings& settings,
             ActiveLists active);
 
@@ -36,15 +36,15 @@ class ActiveSet final : public Iteration<Dim> {
   void read_weights(Index vertex, double* weights) const override {
     splitting_->read_weights(vertex, weights);
   }
-  //! The penalty is that of all pairs.
+  //! The penalty refers to all pairs.
   Start<Dim> state() const override;
 
-  //! Duals are known for active pairs alone.
+  //! Duals are known only for active pairs.
   bool is_certifiable() const override { return false; }
   Certificate certify(const WeightMatrix&) const override { return {}; }
 
-  //! Balances the penalty, extends the set, and leaves half precision: each by a new splitting that
-  //! starts from the present one.
+  //! Balances the penalty, extends the set, and switches to single precision. Each change makes a
+  //! new splitting that starts from the current one.
   int adapt(int made, double error, bool ends) override;
 
   void describe(SolveReport& report) const override;
@@ -62,8 +62,8 @@ class ActiveSet final : public Iteration<Dim> {
   const Settings settings_;
   ActiveLists first_active_;  // until the start
   std::unique_ptr<Splitting> splitting_;
-  VectorsAt<1> start_weights_;  // null where the penalty stays
-  int since_ = 0;               // iteration of the last change or look
+  VectorsAt<1> start_weights_;  // null if the penalty is fixed
+  int since_ = 0;               // iteration of the last change or check
   int growths_ = 0;
 };
 

@@ -14,7 +14,7 @@
 namespace flbc::active_set {
 namespace {
 
-// One thread's dense rows of a patch.
+// The dense rows of a patch, for one thread.
 template <class Scalar>
 struct PatchRows {
   AlignedArray<Scalar> extrapolated, difference, residual, violation_sum;
@@ -93,7 +93,7 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   return state;
 }
 
-// Z-steps of all cells; the divergence of each patch is left to be collected.
+// Z-steps of all cells; stores the divergence of each patch for collection.
 // \return the squared violation of z = grad w, if measured
 template <class Scalar, int Dim>
 double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation) {
@@ -200,7 +200,7 @@ Scalar ActiveSplitting<Scalar, Dim>::weight_at(std::size_t place) const {
   return static_cast<Scalar>(0.5 / sigma()) * (a_[place] + W_[place]);
 }
 
-// Writes a vertex's numbers for all control points, zero where it is not active.
+// Writes the values of a vertex for all control points; zero for inactive pairs.
 template <class Scalar, int Dim>
 template <class NumberAt>
 void ActiveSplitting<Scalar, Dim>::spread(Index vertex, const NumberAt& number_at,
@@ -240,7 +240,7 @@ void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
       a_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
     }
   }
-  // Weights cut off have to come back elsewhere in the row.
+  // Truncated weights must be compensated elsewhere in the row.
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
   pass_rows(loops_.correct);
   std::copy_n(a_.data(), W_.size(), W_.data());
@@ -269,7 +269,7 @@ void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_du
   }
 }
 
-// As in CompactSplitting: what the duals would do to the weights is taken from W instead.
+// As in CompactSplitting: subtracts the effect of the duals on the weights from W.
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   set_weights(start.weights);
@@ -283,7 +283,7 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   pass_rows(loops_.w_step);
 }
 
-// Boundary values are known better than single precision holds them.
+// Boundary values are known to higher than single precision.
 template <class Scalar, int Dim>
 SparseWeights ActiveSplitting<Scalar, Dim>::sparse_weights() const {
   std::vector<std::int64_t> starts{0};
@@ -347,7 +347,7 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
     if (i >= n_) break;
     for (int d = 0; d < Dim; ++d) density(i, d) = scale * rows[d * patch.stride + j];
   }
-  // Relaxed duals may be longer.
+  // Relaxed duals may be longer than the radius.
   shorten_to(problem_.phi, cell, density);
   return density;
 }

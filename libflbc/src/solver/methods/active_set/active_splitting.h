@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The compact splitting where weights are zero outside of an active set.
+//! The compact splitting with weights that are zero outside an active set.
 #pragma once
 
 #include <vector>
@@ -15,10 +15,10 @@
 
 namespace flbc::active_set {
 
-//! The iteration of compact_splitting.h for weights that vanish outside of the active set, where
-//! nothing is stored or computed. Its limit is the optimum among these, which is the optimum if the
-//! set contains the supports of the optimum. The linear step is ActiveMultigrid's; the units are
-//! those of compact_kernel.h. The set, the penalty and the precision are fixed.
+//! The iteration of compact_splitting.h for weights that vanish outside the active set, where
+//! nothing is stored or computed. Its limit is the optimum among such weights. This is the true
+//! optimum if the set contains its supports. ActiveMultigrid performs the linear step; the units
+//! are those of compact_kernel.h. The set, the penalty, and the precision are fixed.
 template <class Scalar, int Dim>
 class ActiveSplitting {
  public:
@@ -31,7 +31,7 @@ class ActiveSplitting {
   ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
                   double relaxation, bool half, ActiveLists active, const RowMatrix& system);
 
-  //! Starts from weights and duals that were found elsewhere.
+  //! Starts from given weights and duals.
   void start(const Start<Dim>& start);
 
   //! See CompactSplitting.
@@ -41,10 +41,10 @@ class ActiveSplitting {
   bool stores_half() const { return loops_.bytes < sizeof(Scalar); }
   const ActiveLists& active() const { return active_; }
 
-  //! w of an interior vertex, n numbers, zero where it is not active.
+  //! w of an interior vertex, n values, zero for inactive pairs.
   void read_weights(Index vertex, double* weights) const;
 
-  //! w at one place of an interior vertex's list of control points.
+  //! w at one entry in the list of an interior vertex.
   double weight(Index vertex, Index place) const {
     return weight_at(lists_.starts[data_.row_of[vertex]] + place);
   }
@@ -52,11 +52,10 @@ class ActiveSplitting {
   //! w of all V vertices.
   SparseWeights sparse_weights() const;
 
-  //! Where other iterations can start: views of this one. Flux densities are zero where a pair is
-  //! not active.
+  //! A start for other iterations: views of this one. Flux densities are zero for inactive pairs.
   Start<Dim> state() const;
 
-  //! Numbers of state held per cell and control point, in units of the Scalar.
+  //! Size of the state per cell and control point, in Scalars.
   double state_scalars_per_cell() const;
 
  private:
@@ -96,14 +95,14 @@ class ActiveSplitting {
   AlignedArray<Scalar> bases_;
   CellPatches<Scalar, Dim> patches_;
   ActiveMultigrid<Scalar, Dim> multigrid_;
-  // state, by row and list; interior rows alone but for a
+  // state, by row and list; only interior rows, except for a
   AlignedArray<Scalar> a_;
   AlignedArray<Scalar> W_;
   AlignedArray<Scalar> S_;
   AlignedArray<Scalar> residual_;
   AlignedArray<Scalar> difference_;
   AlignedArray<Scalar> left_;
-  AlignedArray<unsigned char> P_;  // as the loops store numbers
+  AlignedArray<unsigned char> P_;  // in the storage format of the loops
 };
 
 }  // namespace flbc::active_set

@@ -12,7 +12,7 @@
 namespace flbc::gradient {
 namespace {
 
-// Orthonormal basis of the facet's tangent space, a column per direction.
+// Orthonormal basis of the tangent space of the facet, one column per direction.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem, Index facet) {
   const auto point = [&](int k) {
@@ -27,14 +27,14 @@ Eigen::Matrix<double, Dim, Dim - 1> tangent_basis(const LbcProblem<Dim>& problem
   return tangents;
 }
 
-// h of (9), n x (Dim - 1): the derivatives of the boundary values along the facet's tangents.
+// h of (9), n x (Dim - 1): the tangential derivatives of the boundary values.
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> boundary_slopes(
     const LbcProblem<Dim>& problem, Index facet,
     const Eigen::Matrix<double, Dim, Dim - 1>& tangents) {
   const auto corners = problem.topology.facets.col(facet);
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(problem.num_control_points(), Dim);
-  Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, a column each
+  Eigen::Matrix<double, Dim - 1, Dim - 1> edges;  // in tangent coordinates, one per column
   for (int k = 0; k < Dim; ++k) {
     problem.boundary.scatter(problem.boundary.boundary_index[corners[k]], weights.col(k));
     if (k == 0) continue;
@@ -85,7 +85,7 @@ void set_up_interpolation(const LbcProblem<Dim>& problem, std::size_t stride,
   }
 }
 
-// phi A / mu: the ball on which the Z-step projects.
+// phi A / mu, the radius of the Z-step projection.
 template <class Scalar, int Dim>
 void set_up_radii(const LbcProblem<Dim>& problem, double penalty, std::size_t stride,
                   ConstraintData<Scalar, Dim>& data) {

@@ -23,7 +23,7 @@ struct ConstraintData {
   std::vector<Index> boundary_index;
 };
 
-//! \param penalty  mu > 0 \param stride  numbers per row
+//! \param penalty  mu > 0 \param stride  values per row
 template <class Scalar, int Dim>
 ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
                                                  std::size_t stride);

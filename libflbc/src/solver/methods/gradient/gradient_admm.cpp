@@ -15,7 +15,7 @@ namespace flbc::gradient {
 namespace {
 
 // Calls `body(begin, end)` for blocks of [0, count) in parallel. Every step flushes denormal
-// numbers: they are slow, and steps that differed in this would not give the same bits.
+// numbers, because they are slow, and because all steps must agree for bit-identical results.
 template <class Body>
 void parallel_blocks(Index count, const Body& body) {
   parallel_sum(count, 0, [&](Index begin, Index end) {
@@ -61,7 +61,8 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
   facet_change_.resize(facets);
 }
 
-// The period constraints' dual step. The field has norm 1, so the dual grows by the violation.
+// The dual step of the period constraints. The field has norm 1, so the dual grows by the
+// violation.
 template <class Scalar, int Dim>
 double GradientAdmm<Scalar, Dim>::update_periods() {
   double change = 0;
@@ -119,8 +120,8 @@ void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) 
   }
 }
 
-// A sweep takes the G-step of one iteration and the duals of the next one together. Periods need a
-// sum over all cells in between.
+// A sweep takes the G-step of one iteration and the duals of the next one together. With periods, a
+// sum over all cells is needed in between.
 template <class Scalar, int Dim>
 Change GradientAdmm<Scalar, Dim>::iterate(int count) {
   const auto arrays = make_arrays();
@@ -183,8 +184,9 @@ double GradientAdmm<Scalar, Dim>::noted_change() const {
 
 template <class Scalar, int Dim>
 Residuals GradientAdmm<Scalar, Dim>::residuals(const Change& change) const {
-  // The paper's duals, stepped with the new G, differ from the ones kept here by G_before - G, and
-  // that difference is orthogonal to what the G-step leaves (docs/method.md): Pythagoras.
+  // The duals of the paper, updated with the new G, differ from these duals by G_before - G. That
+  // difference is orthogonal to the result of the G-step
+  // (docs/explanation/method/gradient_admm.md), so Pythagoras applies.
   const double primal = relaxation_ == 1 ? change.dual - M_ * change.lead : change.dual;
   return {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
 }

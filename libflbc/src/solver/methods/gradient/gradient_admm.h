@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The paper's gradient ADMM (4.2.1 in 2D, 4.2.3 in 3D) in compact form.
+//! The gradient ADMM of the paper (section 4.2.1 in 2D, 4.2.3 in 3D) in compact form.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct Residuals {
   double dual;
 };
 
-//! The iteration, allocated once. The paper minimises (7) over gradients G subject to (8), (9) and
+//! The iteration, allocated once. The paper minimizes (7) over gradients G subject to (8), (9), and
 //! (10), with copies X = G S_X, Y = G S_Y, Z = G and a scaled dual u = lambda / mu for each:
 //!
 //!     X-step:  x_b = p - b (b . p - h_b),  p = g - u      boundary facets, tangential values (9)
@@ -30,20 +30,19 @@ struct Residuals {
 //!     G-step:  r_s = mean of its M copies x + u, y + u, z + u;  g_s = r_s, projected on (8)   (11)
 //!     duals:   u += x - g, u += y - g, u += z - g
 //!
-//! Without over-relaxation the gradients here are the paper's G, iterate by iterate. But projecting
-//! on a constraint changes a vector only along the constrained direction, so writing the dual steps
-//! relative to the extrapolated gradients 2 G - G_before leaves one number per tangent direction of
-//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. docs/method.md
-//! derives it.
+//! Without over-relaxation, the gradients equal G of the paper in every iteration. A projection
+//! onto a constraint changes a vector only along the constrained direction. Dual steps relative to
+//! the extrapolated gradients 2 G - G_before therefore need only one value per tangent direction of
+//! a facet (kernel: xy_step) and one vector per cell (z_step); g_step follows. See
+//! docs/explanation/method/gradient_admm.md for the derivation.
 //!
-//! On domains with holes it has the period constraints besides, which the paper lacks.
+//! On domains with holes it also has period constraints, which the paper lacks.
 template <class Scalar, int Dim>
 class GradientAdmm {
  public:
   //! \param penalty  mu > 0
-  //! \param relaxation  in (0, 2), 1 for the paper's iteration
-  //! \param periods  what joins the components of the boundary; empty leaves them apart, as the
-  //! paper
+  //! \param relaxation  in (0, 2), 1 for the iteration of the paper
+  //! \param periods  period constraints between boundary components; empty as in the paper
   GradientAdmm(const LbcProblem<Dim>& problem, double penalty, double relaxation,
                const std::vector<Period<Dim>>& periods);
 
@@ -53,25 +52,25 @@ class GradientAdmm {
   //! Starts from the gradients of given weights (n x V), duals zero.
   void start_from_weights(const WeightMatrix& weights);
 
-  //! Iterations: X-, Y- and Z-step with their duals, then the G-step. Many at once are faster than
-  //! one by one, with the same result to the bit. \param count  at least 1 \return what is needed
-  //! for residuals(), of the last one
+  //! Performs iterations: X-, Y-, and Z-step with their duals, then the G-step. One call with a
+  //! large count is faster than many calls, and bit-identical. \param count  at least 1 \return
+  //! data of the last iteration for residuals()
   Change iterate(int count = 1);
 
-  //! The paper's residual norms after an iteration. With over-relaxation the primal residual is the
-  //! violation X - G S_X, Y - G S_Y, Z - G at the extrapolated gradient.
+  //! The residual norms of the paper after an iteration. With over-relaxation the primal residual
+  //! is the violation X - G S_X, Y - G S_Y, Z - G at the extrapolated gradient.
   Residuals residuals(const Change& change) const;
 
-  //! Number of components of r_p and of r_d, which is the same.
+  //! Number of components of r_p, equal to that of r_d.
   double num_residual_components() const;
 
   CellFieldView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
 
   //! The dual of the total variation, -mu u of Z = G: at an optimum phi A times the direction of
-  //! the gradient. With over-relaxation it may be longer than phi A meanwhile.
+  //! the gradient. With over-relaxation it may temporarily be longer than phi A.
   CellFieldView<Scalar, Dim> flux() const;
 
-  //! Numbers of state held per cell and control point; phi is one more.
+  //! Size of the state per cell and control point, without phi.
   double state_scalars_per_cell() const;
 
  private:
@@ -89,7 +88,8 @@ class GradientAdmm {
   const double penalty_;
   const double relaxation_;
   const std::size_t num_periods_;
-  const double M_;  // of (11): a gradient's copies in Z, in X or Y per facet, and per period
+  const double M_;  // of (11): number of copies of a gradient: in Z, in X or Y per facet, and per
+                    // period
   // state
   AlignedArray<Scalar> gradient_;
   AlignedArray<Scalar> extrapolated_;

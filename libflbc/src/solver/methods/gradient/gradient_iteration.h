@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Methods kGradient and kPaper: the gradient ADMM with its starts and the recovery of weights.
+//! Methods kGradient and kPaper: the gradient ADMM with its starts and recovery.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,12 @@
 
 namespace flbc::gradient {
 
-//! What the iteration needs besides its problem.
+//! Settings of the iteration.
 struct Settings {
   double penalty = 1;     //!< mu > 0
-  double relaxation = 1;  //!< in (0, 2), 1 for the paper's iteration
-  bool harmonic = false;  //!< starts from harmonic coordinates, else from the least-norm solution
+  double relaxation = 1;  //!< in (0, 2), 1 for the iteration of the paper
+  bool harmonic = false;  //!< starts from harmonic coordinates, otherwise from the least-norm
+                          //!< solution
   Recovery recovery = Recovery::kLeastSquares;
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< of start and recovery
 };
@@ -30,7 +31,7 @@ class GradientIteration final : public Iteration<Dim> {
         admm_(problem, settings.penalty, settings.relaxation,
               boundary_periods(problem, settings.linear_solver)) {}
 
-  //! Cold, as settings say: no other iteration hands over to this one.
+  //! Starts cold, as in the settings; no other iteration hands over to this one.
   void start(const Start<Dim>&) override {
     if (!settings_.harmonic) {
       admm_.start_from_least_norm();
@@ -49,7 +50,8 @@ class GradientIteration final : public Iteration<Dim> {
             residuals.dual / components};
   }
 
-  //! Recovered from the present gradients; before the first iteration those of a harmonic start.
+  //! Recovers weights from the current gradients; before the first iteration, returns those of a
+  //! harmonic start.
   Weights weights() const override {
     if (start_weights_.size() > 0) return {start_weights_, {}};
     if (settings_.recovery == Recovery::kBreadthFirst) {
@@ -81,7 +83,7 @@ class GradientIteration final : public Iteration<Dim> {
   const LbcProblem<Dim>& problem_;
   const Settings settings_;
   GradientAdmm<Scalar, Dim> admm_;
-  mutable std::optional<DirichletProblem<Dim>> poisson_;  // of start and recovery, once needed
+  mutable std::optional<DirichletProblem<Dim>> poisson_;  // for start and recovery, made on demand
   WeightMatrix start_weights_;                            // until the first iteration
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The inner loops of the gradient ADMM on plain arrays. The same source is compiled for several
-//! instruction sets; nothing here may depend on headers whose inline functions could then clash, so
-//! there is no Eigen.
+//! instruction sets; it must not use headers whose inline functions could clash, such as Eigen.
 //!
 //! Every array is element-major, then component, then `stride` control points contiguous (n, padded
 //! with zeros).
@@ -29,7 +28,8 @@ struct Arrays {
   Scalar* tv_dual;       // F x Dim: dual of Z = G
   Scalar* period_dual;   // P: duals of the period constraints (boundary_periods.h), whole domain
   Scalar* facet_dual;    // E x (Dim - 1): duals of X = G S_X on the boundary, of Y = G S_Y inside
-  // squared changes of the duals per element, both sides of a facet counted, no control points
+  // squared changes of the duals per element, counting both sides of a facet, summed over control
+  // points
   double* cell_change;   // F
   double* facet_change;  // E
   // data
@@ -37,13 +37,13 @@ struct Arrays {
   const Scalar* boundary_slope;        // #boundary facets x (Dim - 1): h, tangential derivatives
   const Scalar* tangents;              // E x (Dim - 1) x Dim, orthonormal, no control points
   const std::int32_t* sides;           // E x 2 cells, second -1 on the boundary
-  const std::int32_t* boundary_index;  // E: place among the boundary facets
+  const std::int32_t* boundary_index;  // E: index among the boundary facets
   const std::int32_t* cell_facets;     // F x (Dim + 1)
   const Scalar* period_fields;         // P x F x Dim, no control points
   std::size_t num_periods;             // P: boundary components - 1
   std::size_t num_cells;               // F
-  Scalar inverse_M;                    // 1 / M, see (11): the mean of a gradient's M copies
-  const Scalar* basis;                 // (Dim + 1): orthonormal basis Q of [1; c]
+  Scalar inverse_M;                    // 1 / M of (11), for the mean of the M copies of a gradient
+  const Scalar* basis;                 // Dim + 1 rows: orthonormal basis Q of [1; c]
   const Scalar* target;  // Dim x (Dim + 1) numbers: Q^T g for every g that satisfies (8)
   Scalar relaxation;
 };
@@ -54,7 +54,7 @@ struct Change {
   double gradient = 0;  //!< squared change of G
   double lead = 0;      //!< squared difference of the new G from the extrapolated old one
 
-  // Always inlined, so that no instruction set's copy can be linked into code for another.
+  // Always inlined, so the linker cannot mix copies for different instruction sets.
   [[gnu::always_inline]] inline Change& operator+=(const Change& other) {
     dual += other.dual;
     gradient += other.gradient;
@@ -63,32 +63,33 @@ struct Change {
   }
 };
 
-//! Where a cell's extrapolated gradient is during a sweep: slot `place` of the sweep's slots, or,
-//! if negative, cell ~place of the whole array.
+//! Location of the extrapolated gradient of a cell during a sweep: slot `place` of the sweep or, if
+//! negative, cell ~place of the whole array.
 using Place = std::int32_t;
 
-//! A facet on whose cells the G-step has been made. On the boundary both places are the one cell's.
+//! A facet whose cells have completed the G-step. On the boundary both places refer to the same
+//! cell.
 struct Closing {
   std::int32_t facet;
   Place first;
   Place second;
 };
 
-//! A cell, and how many facets it is the last cell of.
+//! A cell, and the number of facets whose last cell it is.
 struct Visit {
   std::int32_t cell;
   Place place;
   std::int32_t num_closings;
 };
 
-//! The way of a sweep through its part of the mesh (sweep.h).
+//! The path of a sweep through its part of the mesh (sweep.h).
 struct SweepPath {
   const Visit* visits;
   std::size_t num_visits;
   const Closing* closings;  // in the order of the visits
 };
 
-//! The loops for one instruction set. A step gives the same bits whichever loop it is part of.
+//! The loops for one instruction set. A step is bit-identical in all loops.
 template <class Scalar, int Dim>
 struct Kernel {
   using State = const Arrays<Scalar, Dim>&;
@@ -96,20 +97,20 @@ struct Kernel {
   //! X- and Y-step with their dual step, for facets begin .. end-1.
   void (*xy_step)(State, std::int32_t begin, std::int32_t end);
 
-  //! The same for some facets; their changes are noted only if `noted`.
+  //! The same for given facets; records their changes only if `noted`.
   void (*listed_xy_step)(State, const std::int32_t* facets, std::size_t count, bool noted);
 
   //! Z-step with its dual step, for cells begin .. end-1.
   void (*z_step)(State, std::int32_t begin, std::int32_t end);
 
-  //! G-step, for cells begin .. end-1. \return changes of the gradients and their leads
+  //! G-step, for cells begin .. end-1. \return changes of the gradients, and their leads
   Change (*g_step)(State, std::int32_t begin, std::int32_t end);
 
-  //! G-step, and the next iteration's Z-, X- and Y-step. `slots` holds extrapolated gradients
-  //! meanwhile, num_slots x Dim.
+  //! G-step, and the next iteration's Z-, X- and Y-step. `slots` stores extrapolated gradients,
+  //! num_slots x Dim.
   void (*sweep)(State, const SweepPath& path, Scalar* slots);
 
-  //! The same, with all extrapolated gradients kept in their array and changes of duals noted.
+  //! The same, keeping all extrapolated gradients in their array and recording changes of duals.
   void (*sweep_and_note)(State, const SweepPath& path, Scalar* unused);
 };
 

@@ -19,7 +19,7 @@ Scalar* extrapolated_of(const Arrays<Scalar, Dim>& arrays, std::int32_t cell) {
   return arrays.extrapolated + std::size_t(cell) * Dim * arrays.stride;
 }
 
-// On the boundary there is no second cell, and nobody asks for it.
+// On the boundary there is no second cell; its value is unused.
 template <bool note, class Scalar, int Dim>
 inline void xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet) {
   const std::int32_t first = arrays.sides[2 * facet];
@@ -68,15 +68,15 @@ Change g_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_
   return change;
 }
 
-// Always inlined: functions that do nothing but prefetch pass for functions that do nothing.
+// Always inlined, because compilers drop calls to functions that only prefetch.
 template <class Scalar>
 [[gnu::always_inline]] inline void prefetch(const Scalar* from, std::size_t count) {
   constexpr std::size_t kLine = 64 / sizeof(Scalar);
   for (std::size_t i = 0; i < count; i += kLine) __builtin_prefetch(from + i, 1);
 }
 
-// Asks for what the visit of a cell needs. The facets' duals do not lie in the order of the cells,
-// and too many streams go on at a time for the processor to foresee them.
+// Prefetches the data of a cell visit. Facet duals are not in the order of the cells, and the
+// hardware prefetcher cannot follow this many streams.
 template <class Scalar, int Dim>
 [[gnu::always_inline]] inline void prefetch_cell(const Arrays<Scalar, Dim>& arrays,
                                                  std::int32_t cell) {
@@ -91,7 +91,7 @@ template <class Scalar, int Dim>
   }
 }
 
-// So many visits take as long as memory takes to answer.
+// The number of visits that take as long as a memory access.
 constexpr std::size_t kVisitsAhead = 4;
 
 template <bool note, class Scalar, int Dim>

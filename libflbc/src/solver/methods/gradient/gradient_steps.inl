@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The steps of the iteration for one facet or one cell. Included by gradient_kernel.inl within its
-//! namespace of the instruction set. Steps that `note` return or add up what they change.
+//! namespace of the instruction set. Steps with `note` return or accumulate their changes.
 
-// (9), (10): the boundary facet's dual grows by the violation of t . g = h, the interior facet's by
-// half the jump of the tangential gradient. \return the squared change, for each side
+// (9), (10): the dual of a boundary facet grows by the violation of t . g = h, that of an interior
+// facet by half the jump of the tangential gradient. \return the squared change per side
 template <bool note, class Scalar, int Dim>
 inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet, const Scalar* first,
                          const Scalar* second) {
@@ -48,8 +48,8 @@ inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet, 
   return note ? 2 * change.total() : 0;
 }
 
-// Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` on the ball of radius
-// phi A / mu.
+// Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` onto the ball of
+// radius phi A / mu.
 template <int lanes, bool note, class Scalar, int Dim>
 [[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
                                              std::size_t i,
@@ -75,7 +75,7 @@ template <int lanes, bool note, class Scalar, int Dim>
   }
 }
 
-// One facet of a cell, as the cell sees it: the dual's direction in space, signed for its side.
+// One facet of a cell: the direction of the dual, signed for this cell.
 template <class Scalar, int Dim>
 struct FacetMultiplier {
   const Scalar* dual;
@@ -99,7 +99,7 @@ template <class Scalar, int Dim>
   }
 }
 
-// Average of all candidates for the cell's gradient, r_s of (11): g + (sum of its duals) / M.
+// Average of all candidates for the gradient of the cell, r_s of (11): g + (sum of its duals) / M.
 template <int lanes, class Scalar, int Dim>
 [[gnu::always_inline]] inline void average_candidates(
     const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
@@ -150,8 +150,8 @@ struct GradientChange {
   double removed = 0;  // from the lead, by the projection
 };
 
-// First half of the G-step: the average goes to `extrapolated`, and what it has too much of the
-// projection on (8), r Q - target, to `excess`.
+// First half of the G-step: stores the average in `extrapolated` and the violation of (8), r Q -
+// target, in `excess`.
 template <bool note, class Scalar, int Dim>
 [[gnu::always_inline]] inline void average_cell(const Arrays<Scalar, Dim>& arrays,
                                                 std::int32_t cell, Scalar* extrapolated,
@@ -168,14 +168,14 @@ template <bool note, class Scalar, int Dim>
     add_projection<Scalar, Dim, lanes()>(arrays, i, r, projection);
     for (int d = 0; d < Dim; ++d) {
       Scalar* place = extrapolated + d * stride + i;
-      // The old extrapolation is needed once more, for the residual, but only its distance from r:
-      // what the projection takes away from r is orthogonal to every difference of gradients.
+      // The residual needs only the distance of the old extrapolation from r, because the
+      // projection changes r orthogonally to every difference of gradients.
       if constexpr (note) change.lead.template add<lanes()>(load_pack<lanes()>(place) - r[d]);
       store_pack<lanes()>(place, r[d]);
     }
   };
 
-  // One by one: a loop over them, or clearing them at once, would take them to memory.
+  // Explicit, because a loop or an array initialization would spill them to memory.
   Pack<Scalar> projection[kProjectionEights<Dim> * kLanes];
   std::size_t i = 0;
   if constexpr (constexpr std::integral_constant<int, kWide<Scalar>> lanes{}; lanes() > kLanes) {
@@ -204,9 +204,9 @@ template <bool note, class Scalar, int Dim>
   }
 }
 
-// The G-step, the average projected on (8) as r - (r Q - target) Q^T, and with `then_tv` the next
-// iteration's Z-step. \param extrapolated  where it is to go; what is there is needed to note the
-// lead. \return the changes, of the dual only with `then_tv`
+// The G-step: projects the average onto (8) as r - (r Q - target) Q^T, and with `then_tv` performs
+// the Z-step of the next iteration. \param extrapolated  output; its old value is needed to record
+// the lead. \return the changes; of the dual only with `then_tv`
 template <bool note_gradient, bool then_tv, bool note_tv, class Scalar, int Dim>
 inline Change g_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
                         Scalar* extrapolated) {

@@ -10,7 +10,7 @@ using Pack = PackN<Scalar, kLanes>;
 template <class Scalar>
 constexpr int kWide = sizeof(Scalar) == 4 ? kWideLanes : kLanes;
 
-// Each halves the numbers that are left to sum per argument; results stand side by side.
+// Each step halves the number of values per argument; results are adjacent.
 template <class Scalar>
 inline Pack<Scalar> sum_halves(Pack<Scalar> a, Pack<Scalar> b) {
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11) +
@@ -27,7 +27,7 @@ inline Pack<Scalar> sum_neighbours(Pack<Scalar> a, Pack<Scalar> b) {
          __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
 }
 
-// The sums of eight packs at once, a lane each.
+// The sums of eight packs, one per lane.
 template <class Scalar>
 inline Pack<Scalar> sum_each(const Pack<Scalar>* packs) {
   return sum_neighbours<Scalar>(sum_quarters<Scalar>(sum_halves<Scalar>(packs[0], packs[1]),
@@ -43,7 +43,7 @@ inline double sum(Pack<Scalar> pack) {
   return total;
 }
 
-// Adds up squares of a row of control points, if anybody wants to know.
+// Sums squares of a row of control points, if requested.
 template <class Scalar, bool wanted>
 class SquareSum {
  public:

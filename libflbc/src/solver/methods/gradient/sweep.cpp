@@ -34,10 +34,10 @@ class SweepBuilder {
   }
 
  private:
-  // A cell's state during the sweep.
+  // State of a cell during the sweep.
   struct State {
     Place place = 0;
-    std::int8_t open_facets = 0;  // that need its extrapolated gradient yet
+    std::int8_t open_facets = 0;  // that still need its extrapolated gradient
     bool visited = false;
   };
 
@@ -55,7 +55,7 @@ class SweepBuilder {
 
   SweepPart build_part(std::size_t p) {
     SweepPart part;
-    // Slots are taken again most recently released first: that one is still in the cache.
+    // Reuses the most recently released slot, which is still in the cache.
     std::vector<Place> free;
     const auto take = [&] {
       if (free.empty()) return part.num_slots++;
@@ -104,7 +104,7 @@ std::vector<Index> order_in_space(const DomainMesh<Dim>& mesh) {
   return spatial_order<Dim>(centers);
 }
 
-// Whether more cells wait for neighbours than any order with some locality would leave waiting.
+// Whether more cells wait for neighbors than in any order with locality.
 template <int Dim>
 bool is_scattered(const Sweep& sweep) {
   const auto num_seams = static_cast<double>(sweep.seams.size());
@@ -117,7 +117,7 @@ bool is_scattered(const Sweep& sweep) {
 
 }  // namespace
 
-// Meshes made here are in order already, and others are often; memory streams best in its own.
+// Meshes from flbc, and many others, are already ordered; their own order streams memory best.
 template <int Dim>
 Sweep make_sweep(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology, int num_parts) {
   constexpr int kSmallestPart = 512;

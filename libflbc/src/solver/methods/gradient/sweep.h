@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The order in which one pass over memory takes a mesh from an iteration's G-step to the duals of
-//! the next iteration.
+//! The order of one pass over memory, from the G-step of an iteration to the duals of the next
+//! iteration.
 #pragma once
 
 #include <vector>
@@ -15,22 +15,21 @@ namespace flbc::gradient {
 struct SweepPart {
   std::vector<Visit> visits;
   std::vector<Closing> closings;  //!< in the order of the visits
-  Index num_slots = 0;            //!< the most extrapolated gradients that are needed at a time
+  Index num_slots = 0;            //!< maximum number of extrapolated gradients needed at a time
 
   SweepPath path() const { return {visits.data(), visits.size(), closings.data()}; }
 };
 
-//! A facet's dual step needs nothing but the extrapolated gradients of its two cells, so it can be
-//! made as soon as both are there, while they and its dual are still in the cache. What is needed
-//! again later in the sweep only is the extrapolated gradient of cells with neighbours to come; few
-//! if the order of cells follows a space-filling curve, so that they stay in the cache, too, and
-//! never go to memory. Facets between parts are left for the end.
+//! The dual step of a facet needs only the extrapolated gradients of its two cells. It runs as soon
+//! as both are available, while the data are in the cache. The sweep keeps the extrapolated
+//! gradients of cells with pending neighbors. If cells follow a space-filling curve, there are few
+//! of them, and they stay in the cache. Facets between parts are processed at the end.
 struct Sweep {
   std::vector<SweepPart> parts;
   std::vector<Index> seams;  //!< facets between parts
 };
 
-//! \param num_parts  wanted; fewer for small meshes
+//! \param num_parts  requested number; fewer for small meshes
 template <int Dim>
 Sweep make_sweep(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology, int num_parts);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Arrays of cells by slices of control points, one per thread. Each thread then streams memory of
-//! its own; of rows of all control points it would read a part of every line.
+//! Arrays of cells in slices of control points, one per thread. Each thread then streams contiguous
+//! memory instead of reading a part of every row.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace flbc::splitting {
 //! The slices, and the order slice, cell, component, control point of the slice.
 class ColumnSlices {
  public:
-  //! \param stride  numbers of a row in all slices \param count  of slices at most
+  //! \param stride  values per row in all slices \param count  maximum number of slices
   ColumnSlices(std::size_t stride, int count) : stride_(stride) {
     for (int k = 0; k < count; ++k) {
       const Slice slice = slice_of(stride, k, count);
@@ -28,16 +28,16 @@ class ColumnSlices {
   std::size_t size() const { return slices_.size(); }
   Slice operator[](std::size_t k) const { return slices_[k]; }
 
-  //! Numbers from one row of a slice to the next.
+  //! Distance between rows of a slice, in values.
   static std::size_t stride_of(Slice slice) { return slice.end - slice.begin; }
 
-  //! Where column 0 of a slice's first row is, or would be. \param rows  of the array
+  //! Position of column 0 in the first row of a slice, possibly virtual. \param rows  of the array
   static std::size_t offset_of(Slice slice, std::size_t rows) {
     return rows * slice.begin - slice.begin;
   }
 
-  //! Calls body(begin, width, place) for the columns of every slice, and where in the array they
-  //! stand. \param row  of so many rows: cell times components, and the component
+  //! Calls body(begin, width, place) for the columns of every slice, with their position in the
+  //! array. \param row  row index: cell * components + component
   template <class Body>
   void for_each(std::size_t row, std::size_t rows, const Body& body) const {
     for (const Slice slice : slices_) {

@@ -14,7 +14,7 @@
 namespace flbc::compact {
 namespace {
 
-// Interior vertices in the factor's order, then the boundary.
+// Interior vertices in the order of the factor, then the boundary.
 template <class Scalar, int Dim>
 void set_up_rows(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
                  const std::vector<Index>& position, CompactData<Scalar, Dim>& data) {
@@ -41,7 +41,7 @@ double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
   return measure * measure * boundary_flux_density(problem, s).squaredNorm();
 }
 
-// Moves interior corners to the front, in their order; std::stable_partition asks for memory.
+// Moves interior corners to the front, in their order; std::stable_partition would allocate memory.
 template <std::size_t N, class Predicate>
 void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
   auto end = corners.begin();
@@ -50,7 +50,7 @@ void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
   }
 }
 
-// Cells all of whose corners lie on the boundary have nothing to say about the weights.
+// Cells with all corners on the boundary do not affect the weights.
 template <class Scalar, int Dim>
 void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
                   CompactData<Scalar, Dim>& data) {

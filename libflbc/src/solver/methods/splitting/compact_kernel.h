@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! The inner loops of the compact splitting (compact_splitting.h) on plain arrays. The same source
-//! is compiled for several instruction sets; there is no Eigen here, whose inline functions could
+//! is compiled for several instruction sets; it does not use Eigen, whose inline functions could
 //! clash.
 //!
 //! Every array is element-major, then component, then `stride` control points contiguous (n, padded
@@ -18,19 +18,20 @@
 
 namespace flbc::compact {
 
-//! A number of IEEE half precision.
+//! An IEEE half precision number.
 struct Half {
   std::uint16_t bits;
 };
 
-//! A cell with interior corners, which stand first.
+//! A cell with interior corners, which come first.
 template <class Scalar, int Dim>
 struct Cell {
   Scalar hats[Dim + 1][Dim];   // sqrt(m_s) times the gradients of the corners' hat functions
   std::int32_t rows[Dim + 1];  // of the corners, below num_interior first
 };
 
-//! Numbers of P and the radii are Scalars or halves, as the loops are told by their Stored.
+//! P and the radii are stored as Scalars or halves, depending on the template parameter Stored of
+//! the loops.
 template <class Scalar, int Dim>
 struct Arrays {
   std::size_t stride;
@@ -47,12 +48,12 @@ struct Arrays {
   Scalar* violation_sum;  // stride: the same, of a few cells
   // data
   const Cell<Scalar, Dim>* cells;  // num_cells
-  const std::int32_t* cell_index;  // num_cells: in the mesh, for flux() alone
+  const std::int32_t* cell_index;  // num_cells: index in the mesh, only for flux()
   const void* radius;              // num_cells: phi A / (rho m) in the units of P
   const Scalar* vertex_metric;     // m: k_v
-  const Scalar* basis;             // (Dim + 1): orthonormal basis Q of [1; c]
+  const Scalar* basis;             // Dim + 1 rows: orthonormal basis Q of [1; c]
   const Scalar* row_target;        // m x (Dim + 1): Q^T w of every row that is feasible, not scaled
-  const Scalar* difference;        // rows: w - W, zero on the boundary; to measure and to balance
+  const Scalar* difference;        // rows: w - W, zero on the boundary; for residuals and balancing
   Scalar sigma;
   Scalar relaxation;
 };
@@ -84,7 +85,7 @@ struct Loops {
 
   //! P = clip(P + G a) relaxed; residual -= G^T P.
   SliceLoop z_step;
-  //! The same, which also adds up the violation of z = grad w; needs `difference`.
+  //! The same, also summing the violation of z = grad w; needs `difference`.
   SliceLoop z_step_measured;
   //! After the solve: W relaxed, w = W + the solution projected, a; then the W-step of the next
   //! iteration, S = max(0, S - a) relaxed, and residual = k S.
@@ -101,21 +102,21 @@ struct Loops {
   SliceLoop start_cell_dual;
   //! The dual of the total variation, scale_s clip(P + G a), at [cell_index x Dim].
   void (*flux)(State, Columns, const Scalar* scale, Scalar* flux);
-  //! Adds up, per control point, the squared dual |P + G (w - W)|^2 and the squared |G moved|^2 of
+  //! Sums, per control point, the squared dual |P + G (w - W)|^2 and the squared |G moved|^2 of
   //! rows `moved`.
   void (*balance)(State, Columns, const Scalar* moved, double* dual, double* motion);
-  //! Numbers into the format they are stored in, number `first` and those after it.
+  //! Converts values to the storage format, starting at value `first`.
   //! \param count  a multiple of 8
   void (*encode)(const Scalar* from, void* to, std::size_t first, std::size_t count);
   void (*decode)(const void* from, std::size_t first, Scalar* to, std::size_t count);
-  std::size_t bytes;  //!< of a number that is stored
+  std::size_t bytes;  //!< of a stored value
 };
 
 //! The loops for one instruction set.
 template <class Scalar, int Dim>
 struct Kernel {
   Loops<Scalar, Dim> exact;  //!< P and the radii are Scalars
-  //! They are halves, or floats where the instruction set has no halves; for float only.
+  //! P and the radii are halves, or floats if the instruction set has no halves; for float only.
   Loops<Scalar, Dim> half;
 };
 

@@ -25,8 +25,8 @@ inline int num_interior_corners(const Cell<Scalar, Dim>& cell, std::size_t num_i
   return count;
 }
 
-// Calls `body(corners, cell)` for all cells, so that loops over a cell's interior corners have an
-// end that is known, corners().
+// Calls `body(corners, cell)` for all cells. Loops over interior corners then have the compile-time
+// bound corners().
 template <class Scalar, int Dim, class Body>
 [[gnu::always_inline]] inline void for_cells(const Arrays<Scalar, Dim>& arrays, const Body& body) {
   for (std::size_t s = 0; s < arrays.num_cells; ++s) {
@@ -46,7 +46,7 @@ template <class Scalar, int Dim, class Body>
   }
 }
 
-// Single precision sums of many elements lose digits: pass them on after each block.
+// Single precision sums of many elements lose digits, so each block is added in double precision.
 template <class Scalar, int Dim>
 inline void collect_violation(const Arrays<Scalar, Dim>& arrays, Columns columns) {
   for (std::size_t i = columns.begin; i < columns.end; ++i) {
@@ -83,7 +83,7 @@ void harmonic_residual(const Arrays<Scalar, Dim>& arrays, Columns columns) {
       });
 }
 
-// Adds up what a step returns for the rows begin .. end - 1.
+// Sums the results of a step for the rows begin .. end - 1.
 template <class Step>
 inline RowSums over_rows(std::int32_t begin, std::int32_t end, const Step& step) {
   RowSums sums;
@@ -154,7 +154,7 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
   });
 }
 
-// What a penalty is judged by, see CompactSplitting::adapt_penalty.
+// The norms for balancing the penalty, see CompactSplitting::adapt_penalty.
 template <class Scalar, class Stored, int Dim>
 void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* moved, double* dual,
              double* motion) {

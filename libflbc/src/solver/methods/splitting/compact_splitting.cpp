@@ -93,7 +93,7 @@ void CompactSplitting<Scalar, Dim>::for_slices(
 }
 
 // One pass: each thread takes its slice of control points through the cells and the linear system,
-// then its share of the rows. Without a loop over cells there is no solve either.
+// then its share of the rows. Without a loop over cells, no solve is performed.
 template <class Scalar, int Dim>
 RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells, RowLoop rows) {
   constexpr Index kRowBlock = 256;
@@ -177,7 +177,7 @@ void CompactSplitting<Scalar, Dim>::add_paper_residuals(AlignedArray<Scalar>& mo
   step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / components;
 }
 
-// The w_step that y_step does in advance has to wait for the new penalty.
+// The w_step that y_step performs in advance must wait for the new penalty.
 template <class Scalar, int Dim>
 Step CompactSplitting<Scalar, Dim>::iterate_and_adapt(double ratio, double largest) {
   auto state = arrays();
@@ -305,16 +305,15 @@ void CompactSplitting<Scalar, Dim>::begin_from_weights() {
   std::copy_n(a_.data(), start_.size(), start_.data());
 }
 
-// Every iteration leaves w and W such that w = W + the solution, projected. Duals from elsewhere
-// would move the weights. So what they would do is taken from W instead, for the price of one
-// solve.
+// After every iteration, w = W + the projected solution. Given duals would move the weights, so
+// their effect is subtracted from W, at the cost of one solve.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start_from_duals(const Start<Dim>& start) {
   set_weights(start.weights);
   set_cell_dual(start.flux_density);
   set_vertex_dual(start.vertex_dual_at(penalty_));
   auto state = arrays();
-  state.relaxation = 0;  // the residual alone
+  state.relaxation = 0;  // only computes the residual
   pass(state, loops_->z_step, loops_->correct);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
@@ -342,7 +341,7 @@ void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_den
   }
 }
 
-// S, and the vertices' part of the right-hand side, which an iteration leaves for the next one.
+// S, and the vertex part of the right-hand side, which an iteration prepares for the next one.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
   std::fill_n(S_.data(), S_.size(), Scalar(0));
@@ -393,7 +392,7 @@ WeightMatrix CompactSplitting<Scalar, Dim>::all_weights() const {
   for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
     read_weights(data_.vertices[row], weights.col(data_.vertices[row]).data());
   }
-  // Boundary values are known better than single precision holds them.
+  // Boundary values are known to higher than single precision.
   problem_.boundary.impose_on(weights);
   return weights;
 }
@@ -462,7 +461,7 @@ void CompactSplitting<Scalar, Dim>::with_flux(
       }
     }
   }
-  const State state = const_cast<CompactSplitting*>(this)->arrays();  // which the loop only reads
+  const State state = const_cast<CompactSplitting*>(this)->arrays();  // the loop only reads it
 #pragma omp parallel
   for_slices(state, [&](const State& slice, Columns columns) {
     loops_->flux(slice, columns, scale.data(), flux.data());

@@ -16,23 +16,25 @@
 
 namespace flbc::compact {
 
-//! What a splitting needs besides its problem.
+//! Settings of a splitting.
 struct Settings {
   double penalty = 1;                                  //!< rho > 0
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
   bool half = false;             //!< stores P and the radii in half precision; for float only
-  bool balances = false;         //!< adapts the penalty in the first iterations after a cold start
-  bool harmonic_cold = false;    //!< a cold start computes harmonic coordinates to the end, instead
-                                 //!< of minimizing sum m |grad w|^2 roughly by the factor there is
+  bool balances = false;         //!< adapts the penalty during the first iterations after a cold
+                                 //!< start
+  bool harmonic_cold = false;    //!< a cold start computes accurate harmonic coordinates, instead
+                                 //!< of approximately minimizing sum m |grad w|^2 with the existing
+                                 //!< factor
   bool paper_residuals = false;  //!< measures r_p and r_d of the 2014 solver
 };
 
 //! The ADMM on problem (2) of the paper, which keeps weights and gradients as unknowns and solves a
 //! global linear system in each iteration, as over-relaxed Douglas-Rachford splitting. It minimizes
 //! sum phi A |z| over w with z = grad w, and u = w, u >= 0 if the metric has vertex weights.
-//! tests/support/textbook_lbc2014.h has the same iteration with W, Z, Y, M, H and all duals, and
-//! the same iterates. Put
+//! tests/support/textbook_lbc2014.h has the same iteration and iterates, with W, Z, Y, M, H, and
+//! all duals. Put
 //!
 //!     y = grad W - P,  q = W + S        (y = z + its scaled dual, q = u + its scaled dual)
 //!
@@ -44,13 +46,12 @@ struct Settings {
 //!     y_step:  W += alpha (w - W), w = W + delta, rows projected on { sum w = 1, sum w c = x }
 //!
 //! The projection replaces the null-space parametrization W = Y M + H of (2): the system matrix
-//! acts on columns, M on rows, so Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, and M^T M = I
-//! - Q Q^T.
+//! acts on columns and M on rows. So Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, where
+//! M^T M = I - Q Q^T.
 //!
-//! A cell keeps nothing but P, which is a few radii long at most, so that half precision holds it.
-//! Cells without interior corners are left out: they say nothing about the weights. With an
-//! approximate solver in place of the exact one this is a preconditioned primal-dual iteration with
-//! the same limit.
+//! A cell stores only P, which is at most a few radii long and fits half precision. Cells without
+//! interior corners are omitted, because they do not affect the weights. With an approximate linear
+//! solver, this is a preconditioned primal-dual iteration with the same limit.
 //!
 //! In the units of compact_kernel.h vertex arrays hold sigma = rho u times these numbers, P is
 //! sigma sqrt(m) times as large, and the penalty appears in sigma alone.
@@ -59,8 +60,7 @@ template <class Scalar, int Dim>
 class CompactSplitting final : public Iteration<Dim> {
  public:
   //! \param metric  see metric.h
-  //! \param kernel  the loops to use; the best ones for this processor unless a test asks for
-  //! others
+  //! \param kernel  the loops to use; default: the best for this processor
   CompactSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric,
                    const Settings& settings,
                    const Kernel<Scalar, Dim>& kernel = select_kernel<Kernel<Scalar, Dim>>());
@@ -72,20 +72,21 @@ class CompactSplitting final : public Iteration<Dim> {
   void start_from_weights(const WeightMatrix& weights);
 
   //! Starts from (nearly) minimal sum m |grad w|^2, by at most `steps` Richardson steps with the
-  //! factor there is.
+  //! existing factor.
   void start_from_harmonic(int steps);
 
-  //! Step::change is of the last iteration. Measured, Step::violation is what the constraints
-  //! lacked: z = grad w before the iteration, u = w after it, because the w_step of the next
-  //! iteration is done in advance.
+  //! Step::change refers to the last iteration. Step::violation, if measured, is the violation of z
+  //! = grad w before the iteration and of u = w after it, because the w_step of the next iteration
+  //! is performed in advance.
   Step iterate(int count, bool measure) override;
 
-  //! An iteration, after which the penalty is balanced against how far the weights have moved since
-  //! the start, and duals are kept: rho becomes ratio rho |grad w - y| / |grad (w - w_start)|,
-  //! `largest` at most. Not after a start from duals.
+  //! Performs an iteration, then balances the penalty against the change of weights since the
+  //! start, keeping duals. rho becomes ratio * rho |grad w - y| / |grad (w - w_start)|, at most
+  //! `largest`. Not allowed after a start from duals.
   Step iterate_and_adapt(double ratio, double largest = std::numeric_limits<double>::infinity());
 
-  //! Stores duals in single precision from now on, where half precision would make them tremble.
+  //! Switches the storage of duals to single precision, because half precision makes them
+  //! fluctuate.
   int adapt(int made, double error, bool ends) override;
   void store_in_single();
   bool stores_half() const { return loops_ == &kernel_.half; }
@@ -105,8 +106,7 @@ class CompactSplitting final : public Iteration<Dim> {
   //! q - w of an interior vertex, n numbers.
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
 
-  //! p / A of a cell as it is at present, n x Dim, at most phi long; zero between boundary
-  //! vertices.
+  //! The current p / A of a cell, n x Dim, at most phi long; zero for boundary cells.
   Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 
   Certificate certify(const WeightMatrix& weights) const override;
@@ -144,7 +144,7 @@ class CompactSplitting final : public Iteration<Dim> {
   const Settings settings_;
   const Index n_;
   const std::size_t stride_;
-  const splitting::ColumnSlices slices_;  // one a thread; P and radii are in their order
+  const splitting::ColumnSlices slices_;  // one per thread; P and radii are in their order
   const splitting::Metric metric_;
   const double unit_;  // u
   double penalty_;     // rho
@@ -158,7 +158,7 @@ class CompactSplitting final : public Iteration<Dim> {
   AlignedArray<Scalar> S_;
   AlignedArray<unsigned char> P_;  // by cells with interior corners
   AlignedArray<Scalar> residual_;
-  // what is needed now and then
+  // temporary arrays
   AlignedArray<Scalar> start_;
   AlignedArray<Scalar> difference_;
   AlignedArray<double> violation_;

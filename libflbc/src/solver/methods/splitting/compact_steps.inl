@@ -15,7 +15,7 @@ template <class Scalar, int Dim, int Lanes>
   }
 }
 
-// residual -= G^T field, for the interior corners, of which there are so many.
+// residual -= G^T field, for the interior corners.
 template <class Scalar, int Dim, int Interior, int Lanes>
 [[gnu::always_inline]] inline void subtract_divergence(const Cell<Scalar, Dim>& cell,
                                                        Scalar* residual, std::size_t stride,
@@ -90,7 +90,7 @@ template <class Scalar, int Dim, int Interior, int Lanes>
 }
 
 // W-step and dual step: S += relaxation (max(0, S - a) - S), and k S goes to the residual.
-// \param w  asked for if the violation of u = w is measured, where u = max(0, a - S)
+// \param w  needed only to measure the violation of u = w, where u = max(0, a - S)
 template <class Scalar, int Dim, bool Measured, int Lanes>
 [[gnu::always_inline]] inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row,
                                              std::size_t i, PackN<Scalar, Lanes> a,
@@ -115,8 +115,8 @@ template <class Scalar, int Dim, bool Measured, int Lanes>
   }
 }
 
-// Projects a row on { sum w = 1, sum w c = x } and calls `use(lanes, column, w)` for its packs.
-// \param candidate  of (lanes, column), the numbers to project, less the solution
+// Projects a row onto { sum w = 1, sum w c = x } and calls `use(lanes, column, w)` for its packs.
+// \param candidate  function of (lanes, column): the values to project, minus the solution
 template <class Scalar, int Dim, class Candidate, class Use>
 [[gnu::always_inline]] inline void project_row(const Arrays<Scalar, Dim>& arrays, std::size_t row,
                                                const Candidate& candidate, const Use& use) {

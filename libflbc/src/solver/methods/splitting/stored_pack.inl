@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Packs of numbers that may be stored in half precision, and sums of packs. Included by
+//! Packs of values that may be stored in half precision, and sums of packs. Included by
 //! compact_kernel.inl within its namespace of the instruction set.
 
 #ifdef __F16C__
@@ -47,7 +47,7 @@ inline void store_stored(Stored* to, Pack value) {
   if constexpr (!std::is_same_v<Stored, Half>) store_pack<Lanes>(to, value);
 }
 
-// No longer than what half precision holds.
+// Limited to the range of half precision.
 template <class Stored, class Scalar, int Lanes>
 inline PackN<Scalar, Lanes> saturated(PackN<Scalar, Lanes> pack) {
   if constexpr (std::is_same_v<Stored, Half>) {
@@ -59,8 +59,8 @@ inline PackN<Scalar, Lanes> saturated(PackN<Scalar, Lanes> pack) {
   return pack;
 }
 
-// min(1, radius / sqrt(length2)). What is stored in half precision needs no more digits of the root
-// than the processor's estimate has.
+// min(1, radius / sqrt(length2)). For half precision storage, the processor estimate of the root is
+// accurate enough.
 template <class Stored, class Scalar, int Lanes>
 inline PackN<Scalar, Lanes> shrinkage(PackN<Scalar, Lanes> radius, PackN<Scalar, Lanes> length2) {
   using Numbers = PackN<Scalar, Lanes>;
@@ -74,7 +74,7 @@ inline PackN<Scalar, Lanes> shrinkage(PackN<Scalar, Lanes> radius, PackN<Scalar,
     }
     const Numbers ratio = radius * estimate;
     const Numbers one = Numbers{} + Scalar(1);
-    return ratio < one ? ratio : one;  // 1 for 0 / 0, too
+    return ratio < one ? ratio : one;  // also 1 for 0 / 0
   }
 #endif
   Numbers norm2 = radius * radius + std::numeric_limits<Scalar>::min();
@@ -95,7 +95,7 @@ inline Scalar sum_of(PackN<Scalar, Lanes> pack) {
   }
 }
 
-// Sums over a row, of wide packs and of what is left of the row.
+// Sums over a row, from wide packs and the remainder.
 template <class Scalar>
 struct RowSum {
   PackN<Scalar, kWideLanes> wide{};
