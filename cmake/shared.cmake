@@ -17,14 +17,15 @@ set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
 
-# The words of headers in the form of mangled names: length, word.
-function(flbc_words_of headers result)
+# What matches an expression in headers, as mangled names: length, word. Comments do not count.
+function(flbc_names_in headers expression result)
   set(words)
   foreach(header IN LISTS headers)
     file(READ ${header} text)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
     string(REGEX REPLACE "//[^\n]*" "" text "${text}")
-    string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*" found "${text}")
+    string(REGEX MATCHALL "${expression}" found "${text}")
+    list(TRANSFORM found REPLACE "\\(|(class|struct) " "")
     list(APPEND words ${found})
   endforeach()
   list(REMOVE_DUPLICATES words)
@@ -38,11 +39,17 @@ function(flbc_words_of headers result)
   set(${result} ${mangled} PARENT_SCOPE)
 endfunction()
 
-# Functions and variables, const functions, and what belongs to types.
+# Functions, and what belongs to types: members, const members, type information. The linker matches
+# every symbol with every pattern, so there are only those that may be needed.
 function(flbc_list_exports namespace headers)
-  flbc_words_of("${headers}" words)
-  foreach(kind N NK TIN TSN TVN TTN)
-    foreach(word IN LISTS words)
+  set(name "[A-Za-z_][A-Za-z_0-9]*")
+  flbc_names_in("${headers}" "${name}\\(" functions)
+  flbc_names_in("${headers}" "(class|struct) ${name}" types)
+  foreach(word IN LISTS functions types)
+    string(APPEND exports "    _ZN${namespace}${word}*;\n")
+  endforeach()
+  foreach(kind NK TIN TSN TVN TTN)
+    foreach(word IN LISTS types)
       string(APPEND exports "    _Z${kind}${namespace}${word}*;\n")
     endforeach()
   endforeach()
