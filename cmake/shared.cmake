@@ -1,7 +1,7 @@
-# Shared libraries, with -DBUILD_SHARED_LIBS=ON. They are versioned, find each other after the tree
-# is moved, and export only the names of public headers, by a linker version script. Visibility
-# attributes would be needed at every function, because a namespace attribute does not apply to
-# templates defined in source files.
+# Shared libraries, with -DBUILD_SHARED_LIBS=ON. They carry their version, find each other after the
+# tree has moved, and export only the names of public headers, by a list for the linker. Visibility
+# attributes would be needed at every function, because the attribute of a namespace does not apply
+# to templates that source files define.
 if(NOT BUILD_SHARED_LIBS)
   return()
 endif()
@@ -17,18 +17,19 @@ set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
 
-# The identifiers in headers in mangled form: length, identifier.
-function(flbc_words_of headers result)
+# What matches an expression in headers, as mangled names: length, word. Comments do not count.
+function(flbc_names_in headers expression result)
   set(words)
   foreach(header IN LISTS headers)
     file(READ ${header} text)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
     string(REGEX REPLACE "//[^\n]*" "" text "${text}")
-    string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*" found "${text}")
+    string(REGEX MATCHALL "${expression}" found "${text}")
+    list(TRANSFORM found REPLACE "\\(|(class|struct) " "")
     list(APPEND words ${found})
   endforeach()
   list(REMOVE_DUPLICATES words)
-  # Namespaces would export all their names.
+  # Namespaces would export all names in them.
   list(REMOVE_ITEM words flbc io openmesh distance gradient active_set splitting)
   set(mangled)
   foreach(word IN LISTS words)
@@ -38,11 +39,17 @@ function(flbc_words_of headers result)
   set(${result} ${mangled} PARENT_SCOPE)
 endfunction()
 
-# Functions and variables, const functions, and type information.
+# Functions, and what belongs to types: members, const members, type information. The linker matches
+# every symbol with every pattern, so there are only those that may be needed.
 function(flbc_list_exports namespace headers)
-  flbc_words_of("${headers}" words)
-  foreach(kind N NK TIN TSN TVN TTN)
-    foreach(word IN LISTS words)
+  set(name "[A-Za-z_][A-Za-z_0-9]*")
+  flbc_names_in("${headers}" "${name}\\(" functions)
+  flbc_names_in("${headers}" "(class|struct) ${name}" types)
+  foreach(word IN LISTS functions types)
+    string(APPEND exports "    _ZN${namespace}${word}*;\n")
+  endforeach()
+  foreach(kind NK TIN TSN TVN TTN)
+    foreach(word IN LISTS types)
       string(APPEND exports "    _Z${kind}${namespace}${word}*;\n")
     endforeach()
   endforeach()
@@ -66,7 +73,7 @@ foreach(target IN LISTS shared_libraries)
   if(NOT TARGET ${target})
     continue()
   endif()
-  # The interface may change with every minor version, as in write_basic_package_version_file().
+  # An interface may change with every minor version, as write_basic_package_version_file() says.
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     INSTALL_RPATH "$ORIGIN")

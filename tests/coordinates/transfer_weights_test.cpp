@@ -106,7 +106,7 @@ TEST_IN_2D_AND_3D(TransferTest, UnmatchedPointsAreNamed) {
     FAIL();
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("2 of " + std::to_string(to.cols()) + " vertices (4, 9)"),
+    EXPECT_NE(message.find("2 of " + std::to_string(to.cols()) + " vertices (4 and 9)"),
               std::string::npos)
         << message;
     EXPECT_NE(message.find("the farthest is vertex 4"), std::string::npos) << message;
