@@ -124,7 +124,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
               << ')';
   }
   if (shows_displacement) {
-    std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark red)";
+    std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark blue)";
   }
   std::cerr << '\n';
   model.print_losses();

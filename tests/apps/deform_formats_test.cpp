@@ -165,12 +165,12 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
   const PointList<3> points = points_of(mesh);
   Eigen::Index farthest = 0;
   const double largest = points.colwise().norm().maxCoeff(&farthest);
-  const OpenMesh::Vec3uc still(247, 248, 250), last(118, 18, 36);
+  const OpenMesh::Vec3uc still(248, 248, 249), last(23, 48, 114);
   for (const std::string extension : {"obj", "off", "ply", "om"}) {
     SCOPED_TRACE(extension);
     const auto errors = deform(command + path("o_%d." + extension)).errors;
     std::ostringstream value;
-    value << "; shown from 0 (near white) to " << largest << " (dark red)\n";
+    value << "; shown from 0 (near white) to " << largest << " (dark blue)\n";
     EXPECT_NE(errors.find(value.str()), std::string::npos) << errors;
     EXPECT_NE(errors.find("colors (they show the displacement)"), std::string::npos) << errors;
     std::vector<OpenMeshModel> shown;
@@ -211,7 +211,7 @@ TEST_F(DeformFormats, NothingMovesNothingIsShown) {
   deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --pose " + rest +
          " --show-displacement -o " + path("o.off"));
   const auto shown = read_by_openmesh(path("o.off"), Options(Options::VertexColor));
-  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(247, 248, 250));
+  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(248, 248, 249));
 }
 
 template <int Dim>
@@ -268,7 +268,7 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
                              " --pose " + pose + " --show-displacement -o " + path("p.ply"));
   EXPECT_NE(result.errors.find("field \"other\""), std::string::npos) << result.errors;
   const auto shown = read_by_openmesh(path("p.ply"), Options(Options::VertexColor));
-  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(118, 18, 36));
+  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(23, 48, 114));
 }
 
 // The rows of weights are what flbc solve gives for the same file.
