@@ -31,7 +31,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
     for (const char* option :
-         {"--phi", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
+         {"--phi", "--smoothness", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
           "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
       refuse(option, name + " does not use it");
     }
@@ -53,6 +53,9 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.option_defaults()->group("Solver");
   add_choice(command, "--method", options.method,
              "solver method (default: auto, which is value, the weight-splitting ADMM)");
+  command.add_option("--smoothness", options.smoothness,
+                     "remove kinks of the weights at the cost of more influences: 0 (none) to 0.03 "
+                     "(default: 0)");
   command.add_option("--tolerance", options.tolerance,
                      "target for the estimated error of the weights (default: 1e-6 for gradient, "
                      "1e-7 for other methods)");

@@ -121,17 +121,19 @@ void set_up_periods(GradientProblem<Dim>& problem) {
 
 template <int Dim>
 GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
-                                           DistanceScheme phi) {
+                                           DistanceScheme phi, double smoothness) {
   GradientProblem<Dim> problem;
   problem.base = make_problem(cage, domain.mesh, std::move(domain.topology), phi);
   problem.base.cage = cage;
   problem.base.mesh = std::move(domain.mesh);
   problem.base.scale = 1;
+  problem.base.smoothness = smoothness * bounding_box_diagonal(cage.points);
   const auto& mesh = problem.base.mesh;
   problem.radius = problem.base.phi.dense();
   Eigen::VectorXd measures(mesh.num_cells());
   for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = signed_measure(mesh, s);
   problem.radius *= measures.asDiagonal();
+  problem.quadratic = problem.base.smoothness * measures;
   set_up_facets(problem);
   set_up_barycentric_conditions(problem);
   set_up_periods(problem);
@@ -143,7 +145,7 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   return problem;
 }
 
-template GradientProblem<2> make_gradient_problem(const Cage<2>&, Domain<2>, DistanceScheme);
-template GradientProblem<3> make_gradient_problem(const Cage<3>&, Domain<3>, DistanceScheme);
+template GradientProblem<2> make_gradient_problem(const Cage<2>&, Domain<2>, DistanceScheme, double);
+template GradientProblem<3> make_gradient_problem(const Cage<3>&, Domain<3>, DistanceScheme, double);
 
 }  // namespace flbc::openmesh

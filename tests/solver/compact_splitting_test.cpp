@@ -4,6 +4,7 @@
 #include "solver/methods/splitting/compact_splitting.h"
 
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -93,10 +94,13 @@ TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
   all.push_back(kDim == 2 ? with_many_control_points<kDim>(7, 14)
                           : with_many_control_points<kDim>(2, 4));
   for (const auto& sample : all) {
-    for (const bool non_negative : {false, true}) {
-      const double power = non_negative ? 1 : 2;
-      SCOPED_TRACE(sample.name + ", metric A^" + std::to_string(power));
-      const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    // Smoothness is for the metric A only.
+    for (const auto& [non_negative, power, smoothness] :
+         {std::tuple(false, 2, 0.0), {true, 1, 0.0}, {false, 1, 0.02}, {true, 1, 0.02}}) {
+      SCOPED_TRACE(sample.name + ", metric A^" + std::to_string(power) + ", smoothness " +
+                   std::to_string(smoothness));
+      const auto problem =
+          make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
       const auto metric = make_metric(problem, power, non_negative);
       const double penalty = make_penalty(problem, metric);
       const double relaxation = non_negative ? 1.65 : 1;

@@ -40,6 +40,7 @@ TextbookAdmm<Dim> textbook_for(const LbcProblem<Dim>& problem,
   input.phi = problem.phi.dense();
   input.boundary_weights = demanded_boundary_weights(problem.cage, problem.mesh);
   input.penalty = kPenalty<Dim>;
+  input.smoothness = problem.smoothness;
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
     input.initial_gradients.push_back(admm.gradients().cell(s));
   }
@@ -86,10 +87,13 @@ TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
   constexpr int kDim = TypeParam::value;
   for (const auto& sample : samples<kDim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
-    gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
-    admm.start_from_weights(harmonic_coordinates(problem));
-    expect_equal_iterates(problem, admm);
+    auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
+    for (const double smoothness : {0.0, 0.02}) {
+      problem.smoothness = smoothness;
+      gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
+      admm.start_from_weights(harmonic_coordinates(problem));
+      expect_equal_iterates(problem, admm);
+    }
   }
 }
 

@@ -51,6 +51,7 @@ Lbc2014Input<Dim> textbook_input(const LbcProblem<Dim>& problem, const splitting
   input.vertex_metric = metric.vertex;
   input.penalty = penalty;
   input.relaxation = relaxation;
+  input.smoothness = problem.smoothness;
   // The library starts with y = z + u = 0, so that u = -grad w.
   input.initial_z_dual.resize(start.rows(), Dim * problem.mesh.num_cells());
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {

@@ -141,7 +141,7 @@ void TextbookAdmm<Dim>::update_y() {
   }
 }
 
-// Shrinkage, with the norm that the paper's formula lacks.
+// Shrinkage, with the norm that the paper's formula lacks, and the quadratic term's division.
 template <int Dim>
 void TextbookAdmm<Dim>::update_z() {
   const Eigen::MatrixXd a = G_ - lambda_Z_ / input_.penalty;
@@ -153,7 +153,8 @@ void TextbookAdmm<Dim>::update_z() {
       if (norm <= threshold) {
         Z_.block(Dim * s, i, Dim, 1).setZero();
       } else {
-        Z_.block(Dim * s, i, Dim, 1) = (1 - threshold / norm) * a_si;
+        const double division = 1 + input_.smoothness * measures_[s] / input_.penalty;
+        Z_.block(Dim * s, i, Dim, 1) = (1 - threshold / norm) / division * a_si;
       }
     }
   }

@@ -26,6 +26,7 @@ struct TextbookInput {
   Eigen::MatrixXd phi;                            //!< n x F, per control point and cell, >= 0
   Eigen::MatrixXd boundary_weights;               //!< n x V, read at boundary vertices only
   double penalty = 1;                             //!< mu > 0
+  double smoothness = 0;                          //!< epsilon >= 0, a length
   std::vector<PointList<Dim>> initial_gradients;  //!< F blocks, Dim x n; need not be feasible
 };
 

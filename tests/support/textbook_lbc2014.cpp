@@ -78,7 +78,9 @@ void TextbookLbc2014<Dim>::iterate() {
       auto z = Z_.block(Dim * s, i, Dim, 1);
       const double threshold =
           input_.phi(i, s) * measure / (input_.penalty * input_.cell_metric[s]);
-      z *= z.norm() > threshold ? 1 - threshold / z.norm() : 0.0;
+      const double division =
+          1 + input_.smoothness * measure / (input_.penalty * input_.cell_metric[s]);
+      z *= z.norm() > threshold ? (1 - threshold / z.norm()) / division : 0.0;
     }
   }
   violation_z_ = Z_ - grad;

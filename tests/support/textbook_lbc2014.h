@@ -25,10 +25,11 @@ struct Lbc2014Input {
   Eigen::VectorXd vertex_metric;    //!< weight of |W - w|^2 per vertex, V; empty: no W
   double penalty = 1;               //!< mu > 0
   double relaxation = 1;            //!< in (0, 2)
+  double smoothness = 0;            //!< epsilon >= 0, a length
   Eigen::MatrixXd initial_z_dual{};  //!< scaled dual of Z, n x Dim F (a block per cell)
 };
 
-//! Alternates 1. W and Z, 2. Y, 3. duals, with over-relaxation of W and Z in steps 2 and 3.
+//! With the quadratic term epsilon / 2 A |grad w|^2. Alternates 1. W and Z, 2. Y, 3. duals, with over-relaxation of W and Z in steps 2 and 3.
 template <int Dim>
 class TextbookLbc2014 {
  public:

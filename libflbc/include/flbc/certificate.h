@@ -14,12 +14,15 @@ struct Certificate {
   double relative_gap = 0;  //!< (objective - lower_bound) / objective
 };
 
-//! The Lagrangian dual function, a lower bound on the objective. For every cell field p with
-//! |p_s^i| <= phi_s^i A_s, the objective of any feasible w is at least
+//! The Lagrangian dual function, a lower bound on the objective. For every cell field p, the
+//! objective of any feasible w is at least
 //!
-//!     sum_s sum_i p_s^i . grad w_i = sum_v sum_i w_i(v) (D p_i)(v),
+//!     sum_s sum_i p_s^i . grad w_i - C(p) = sum_v sum_i w_i(v) (D p_i)(v) - C(p),
 //!     (D p_i)(v) = sum over the cells s at v of p_s^i . grad(lambda_v),
+//!     C(p) = sum_s sum_i A_s max(|p_s^i| / A_s - phi_s^i, 0)^2 / (2 epsilon).
 //!
+//! With smoothness epsilon = 0, C(p) is 0 for |p_s^i| <= phi_s^i A_s, and longer vectors are
+//! shortened.
 //! Boundary vertices contribute fixed terms. Every interior vertex contributes at least the value
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
 //! The bound holds for all arguments. It accounts for rounding in the flux, the sums, and the
@@ -27,10 +30,10 @@ struct Certificate {
 //! docs/explanation/method/certificate.md). It is tight if the flux is the dual of a nearly
 //! converged solver.
 //! \param problem  mesh, phi and boundary values
-//! \param flux  p, a vector per cell and control point; longer vectors are shortened to phi A, and
-//! non-finite ones count as 0
+//! \param flux  p, a vector per cell and control point; non-finite ones count as 0
 //! \param weights  n x V, an estimate of the optimum that saves time
-//! \return at least 0 and at most objective(problem.mesh, problem.phi, w) for all feasible w >= 0
+//! \return at least 0 and at most objective(problem.mesh, problem.phi, w, problem.smoothness) for
+//! all feasible w >= 0
 //! \throws InputError if sizes do not fit
 template <class Scalar, int Dim>
 double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,

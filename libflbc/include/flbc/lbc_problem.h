@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The discretized problem (7)-(10) of the paper.
+//! The discretized problem (7)-(10) of the paper, with an optional quadratic term.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@ struct LbcProblem {
   BoundaryValues<Dim> boundary;  //!< known weights (properties 4 and 5 of the paper)
   WeightFunctions phi;           //!< n x F: weights of the total variation
   double scale = 1;              //!< scaled length / original length
+  double smoothness = 0;         //!< epsilon >= 0 of the quadratic term, scaled length
 
   //! n.
   Index num_control_points() const { return cage.size(); }
@@ -56,19 +57,22 @@ using VectorsAt = std::function<Eigen::Matrix<double, Eigen::Dynamic, Dim>(Index
 //! \param cage  n control points
 //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
 //! \param scheme  growth of phi with the geodesic distance
+//! \param smoothness  SolverOptions::smoothness, >= 0
 //! \throws InputError naming the element if the mesh does not match the cage, or if the mesh has
 //! several parts; SolverError if distances cannot be computed
 template <int Dim>
-LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme);
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme,
+                             double smoothness = 0);
 
 //! The same with known facets in the caller's order, for example from a half-edge mesh.
 //! \param cage  n control points
 //! \param mesh  domain mesh of the cage, V vertices
 //! \param topology  of the mesh
 //! \param scheme  growth of phi with the geodesic distance
+//! \param smoothness  SolverOptions::smoothness, >= 0
 //! \throws InputError, SolverError as above
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
-                             DistanceScheme scheme);
+                             DistanceScheme scheme, double smoothness = 0);
 
 }  // namespace flbc

@@ -78,6 +78,12 @@ struct SolverOptions {
   //! Growth of the functions phi with distance.
   DistanceScheme phi = DistanceScheme::kSquare;
 
+  //! Trades locality for smoothness: epsilon / size of the cage (bounding_box_diagonal), >= 0. The
+  //! objective gets the term epsilon / 2 |grad w_i|^2, which removes the kinks of total variation
+  //! and makes the optimum unique. 0 is the problem of the paper. Useful values are 0.001 to 0.03.
+  //! For kValue and kGradient; an error for other methods that minimize.
+  double smoothness = 0;
+
   //! Source of the distances for phi when solve() sets up the problem. kAuto interpolates if the
   //! estimated effect on the weights is below half the tolerance. The report contains the estimated
   //! error of phi.

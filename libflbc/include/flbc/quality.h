@@ -30,19 +30,21 @@ template <int Dim, class Weights>
 Quality measure_quality(const PointList<Dim>& control_points, const PointList<Dim>& points,
                         const Weights& weights);
 
-//! Objective (7) of the paper, sum_s sum_i phi_s^i A_s |grad w_i|_s.
+//! Objective (7) of the paper plus the quadratic term of SolverOptions::smoothness:
+//! sum_s sum_i A_s (phi_s^i |grad w_i|_s + epsilon / 2 |grad w_i|_s^2).
 //! \param mesh  valid, F cells, V vertices
 //! \param phi  n x F
 //! \param weights  n x V
+//! \param smoothness  epsilon >= 0, a length in units of the mesh
 //! \return in units of phi times the mesh^(Dim - 1)
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
-                 const WeightMatrix& weights);
+                 const WeightMatrix& weights, double smoothness = 0);
 
 //! The same for sparse weights.
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
-                 const SparseWeights& weights);
+                 const SparseWeights& weights, double smoothness = 0);
 
 //! The total variation sum_s sum_i A_s |grad w_i|_s.
 //! \param mesh  valid, V vertices

@@ -62,7 +62,8 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 
 //! Solves a problem from make_problem(). Several solves with different options may share it.
 //! Parameters and errors are as above.
-//! \param problem  made with options.phi; kHarmonic and kMeanValue need no phi
+//! \param problem  made with options.phi and options.smoothness; kHarmonic and kMeanValue need
+//! neither
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
@@ -125,7 +126,7 @@ class Solver {
   void anchor();
 
   //! Changes the options of the following solves. The next solve resumes from the last state unless
-  //! method, precision, non_negative, linear_solver, penalty, or active_set differ.
+  //! method, smoothness, precision, non_negative, linear_solver, penalty, or active_set differ.
   //! \param options  with the same phi
   //! \throws OptionError; then options are unchanged
   void set_options(const SolverOptions& options);

@@ -50,7 +50,7 @@ struct LongRounded {
   }
 };
 
-// The flux in double precision, shortened so that |p| <= phi A.
+// The flux in double precision. Without smoothness it is shortened so that |p| <= phi A.
 template <class Scalar, int Dim>
 class AdmissibleFlux {
  public:
@@ -72,9 +72,7 @@ class AdmissibleFlux {
 
   // Adds p_s^i . grad(lambda).
   void add(Index s, const CellGeometry<Dim>& geometry, int corner, Index i, Rounded& sum) const {
-    // Slightly shorter than the limit, so that rounding cannot make it longer.
-    const double radius = (1 - 4 * kEpsilon) * problem_.phi(i, s) * geometry.measure;
-    const Scalar* p = flux_.data + static_cast<std::size_t>(s) * Dim * flux_.stride + i;
+    const Scalar* p = at(s, i);
     double length2 = 0, product = 0, magnitude = 0;
     for (int d = 0; d < Dim; ++d) {
       const double component = static_cast<double>(p[d * flux_.stride]);
@@ -83,13 +81,41 @@ class AdmissibleFlux {
       product += term;
       magnitude += std::abs(term);
     }
-    // Squares that underflow must not count as zero; squares that overflow, or NaN, make the flux
-    // zero.
-    constexpr double kLeastRadius = 1e-140;
-    if (!(length2 < std::numeric_limits<double>::infinity()) || !(radius > kLeastRadius)) return;
-    const double factor = length2 > radius * radius ? radius / std::sqrt(length2) : 1;
+    // Squares that overflow, or NaN, make the flux zero.
+    if (!(length2 < std::numeric_limits<double>::infinity())) return;
+    double factor = 1;
+    if (problem_.smoothness == 0) {
+      // Slightly shorter than the limit, so that rounding cannot make it longer.
+      const double radius = (1 - 4 * kEpsilon) * problem_.phi(i, s) * geometry.measure;
+      // Squares that underflow must not count as zero.
+      constexpr double kLeastRadius = 1e-140;
+      if (!(radius > kLeastRadius)) return;
+      if (length2 > radius * radius) factor = radius / std::sqrt(length2);
+    }
     sum.value += factor * product;
     sum.magnitude += factor * magnitude;
+  }
+
+  // C(p) of a cell, rounded up.
+  double conjugate(Index s) const {
+    constexpr double kUp = 1 + 8 * kEpsilon;
+    constexpr double kDown = 1 - 8 * kEpsilon;
+    const double measure = cell_geometry(problem_.mesh, s).measure;
+    double sum = 0;
+    for (Index i = 0; i < flux_.n; ++i) {
+      const Scalar* p = at(s, i);
+      double length2 = 0;
+      for (int d = 0; d < Dim; ++d) {
+        const double component = static_cast<double>(p[d * flux_.stride]);
+        length2 += component * component;
+      }
+      if (!(length2 < std::numeric_limits<double>::infinity())) continue;
+      const double excess =
+          kUp * std::sqrt(length2) / measure - kDown * problem_.phi(i, s);
+      if (excess > 0) sum += excess * excess;
+    }
+    const double rounding = 1 + (flux_.n + 8) * kEpsilon;
+    return rounding * measure / (2 * problem_.smoothness) * sum;
   }
 
   // Rounding errors in a sum over the cells at a vertex.
@@ -98,6 +124,10 @@ class AdmissibleFlux {
   }
 
  private:
+  const Scalar* at(Index s, Index i) const {
+    return flux_.data + static_cast<std::size_t>(s) * Dim * flux_.stride + i;
+  }
+
   const LbcProblem<Dim>& problem_;
   const CellFieldView<Scalar, Dim>& flux_;
   VertexCells around_;
@@ -184,7 +214,17 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
         progress.add(end - begin);
         return block;
       });
-  const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()));
+  LongRounded conjugate;
+  if (problem.smoothness > 0) {
+    conjugate = parallel_sum(problem.mesh.num_cells(), conjugate, [&](Index begin, Index end) {
+      LongRounded block;
+      for (Index s = begin; s < end; ++s) block.add(-admissible.conjugate(s));
+      return block;
+    });
+  }
+  const auto bound =
+      static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()) +
+                          conjugate.rounded_down(problem.mesh.num_cells()));
   // Every objective is at least 0, and a non-finite bound proves nothing more.
   if (!(bound > 0) || !std::isfinite(bound)) return 0;
   return std::nextafter(bound, 0);
@@ -196,7 +236,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
   check_flux_and_weights(problem, flux, weights);
   const WeightMatrix feasible = made_feasible(problem, weights);
   Certificate certificate;
-  certificate.objective = objective(problem.mesh, problem.phi, feasible);
+  certificate.objective = objective(problem.mesh, problem.phi, feasible, problem.smoothness);
   certificate.lower_bound = lower_bound(problem, flux, feasible);
   if (certificate.objective > 0) {
     certificate.relative_gap =

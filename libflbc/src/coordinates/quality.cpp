@@ -93,21 +93,24 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
-                 const WeightMatrix& weights) {
-  return integrate_gradient_lengths(
-      mesh, weights, [&](Index s, const auto& lengths) { return phi.col(s).dot(lengths); });
+                 const WeightMatrix& weights, double smoothness) {
+  return integrate_gradient_lengths(mesh, weights, [&](Index s, const auto& lengths) {
+    const double variation = phi.col(s).dot(lengths);
+    return smoothness > 0 ? variation + smoothness / 2 * lengths.squaredNorm() : variation;
+  });
 }
 
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
-                 const SparseWeights& weights) {
+                 const SparseWeights& weights, double smoothness) {
   return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
     SparseGradients<Dim> gradients(weights.num_control_points());
     double sum = 0;
     for (Index s = begin; s < end; ++s) {
       const auto geometry = cell_geometry(mesh, s);
       gradients.visit(mesh, s, geometry, weights, [&](Index i, const auto& gradient) {
-        sum += geometry.measure * phi(i, s) * gradient.norm();
+        sum += geometry.measure *
+               (phi(i, s) * gradient.norm() + smoothness / 2 * gradient.squaredNorm());
       });
     }
     return sum;
@@ -136,8 +139,10 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
                                    const WeightMatrix&);                                          \
   template Quality measure_quality(const PointList<Dim>&, const PointList<Dim>&,                  \
                                    const SparseWeights&);                                         \
-  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&); \
-  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const SparseWeights&);
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const WeightMatrix&,  \
+                            double);                                                              \
+  template double objective(const DomainMesh<Dim>&, const WeightFunctions&, const SparseWeights&, \
+                            double);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

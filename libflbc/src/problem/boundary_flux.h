@@ -17,7 +17,8 @@ bool is_boundary_cell(const LbcProblem<Dim>& problem, Index cell) {
   return true;
 }
 
-//! p / A = phi grad w / |grad w|, n x Dim, of a boundary cell: the best dual for its weights.
+//! p / A = (phi / |grad w| + epsilon) grad w, n x Dim, of a boundary cell: the best dual for its
+//! weights.
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> boundary_flux_density(const LbcProblem<Dim>& problem,
                                                                  Index cell) {
@@ -30,7 +31,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> boundary_flux_density(const LbcProble
   Eigen::Matrix<double, Eigen::Dynamic, Dim> density = corners * geometry.hat_gradients.transpose();
   for (Index i = 0; i < problem.num_control_points(); ++i) {
     const double length = density.row(i).norm();
-    if (length > 0) density.row(i) *= problem.phi(i, cell) / length;
+    if (length > 0) density.row(i) *= problem.phi(i, cell) / length + problem.smoothness;
   }
   return density;
 }

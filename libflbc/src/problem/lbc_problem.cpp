@@ -39,16 +39,18 @@ DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& probl
 }
 
 template <int Dim>
-LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme) {
+LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme,
+                             double smoothness) {
   auto topology = build_topology(mesh);
-  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme);
+  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme, smoothness);
 }
 
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
-                             DistanceScheme scheme) {
+                             DistanceScheme scheme, double smoothness) {
   require_connected(mesh);
   auto problem = make_geometry(std::move(cage), std::move(mesh), std::move(topology));
+  problem.smoothness = smoothness;
   set_phi(problem, scheme);
   return problem;
 }
@@ -59,9 +61,10 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
   template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>); \
   template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                    \
   template DistanceMatrix distances_for(DistanceScheme, const LbcProblem<Dim>&);         \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme);     \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme,      \
+                                        double);                                         \
   template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,   \
-                                        DistanceScheme);
+                                        DistanceScheme, double);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -48,11 +48,17 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 
 // A problem for a method that does not minimize has no phi.
 template <int Dim>
-void require_phi(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  if (!plan::minimizes(options.method) || problem.phi.cols() == problem.mesh.num_cells()) return;
-  throw InputError(
-      "the problem has no weight functions phi for the cells of its mesh; make_problem() "
-      "computes them");
+void require_objective(const LbcProblem<Dim>& problem, const SolverOptions& options) {
+  if (!plan::minimizes(options.method)) return;
+  if (problem.phi.cols() != problem.mesh.num_cells()) {
+    throw InputError(
+        "the problem has no weight functions phi for the cells of its mesh; make_problem() "
+        "computes them");
+  }
+  if (problem.smoothness != options.smoothness) {
+    throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
+                      ", and the options say " + format_number(options.smoothness));
+  }
 }
 
 template <int Dim>
@@ -95,7 +101,8 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
 template <int Dim, class AnyWeights>
 void measure(const LbcProblem<Dim>& problem, const AnyWeights& weights, SolveReport& report) {
   report.objective = problem.phi.size() > 0
-                         ? unscaled(problem, objective(problem.mesh, problem.phi, weights))
+                         ? unscaled(problem, objective(problem.mesh, problem.phi, weights,
+                                                       problem.smoothness))
                          : std::numeric_limits<double>::quiet_NaN();
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
 }
@@ -231,7 +238,7 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 bool share_state(const SolverOptions& a, const SolverOptions& b) {
   return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
          a.linear_solver == b.linear_solver && a.penalty == b.penalty &&
-         a.active_set == b.active_set;
+         a.active_set == b.active_set && a.smoothness == b.smoothness;
 }
 
 }  // namespace
@@ -241,7 +248,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
                const MesherArgument<Dim>& mesher, const Observer& observer) {
   require_valid(given, bool(mesher));
   const auto options = resolve(given);
-  require_phi(problem, options);
+  require_objective(problem, options);
   const ThreadScope threads(num_threads(problem, options));
   return solve_once(problem, coarse_starts<Dim>(problem, mesher, options), options,
                     Reporter(observer));
@@ -321,6 +328,7 @@ class Solver<Dim>::State {
     if (!share_state(resolve(options), resolve(options_))) restart();
     coarse_.clear();  // made for the previous options
     options_ = options;
+    shape_->problem.smoothness = options.smoothness;
   }
 
   void restart() {
@@ -376,6 +384,7 @@ class Solver<Dim>::State {
     auto& problem = shape->problem;
     problem =
         make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
+    problem.smoothness = options.smoothness;
     shape->run.emplace(problem);
     if (!plan::minimizes(options.method)) return shape;
     shape->distances = shape_->distances;

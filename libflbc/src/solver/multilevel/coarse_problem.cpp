@@ -100,6 +100,7 @@ std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& prob
     report.cells = mesh->num_cells();
     report.mesh_seconds = watch.lap();
     CoarseProblem<Dim> level{make_geometry(problem.cage, std::move(*mesh))};
+    level.problem.smoothness = problem.smoothness;
     measure_phi(below, options, use, level);
     report.setup_seconds = watch.lap();
     level.report = report;

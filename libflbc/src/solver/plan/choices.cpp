@@ -76,7 +76,8 @@ LinearSolver linear_solver(const Sizes& sizes, const SolverOptions& options) {
 
 bool half_precision(Index cells, const SolverOptions& options) {
   return options.method == Method::kValue && options.precision == Precision::kAuto &&
-         *options.tolerance >= kHalfIsEnough && cells >= kHalfCells;
+         *options.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
+         options.smoothness <= kHalfSmoothness;
 }
 
 bool active_set(const Sizes& sizes, const SolverOptions& options) {

@@ -62,6 +62,8 @@ constexpr double kHalfIsEnough = 1e-7;
 //! Minimum number of cells for half precision. On smaller meshes rounding moves weights more, and a
 //! solve is fast anyway.
 constexpr Index kHalfCells = 10000;
+//! Maximum smoothness for half precision. Duals grow with it, and might overflow.
+constexpr double kHalfSmoothness = 0.1;
 //! Half precision ends at this estimated error or after this number of iterations. Rounding duals
 //! in each iteration makes weights fluctuate, which the estimate cannot distinguish from progress.
 constexpr double kTremblingError = 1e-6;

@@ -44,7 +44,7 @@ template <int Dim>
 struct Duals {
   double penalty = 0;                 //!< last penalty
   SparseWeights weights{};            //!< of V points
-  FluxDensities<Dim> flux_density{};  //!< p_s / A_s, at most phi long
+  FluxDensities<Dim> flux_density{};  //!< p_s / A_s, admissible
   //! Sparse q - w of the constraint u = w, u >= 0, at V points, for the penalty above. Empty
   //! without the constraint.
   SparseWeights vertex_dual{};

@@ -22,7 +22,7 @@ template <int Dim>
 struct Start {
   double penalty = 0;             //!< penalty of the vertex duals
   VectorsAt<1> weights{};         //!< of an interior vertex, n values
-  VectorsAt<Dim> flux_density{};  //!< p / A of a cell, n x Dim, at most phi long
+  VectorsAt<Dim> flux_density{};  //!< p / A of a cell, n x Dim, admissible
   VectorsAt<1> vertex_dual{};     //!< q - w of an interior vertex, n values; null: none
 
   bool is_cold() const { return !weights; }
@@ -54,14 +54,18 @@ VectorsAt<1> with_known_values(const LbcProblem<Dim>& problem, VectorsAt<1> weig
   };
 }
 
-//! Shortens the rows that are longer than phi on a cell. Checks for zero rows first, because
-//! evaluating phi takes longer. \param density  n x Dim
-template <class Rows>
-void shorten_to(const WeightFunctions& phi, Index cell, Rows& density) {
+//! Makes p / A of a cell a dual of finite value: without smoothness, relaxed or transferred duals
+//! may be longer than phi and are shortened. Checks for zero rows first, because evaluating phi
+//! takes longer. \param density  n x Dim
+template <int Dim, class Rows>
+void make_admissible(const LbcProblem<Dim>& problem, Index cell, Rows& density) {
+  if (problem.smoothness > 0) return;
   Eigen::ArrayXd squared = density.col(0).array().square();
   for (Eigen::Index d = 1; d < density.cols(); ++d) squared += density.col(d).array().square();
   for (Eigen::Index i = 0; i < density.rows(); ++i) {
-    if (squared[i] > 0) density.row(i) *= std::min(phi(i, cell) / std::sqrt(squared[i]), 1.0);
+    if (squared[i] > 0) {
+      density.row(i) *= std::min(problem.phi(i, cell) / std::sqrt(squared[i]), 1.0);
+    }
   }
 }
 

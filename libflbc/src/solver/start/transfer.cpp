@@ -45,7 +45,7 @@ Start<Dim> Transfer<Dim>::start() const {
   start.weights = interpolated(duals_.weights);
   start.flux_density = [this](Index s) {
     auto density = duals_.flux_density.cell(cells_[s]);
-    shorten_to(fine_.phi, s, density);
+    make_admissible(fine_, s, density);
     return density;
   };
   if (duals_.vertex_dual.num_points() > 0) start.vertex_dual = interpolated(duals_.vertex_dual);

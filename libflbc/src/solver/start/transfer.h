@@ -37,7 +37,7 @@ class Transfer {
   bool is_between_shapes() const { return between_shapes_; }
 
   //! The start on the fine mesh; it refers to this object. Weights are interpolated. The flux
-  //! density is that of the coarse cell containing the fine centroid, shortened to phi.
+  //! density is that of the coarse cell containing the fine centroid, made admissible.
   Start<Dim> start() const;
 
   //! The location of a fine vertex in the coarse mesh.

@@ -23,23 +23,24 @@ struct GradientAdmmOptions {
   double penalty = 0;     //!< mu > 0, in length^(Dim + 1) of the mesh; 0: chosen from the mesh
   double relaxation = 1;  //!< over-relaxation in (0, 2); 1 is the iteration of the paper
   DistanceScheme phi = DistanceScheme::kSquare;  //!< growth of phi with the geodesic distance
+  double smoothness = 0;  //!< >= 0, see SolverOptions::smoothness
   std::string weights = kWeights;                //!< name of the property for recovered weights
   bool persistent = false;                       //!< whether .om files keep state and weights
 };
 
-//! Minimizes sum_s sum_i phi A |g| (7) over a gradient g per cell and control point, subject to the
+//! Minimizes sum_s sum_i A (phi |g| + epsilon / 2 |g|^2), (7) plus the quadratic term, over a gradient g per cell and control point, subject to the
 //! barycentric conditions (8), the boundary values (9), and integrability (10). Copies of the
 //! gradients, X on boundary facets, Y on interior facets, and Z on cells, satisfy one condition
 //! each; u = lambda / mu is the scaled dual of a copy.
 //!
 //!     X-step   x = g - u, its tangential part replaced by h       boundary facets (9)
 //!     Y-step   y = g - u, its tangential part averaged            interior facets (10)
-//!     Z-step   z = g - u, shortened by phi A / mu                 cells (7)
+//!     Z-step   z = g - u, shortened by phi A / mu, / (1 + epsilon A / mu)  cells (7)
 //!     G-step   g = mean of x + u, y + u, z + u, projected on (8)  cells (11)
 //!
 //! Each step updates its dual lambda relative to the extrapolated gradient e = 2 g - (g before)
 //! (docs/explanation/method/gradient_admm.md). Then the dual is a tangential vector per facet or a
-//! vector of length <= phi A per cell. The copy is e + (change of lambda) / mu and need not be
+//! vector per cell, of length <= phi A without smoothness. The copy is e + (change of lambda) / mu and need not be
 //! stored. The gradients are those of the paper, iterate by iterate;
 //! tests/support/textbook_admm.h is the version with all copies. If the boundary has several
 //! components, each one after the first adds a period constraint.
@@ -73,13 +74,16 @@ class GradientAdmm {
   GradientAdmm(Mesh& mesh, const Cage<kDim>& cage, const GradientAdmmOptions& options = {})
       : mesh_(mesh),
         options_(options),
-        problem_(make_gradient_problem(cage, snapped_domain(mesh, cage), options.phi)),
+        problem_(make_gradient_problem(cage, snapped_domain(mesh, cage), options.phi,
+                                       options.smoothness)),
         n_(cage.size()),
         mu_(options.penalty > 0 ? options.penalty : problem_.penalty),
         alpha_(options.relaxation),
         M_(static_cast<double>(kDim + 2 + problem_.periods.size())) {
-    if (!(options.penalty >= 0 && alpha_ > 0 && alpha_ < 2)) {
-      throw OptionError("GradientAdmm: invalid option; use a penalty >= 0, a relaxation in (0, 2)");
+    if (!(options.penalty >= 0 && alpha_ > 0 && alpha_ < 2 && options.smoothness >= 0)) {
+      throw OptionError(
+          "GradientAdmm: invalid option; use a penalty >= 0, a relaxation in (0, 2), a "
+          "smoothness >= 0");
     }
     resumed_ = attach<CellRows>(gradient_, kGradient, kDim) &
                attach<CellRows>(extrapolated_, kExtrapolated, kDim) &
@@ -184,6 +188,9 @@ class GradientAdmm {
       const auto radius = problem_.radius.col(cell.idx()).transpose().array();
       auto shrink = squares.row(0).array();
       shrink = radius / shrink.max(radius.square() + kTiny).sqrt();
+      const double quadratic = problem_.quadratic[cell.idx()];
+      const double theta = quadratic / (mu_ + quadratic);
+      shrink = theta + (1 - theta) * shrink;
       for (int d = 0; d < kDim; ++d) clipped.row(d).array() *= shrink;
       return move(cell_dual(cell), clipped, 1);
     });

@@ -28,6 +28,7 @@ template <int Dim>
 struct GradientProblem {
   LbcProblem<Dim> base;                //!< not scaled
   Eigen::MatrixXd radius;              //!< n x F, phi A
+  Eigen::VectorXd quadratic;           //!< F, epsilon A
   std::vector<VectorRows<Dim>> slope;  //!< per facet, empty inside: tangential gradients h of (9)
   //! Per facet: projector onto its tangents.
   std::vector<Eigen::Matrix<double, Dim, Dim>> projector;
@@ -41,6 +42,6 @@ struct GradientProblem {
 //! \throws InputError if the mesh does not match the cage; SolverError
 template <int Dim>
 GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
-                                           DistanceScheme phi);
+                                           DistanceScheme phi, double smoothness);
 
 }  // namespace flbc::openmesh

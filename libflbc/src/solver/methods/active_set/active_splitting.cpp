@@ -90,6 +90,8 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   state.cells = patches_.cells.data() + patch.first_cell;
   state.radius = patches_.radius.data() + loops_.bytes * patch.first_number;
   state.sigma = static_cast<Scalar>(sigma());
+  state.smoothing =
+      static_cast<Scalar>(problem_.smoothness / (penalty_ + problem_.smoothness));
   return state;
 }
 
@@ -347,8 +349,7 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
     if (i >= n_) break;
     for (int d = 0; d < Dim; ++d) density(i, d) = scale * rows[d * patch.stride + j];
   }
-  // Relaxed duals may be longer than the radius.
-  shorten_to(problem_.phi, cell, density);
+  make_admissible(problem_, cell, density);
   return density;
 }
 

@@ -85,15 +85,18 @@ void set_up_interpolation(const LbcProblem<Dim>& problem, std::size_t stride,
   }
 }
 
-// phi A / mu, the radius of the Z-step projection.
+// The radius phi A / mu and the smoothing epsilon A / (mu + epsilon A) of the Z-step.
 template <class Scalar, int Dim>
-void set_up_radii(const LbcProblem<Dim>& problem, double penalty, std::size_t stride,
-                  ConstraintData<Scalar, Dim>& data) {
+void set_up_proximal_maps(const LbcProblem<Dim>& problem, double penalty, std::size_t stride,
+                          ConstraintData<Scalar, Dim>& data) {
   const Index n = problem.num_control_points();
+  data.smoothing.resize(problem.mesh.num_cells());
   data.radius = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_cells()) * stride);
 #pragma omp parallel for schedule(static)
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
     const double scale = cell_geometry(problem.mesh, s).measure / penalty;
+    const double quadratic = problem.smoothness * scale;
+    data.smoothing[s] = static_cast<Scalar>(quadratic / (1 + quadratic));
     for (Index i = 0; i < n; ++i) {
       data.radius[s * stride + i] = static_cast<Scalar>(scale * problem.phi(i, s));
     }
@@ -108,7 +111,7 @@ ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem,
   ConstraintData<Scalar, Dim> data;
   set_up_facets(problem, stride, data);
   set_up_interpolation(problem, stride, data);
-  set_up_radii(problem, penalty, stride, data);
+  set_up_proximal_maps(problem, penalty, stride, data);
   return data;
 }
 

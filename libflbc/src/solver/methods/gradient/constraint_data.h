@@ -16,6 +16,7 @@ namespace flbc::gradient {
 template <class Scalar, int Dim>
 struct ConstraintData {
   AlignedArray<Scalar> radius;
+  std::vector<Scalar> smoothing;
   AlignedArray<Scalar> boundary_slope;
   AlignedArray<Scalar> basis;
   AlignedArray<Scalar> target;

@@ -212,8 +212,10 @@ CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() const {
     const auto length =
         flux.square().colwise().sum().sqrt().max(std::numeric_limits<Scalar>::min());
     const ConstRow radius(data_.radius.data() + s * stride_, columns);
+    const Scalar theta = data_.smoothing[s];
     const Eigen::Array<Scalar, 1, Eigen::Dynamic> shrink =
-        static_cast<Scalar>(penalty_) * (radius / length).min(Scalar(1));
+        static_cast<Scalar>(penalty_) *
+        (theta + (Scalar(1) - theta) * (radius / length).min(Scalar(1)));
     flux.rowwise() *= shrink;
   }
   return {flux_.data(), stride_, n_};
@@ -238,6 +240,7 @@ Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
   arrays.cell_change = cell_change_.data();
   arrays.facet_change = facet_change_.data();
   arrays.radius = data_.radius.data();
+  arrays.smoothing = data_.smoothing.data();
   arrays.boundary_slope = data_.boundary_slope.data();
   arrays.tangents = data_.tangents.data();
   arrays.sides = problem_.topology.sides.data();

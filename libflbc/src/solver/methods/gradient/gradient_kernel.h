@@ -34,6 +34,7 @@ struct Arrays {
   double* facet_change;  // E
   // data
   const Scalar* radius;                // F: phi A / mu
+  const Scalar* smoothing;             // F, no control points: epsilon A / (mu + epsilon A)
   const Scalar* boundary_slope;        // #boundary facets x (Dim - 1): h, tangential derivatives
   const Scalar* tangents;              // E x (Dim - 1) x Dim, orthonormal, no control points
   const std::int32_t* sides;           // E x 2 cells, second -1 on the boundary

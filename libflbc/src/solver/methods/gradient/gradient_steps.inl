@@ -48,8 +48,8 @@ inline double xy_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t facet, 
   return note ? 2 * change.total() : 0;
 }
 
-// Z-step: the dual of Z = G is minus the projection of `extrapolated - dual` onto the ball of
-// radius phi A / mu.
+// Z-step: the dual of Z = G is minus theta v + (1 - theta) clip(v), where v = extrapolated - dual,
+// clip projects onto the ball of radius phi A / mu, and theta is the smoothing of the cell.
 template <int lanes, bool note, class Scalar, int Dim>
 [[gnu::always_inline]] inline void z_step_at(const Arrays<Scalar, Dim>& arrays, std::int32_t cell,
                                              std::size_t i,
@@ -67,7 +67,8 @@ template <int lanes, bool note, class Scalar, int Dim>
     length2 += v * v;
   }
   norm2 = length2 > norm2 ? length2 : norm2;
-  const P shrink = radius * inverse_square_root<Scalar, lanes>(norm2);
+  const Scalar theta = arrays.smoothing[cell];
+  const P shrink = theta + (Scalar(1) - theta) * (radius * inverse_square_root<Scalar, lanes>(norm2));
   for (int d = 0; d < Dim; ++d) {
     const P step = shrink * (dual[d] - extrapolated[d]) - dual[d];
     store_pack<lanes>(place + d * arrays.stride, dual[d] + arrays.relaxation * step);

@@ -56,6 +56,7 @@ struct Arrays {
   const Scalar* difference;        // rows: w - W, zero on the boundary; for residuals and balancing
   Scalar sigma;
   Scalar relaxation;
+  Scalar smoothing;  // theta = epsilon / (rho + epsilon) in [0, 1)
 };
 
 //! A slice [begin, end) of control points, multiples of 8.
@@ -100,7 +101,7 @@ struct Loops {
   RowLoop w_step;
   //! P = G a.
   SliceLoop start_cell_dual;
-  //! The dual of the total variation, scale_s clip(P + G a), at [cell_index x Dim].
+  //! The dual of the objective, scale_s clip(P + G a), at [cell_index x Dim].
   void (*flux)(State, Columns, const Scalar* scale, Scalar* flux);
   //! Sums, per control point, the squared dual |P + G (w - W)|^2 and the squared |G moved|^2 of
   //! rows `moved`.

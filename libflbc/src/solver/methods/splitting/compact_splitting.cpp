@@ -70,6 +70,7 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.difference = difference_.data();
   arrays.sigma = static_cast<Scalar>(sigma());
   arrays.relaxation = static_cast<Scalar>(settings_.relaxation);
+  arrays.smoothing = static_cast<Scalar>(smoothing());
   return arrays;
 }
 
@@ -439,7 +440,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> CompactSplitting<Scalar, Dim>::flux_d
                      });
     for (Index i = 0; i < n_; ++i) density(i, d) = scale * row[i];
   }
-  shorten_to(problem_.phi, cell, density);
+  make_admissible(problem_, cell, density);
   return density;
 }
 

@@ -32,7 +32,8 @@ struct Settings {
 
 //! The ADMM on problem (2) of the paper, which keeps weights and gradients as unknowns and solves a
 //! global linear system in each iteration, as over-relaxed Douglas-Rachford splitting. It minimizes
-//! sum phi A |z| over w with z = grad w, and u = w, u >= 0 if the metric has vertex weights.
+//! sum A (phi |z| + epsilon / 2 |z|^2) over w with z = grad w, and u = w, u >= 0 if the metric has
+//! vertex weights.
 //! tests/support/textbook_lbc2014.h has the same iteration and iterates, with W, Z, Y, M, H, and
 //! all duals. Put
 //!
@@ -40,7 +41,8 @@ struct Settings {
 //!
 //! where W is on vertices like w, with the same values on the boundary. Then, with a = 2 w - W,
 //!
-//!     z_step:  P += alpha (clip(P + grad a) - P), clip to radius phi A / (rho m)
+//!     z_step:  P += alpha (theta v + (1 - theta) clip(v) - P), v = P + grad a,
+//!              clip to radius phi A / (rho m), theta = epsilon / (rho + epsilon)
 //!     w_step:  S += alpha (max(0, S - a) - S)
 //!     solve:   (sum m grad^T grad + k) delta = k S - Div m P
 //!     y_step:  W += alpha (w - W), w = W + delta, rows projected on { sum w = 1, sum w c = x }
@@ -49,7 +51,8 @@ struct Settings {
 //! acts on columns and M on rows. So Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, where
 //! M^T M = I - Q Q^T.
 //!
-//! A cell stores only P, which is at most a few radii long and fits half precision. Cells without
+//! A cell stores only P, which is at most a few radii long and fits half precision. (With epsilon
+//! it may be longer: theta times a gradient.) The metric is m = A if epsilon > 0. Cells without
 //! interior corners are omitted, because they do not affect the weights. With an approximate linear
 //! solver, this is a preconditioned primal-dual iteration with the same limit.
 //!
@@ -106,13 +109,13 @@ class CompactSplitting final : public Iteration<Dim> {
   //! q - w of an interior vertex, n numbers.
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
 
-  //! The current p / A of a cell, n x Dim, at most phi long; zero for boundary cells.
+  //! The current p / A of a cell, n x Dim, admissible (start.h).
   Eigen::Matrix<double, Eigen::Dynamic, Dim> flux_density(Index cell) const;
 
   Certificate certify(const WeightMatrix& weights) const override;
 
-  //! Calls use(p) with p = rho m clip(2 grad w - y): the dual of the total variation, |p_s^i| <=
-  //! phi A up to rounding.
+  //! Calls use(p) with p = rho m times the new P: the dual of the objective, without smoothness
+  //! |p_s^i| <= phi A up to rounding.
   void with_flux(const std::function<void(const CellFieldView<Scalar, Dim>&)>& use) const;
 
   void describe(SolveReport& report) const override;
@@ -123,6 +126,7 @@ class CompactSplitting final : public Iteration<Dim> {
   using RowLoop = typename Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
+  double smoothing() const { return problem_.smoothness / (penalty_ + problem_.smoothness); }
   std::pair<double, double> squared_lengths(const AlignedArray<Scalar>& moved);
   State arrays();
   void set_weights(const VectorsAt<1>& weights);

@@ -36,7 +36,7 @@ template <class Scalar, class Stored, int Dim, int Lanes>
   for (int d = 0; d < Dim; ++d) dual[d] = load_stored<Lanes>(rows + d * arrays.cell_stride + i);
 }
 
-// field, shortened to the cell's radius.
+// theta field + (1 - theta) clip(field), where clip shortens to the cell's radius.
 template <class Scalar, class Stored, int Dim, int Lanes>
 [[gnu::always_inline]] inline void clip(const Arrays<Scalar, Dim>& arrays, std::size_t s,
                                         std::size_t i, PackN<Scalar, Lanes>* field) {
@@ -45,7 +45,9 @@ template <class Scalar, class Stored, int Dim, int Lanes>
   PackN<Scalar, Lanes> length2 = field[0] * field[0];
   for (int d = 1; d < Dim; ++d) length2 += field[d] * field[d];
   const PackN<Scalar, Lanes> shrink = shrinkage<Stored, Scalar, Lanes>(radius, length2);
-  for (int d = 0; d < Dim; ++d) field[d] *= shrink;
+  const PackN<Scalar, Lanes> factor =
+      arrays.smoothing + (Scalar(1) - arrays.smoothing) * shrink;
+  for (int d = 0; d < Dim; ++d) field[d] *= factor;
 }
 
 // Z-step and dual step: P += relaxation (clip(P + G a) - P).

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The quadratic term of SolverOptions::smoothness: the optimum is unique, so that weights
+// themselves are compared.
+#include <cmath>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "flbc/certificate.h"
+#include "flbc/errors.h"
+#include "flbc/harmonic.h"
+#include "flbc/quality.h"
+#include "flbc/solver.h"
+#include "support/coarse_sample_mesher.h"
+#include "support/fine_cages.h"
+#include "support/newton_optimum.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+template <class Dimension>
+class SmoothnessTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SmoothnessTest, Dimensions);
+
+constexpr Shape kShapes[] = {Shape::kBox, Shape::kCorner, Shape::kStar};
+
+template <int Dim>
+Sample<Dim> tiny_sample(Shape shape) {
+  return make_sample<Dim>(shape, Dim == 2 ? 4 : 3, 0.2);
+}
+
+SolverOptions accurate(Method method, double smoothness) {
+  SolverOptions options;
+  options.method = method;
+  options.smoothness = smoothness;
+  options.precision = Precision::kDouble;
+  options.tolerance = 1e-14;
+  return options;
+}
+
+template <int Dim>
+double largest_difference(const WeightMatrix& a, const WeightMatrix& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+TYPED_TEST(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
+  constexpr int kDim = TypeParam::value;
+  int judged = 0;
+  for (const Shape shape : kShapes) {
+    const auto sample = tiny_sample<kDim>(shape);
+    for (const double smoothness : {0.003, 0.03}) {
+      for (const bool non_negative : {false, true}) {
+        SCOPED_TRACE(sample.name + ", smoothness " + std::to_string(smoothness));
+        const auto problem =
+            make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
+        NewtonOptimum<kDim> newton(problem, harmonic_coordinates(problem), non_negative);
+        const auto optimum = newton.find();
+        if (!optimum) continue;
+        ++judged;
+        auto options = accurate(Method::kValue, smoothness);
+        options.non_negative = non_negative ? NonNegative::kConstraint : NonNegative::kOff;
+        options.certify = true;
+        const auto solution = solve(problem, options);
+        EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+        EXPECT_LT(largest_difference<kDim>(solution.weights, *optimum), 1e-4);
+        if (!non_negative) continue;
+        // The bound is tight, and the objective is that of the problem in the mesh's own units.
+        const double least = objective(problem.mesh, problem.phi, *optimum, smoothness) /
+                             std::pow(problem.scale, kDim - 1);
+        EXPECT_NEAR(solution.report.objective, least, 1e-6 * least);
+        EXPECT_LE(solution.report.certificate.lower_bound, least * (1 + 1e-9));
+        EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);
+      }
+    }
+  }
+  EXPECT_GE(judged, 8);
+}
+
+TYPED_TEST(SmoothnessTest, GradientFindsTheOptimumOfNewtonsMethod) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0.01);
+  NewtonOptimum<kDim> newton(problem, harmonic_coordinates(problem), false);
+  auto options = accurate(Method::kGradient, 0.01);
+  options.non_negative = NonNegative::kOff;
+  options.tolerance = 1e-12;
+  const auto solution = solve(problem, options);
+  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  EXPECT_LT(largest_difference<kDim>(solution.weights, *newton.find()), 1e-4);
+}
+
+// On the active set as well, in every precision, and after a multilevel start.
+TYPED_TEST(SmoothnessTest, AllVariantsFindOneOptimum) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = with_fine_cage<kDim>(Shape::kCorner, kDim == 2 ? 4 : 2, kDim == 2 ? 12 : 6);
+  auto options = accurate(Method::kValue, 0.01);
+  options.tolerance = 1e-10;
+  const auto optimum = solve(sample.cage, sample.mesh, options).weights;
+  const auto expect_optimal = [&](const SolverOptions& changed, const CoarseMesher<kDim>& mesher,
+                                  const char* what) {
+    const auto solution = solve<kDim>(sample.cage, sample.mesh, changed, mesher);
+    EXPECT_EQ(solution.report.status, SolveStatus::kConverged) << what;
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    EXPECT_LT(squared_error(problem, solution.weights, optimum), 3 * *changed.tolerance) << what;
+  };
+  options.tolerance = 1e-8;
+  auto changed = options;
+  changed.active_set = ActiveSet::kOn;
+  expect_optimal(changed, {}, "active set");
+  changed = options;
+  changed.precision = Precision::kSingle;
+  expect_optimal(changed, {}, "single precision");
+  changed.coarse_to_fine = CoarseToFine::kOn;
+  changed.coarse_levels.coarsest = 20;
+  expect_optimal(changed, coarse_sample_mesher<kDim>(Shape::kCorner), "multilevel start");
+}
+
+TYPED_TEST(SmoothnessTest, BoundsHoldForAnyFlux) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+  const double smoothness = 0.01;
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
+  const auto optimum = solve(problem, accurate(Method::kValue, smoothness));
+  const double least = objective(problem.mesh, problem.phi, optimum.weights, smoothness);
+  const Index n = problem.num_control_points();
+  const Index rows = problem.mesh.num_cells() * kDim;
+  // Fluxes like gradients of harmonic coordinates, too short, right in size, and far too long.
+  const auto harmonic = harmonic_coordinates(problem);
+  double best = 0;
+  for (const double factor : {0.0, 0.01, 0.1, 1.0, 1e3, 1e160}) {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> flux(rows, n);
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      const auto corners = cell_corners(problem.mesh, s);
+      flux.middleRows(kDim * s, kDim) =
+          factor * simplex_measure<kDim>(corners) *
+          linear_gradients<kDim>(corners, columns_of(harmonic, problem.mesh.cells.col(s)));
+    }
+    const CellFieldView<double, kDim> view{flux.data(), static_cast<std::size_t>(n), n};
+    const double bound = lower_bound(problem, view, optimum.weights);
+    EXPECT_GE(bound, 0) << factor;
+    EXPECT_LE(bound, least * (1 + 1e-9)) << factor;
+    best = std::max(best, bound);
+  }
+  EXPECT_GT(best, 0.1 * least);
+}
+
+// Far toward either end.
+TYPED_TEST(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kBox);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto with = [&](double smoothness) {
+    auto options = accurate(Method::kValue, smoothness);
+    options.phi = DistanceScheme::kConstant;
+    options.tolerance = 1e-12;
+    return solve(sample.cage, sample.mesh, options).weights;
+  };
+  const auto variation = [&](const WeightMatrix& weights) {
+    return objective(problem.mesh, problem.phi, weights);
+  };
+  const double least = variation(with(0));
+  EXPECT_NEAR(variation(with(1e-5)), least, 1e-4 * least);
+  EXPECT_GT(variation(with(0.1)), least * (1 + 1e-3));
+  const auto harmonic = harmonic_coordinates(problem);
+  const double far = largest_difference<kDim>(with(1), harmonic);
+  EXPECT_GT(far, 1e-4);
+  EXPECT_LT(largest_difference<kDim>(with(1000), harmonic), 0.05 * far);
+}
+
+TYPED_TEST(SmoothnessTest, MovedCagesKeepIt) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+  auto options = accurate(Method::kValue, 0.01);
+  options.tolerance = 1e-11;
+  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  solver.solve();
+  PointList<kDim> moved = sample.cage.points;
+  moved.col(0).array() -= 0.05;
+  const auto weights = solver.move(moved).weights;
+  const auto alone = solve(solver.cage(), solver.mesh(), options);
+  EXPECT_LT(largest_difference<kDim>(weights, alone.weights), 1e-3);
+  // Another smoothness is another problem on the same mesh.
+  options.smoothness = 0.1;
+  solver.set_options(options);
+  const auto smoother = solve(solver.cage(), solver.mesh(), options);
+  EXPECT_LT(largest_difference<kDim>(solver.solve().weights, smoother.weights), 1e-3);
+  EXPECT_GT(largest_difference<kDim>(alone.weights, smoother.weights), 1e-2);
+}
+
+TYPED_TEST(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+  for (const auto active : {ActiveSet::kOff, ActiveSet::kOn}) {
+    SolverOptions options;
+    options.smoothness = 0.01;
+    options.active_set = active;
+    options.threads = 1;
+    const auto one = solve(sample.cage, sample.mesh, options).weights;
+    options.threads = 3;
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, one);
+  }
+}
+
+TYPED_TEST(SmoothnessTest, RefusesWhatItCannotDo) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = tiny_sample<kDim>(Shape::kBox);
+  SolverOptions options;
+  for (const double smoothness : {-0.1, std::nan(""), HUGE_VAL}) {
+    options.smoothness = smoothness;
+    EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError) << smoothness;
+  }
+  options.smoothness = 0.01;
+  for (const Method method : {Method::kPaper, Method::kLbc2014}) {
+    options.method = method;
+    EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
+  }
+  // A problem knows its smoothness, which options cannot change.
+  options.method = Method::kValue;
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  EXPECT_THROW(solve(problem, options), OptionError);
+}
+
+}  // namespace
+}  // namespace flbc::testing
