@@ -87,6 +87,8 @@ Json mesh_json(const MeshCheck<Dim>& mesh) {
           {"harmonic_total_variation", mesh.harmonic_total_variation},
           {"weighted_variation", positive_or_null(mesh.weighted_variation)},
           {"harmonic_weighted_variation", positive_or_null(mesh.harmonic_weighted_variation)},
+          {"gradient_jump", mesh.gradient_jump},
+          {"harmonic_gradient_jump", mesh.harmonic_gradient_jump},
           {"harmonic_mean_influences", mesh.harmonic_mean_influences},
           {"influence_ratio", mesh.influence_ratio}};
 }
@@ -124,6 +126,14 @@ Json check_json(const CheckReport<Dim>& report) {
   Json json{{"fine", report.is_fine()}, {"cage", cage_json(report)}};
   if (report.model) json["model"] = model_json(report);
   if (report.weights) json["weights"] = weights_json(report);
+  if (report.creases) {
+    const auto& creases = *report.creases;
+    json["creases"] = {{"edges", creases.edges},
+                       {"mean", creases.mean},
+                       {"at_99_percent", creases.high},
+                       {"largest", creases.largest},
+                       {"ends", creases.ends}};
+  }
   json["version"] = FLBC_VERSION;
   return json;
 }

@@ -157,6 +157,8 @@ void print_on_mesh(std::ostream& out, const MeshCheck<Dim>& mesh, const Quality&
              "",
              has_parts ? "the mesh has several parts"
                        : "harmonic coordinates: " + number(mesh.harmonic_weighted_variation, 4));
+  print_line(out, "jump of gradients", number(mesh.gradient_jump, 3), "",
+             "harmonic coordinates: " + number(mesh.harmonic_gradient_jump, 3));
   print_line(out, "influences / harmonic", number(mesh.influence_ratio, 3), "",
              number(quality.mean_influences, 4) + " / " + number(mesh.harmonic_mean_influences, 4) +
                  " per vertex");
@@ -187,6 +189,17 @@ void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
   if (check.mesh) print_on_mesh(out, *check.mesh, check.quality);
 }
 
+void print_creases(std::ostream& out, const CreaseCheck& creases) {
+  out << "Creases in the pose: the angle between faces changes by " << number(creases.mean, 3)
+      << " degrees on average, by at most " << number(creases.high, 3)
+      << " degrees at 99 % of the edges";
+  if (creases.ends[0] >= 0) {
+    out << ", most (" << number(creases.largest, 3) << " degrees) at the edge between vertices "
+        << creases.ends[0] << " and " << creases.ends[1];
+  }
+  out << '\n';
+}
+
 }  // namespace
 
 template <int Dim>
@@ -194,6 +207,7 @@ void print_check(std::ostream& out, const CheckReport<Dim>& report) {
   print_cage(out, report);
   if (report.model) print_model(out, report);
   if (report.weights) print_weights(out, report);
+  if (report.creases) print_creases(out, *report.creases);
 }
 
 template void print_check(std::ostream&, const CheckReport<2>&);

@@ -41,6 +41,8 @@ struct MeshCheck {
   //! meshes of several parts, because each part has its own phi.
   double weighted_variation = 0;
   double harmonic_weighted_variation = 0;  //!< of harmonic coordinates on this mesh
+  double gradient_jump = 0;                //!< see gradient_jump() in quality.h
+  double harmonic_gradient_jump = 0;       //!< of harmonic coordinates on this mesh
   double harmonic_mean_influences = 0;     //!< mean influences per vertex of harmonic coordinates
   double influence_ratio = 0;              //!< mean influences / those of harmonic coordinates
 };
@@ -89,6 +91,23 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const WeightMatrix& weights);
+
+//! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
+//! a deformation makes.
+struct CreaseCheck {
+  Index edges = 0;      //!< number of edges with two faces, none of them degenerate
+  double mean = 0;      //!< mean change
+  double high = 0;      //!< 99 % of the edges change by at most this
+  double largest = 0;   //!< largest change
+  Index ends[2] = {-1, -1};  //!< vertices of that edge
+};
+
+//! \param rest  3 x P
+//! \param posed  3 x P, the same surface in a pose
+//! \param triangles  3 x T, consistently oriented
+//! \throws InputError if the sizes do not match
+CreaseCheck check_creases(const PointList<3>& rest, const PointList<3>& posed,
+                          const FacetList<3>& triangles);
 
 //! Local extrema up to this depth are within the accuracy of a solve. Iterates to the default
 //! tolerance have extrema up to 1e-3; true extrema of optima are 9e-3 deep (conjecture1.csv).

@@ -53,6 +53,16 @@ double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
 template <int Dim>
 double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights);
 
+//! Smoothness of weights: the jump of their gradients across interior facets, relative to the size of
+//! the cage. A kink has a jump on every mesh; jumps of smooth functions shrink with the cells.
+//! \param problem  its mesh and topology
+//! \param weights  n x V
+//! \return root mean square of sqrt(sum_i |jump of grad w_i|^2), weighted by the measure of a
+//! facet, times bounding_box_diagonal of the cage; 0 without interior facets
+//! \throws InputError if the sizes do not match
+template <int Dim>
+double gradient_jump(const LbcProblem<Dim>& problem, const WeightMatrix& weights);
+
 //! Error (5) of the paper: the mean of (a - b)^2 over interior vertices and control points.
 //! \param a  weights, n x V
 //! \param b  reference weights, usually the optimum, n x V

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/instantiate.h"
@@ -124,6 +125,34 @@ double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights)
 }
 
 template <int Dim>
+double gradient_jump(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
+  check_size(weights, problem.num_control_points(), problem.mesh.num_vertices());
+  const auto& mesh = problem.mesh;
+  const auto& topology = problem.topology;
+  const auto sums = parallel_sum(
+      topology.num_facets(), Eigen::Array2d::Zero().eval(), [&](Index begin, Index end) {
+        Eigen::Array2d sum = Eigen::Array2d::Zero();
+        for (Index f = begin; f < end; ++f) {
+          if (topology.is_boundary(f)) continue;
+          const auto [first, second] = std::pair(topology.sides(0, f), topology.sides(1, f));
+          const auto geometry = cell_geometry(mesh, first);
+          int opposite = 0;
+          while (topology.cell_facets(opposite, first) != f) ++opposite;
+          const double measure =
+              Dim * geometry.measure * geometry.hat_gradients.col(opposite).norm();
+          const double jump2 =
+              (weight_gradients(mesh, first, geometry, weights) -
+               weight_gradients(mesh, second, cell_geometry(mesh, second), weights))
+                  .squaredNorm();
+          sum += measure * Eigen::Array2d(1, jump2);
+        }
+        return sum;
+      });
+  if (sums[0] == 0) return 0;
+  return std::sqrt(sums[1] / sums[0]) * bounding_box_diagonal(problem.cage.points);
+}
+
+template <int Dim>
 double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, const WeightMatrix& b) {
   check_size(a, problem.num_control_points(), problem.mesh.num_vertices());
   check_size(b, problem.num_control_points(), problem.mesh.num_vertices());
@@ -146,6 +175,7 @@ double squared_error(const LbcProblem<Dim>& problem, const WeightMatrix& a, cons
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(gradient_jump)
 FLBC_INSTANTIATE_FUNCTION(total_variation)
 FLBC_INSTANTIATE_FUNCTION(squared_error)
 

@@ -128,6 +128,8 @@ MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& dom
 
   const auto harmonic = harmonic_coordinates(problem);
   check.harmonic_total_variation = total_variation(domain, harmonic);
+  check.gradient_jump = gradient_jump(problem, weights);
+  check.harmonic_gradient_jump = gradient_jump(problem, harmonic);
   if (count_parts(domain) == 1) {
     set_phi(problem, DistanceScheme::kSquare);
     check.weighted_variation = weighted_variation(problem, weights);
