@@ -39,6 +39,7 @@ bool run_bandwidth(const Context& context);      //!< iterations and deformation
 bool run_models(const Context& context);         //!< from cage to coordinates, beside harmonic ones
 bool run_optima(const Context& context);     //!< methods beside an interior-point method's optima
 bool run_tolerance(const Context& context);  //!< true errors relative to those promised
+bool run_smoothness(const Context& context);  //!< what SolverOptions::smoothness gives and costs
 bool run_editing(const Context& context);    //!< solves again after the rest cage has moved
 
 }  // namespace flbc::bench

@@ -35,6 +35,7 @@ const std::vector<Experiment>& experiments() {
                                                        {"models", run_models},
                                                        {"optima", run_optima},
                                                        {"tolerance", run_tolerance},
+                                                       {"smoothness", run_smoothness},
                                                        {"editing", run_editing}};
   return kExperiments;
 }
