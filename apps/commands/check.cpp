@@ -35,7 +35,8 @@ void check_arguments(const CheckArguments& arguments) {
     throw OptionError("--weights needs --model or --domain, whose vertices have these weights");
   }
   if (!arguments.pose.empty() && (arguments.model.empty() || !arguments.domain.empty())) {
-    throw OptionError("--pose needs --model and --weights of its vertices, without --domain");
+    throw OptionError(
+        "--pose needs --model and --weights of its vertices; leave out --domain");
   }
   if (arguments.json != "-") require_writable(arguments.json, "json");
   require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain,
