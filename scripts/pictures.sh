@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents, or those that are named, in docs/images:
 #   scripts/pictures.sh [--models FOLDER] [NAME...]
-# NAME: hero locality view figure before_after function deformation charts automatic_cages
+# NAME: hero locality view figure before_after function deformation smoothness charts automatic_cages
 # FOLDER: the papers' models, for automatic_cages. Working files go to out/pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ if [ "${1:-}" = --models ]; then
 fi
 names=("$@")
 if [ $# -eq 0 ]; then
-  names=(hero locality view figure before_after function deformation charts)
+  names=(hero locality view figure before_after function deformation smoothness charts)
   [ -z "$models" ] || names+=(automatic_cages)
 fi
 
@@ -38,6 +38,7 @@ for name in "${names[@]}"; do
     hero) scripts/pictures/hero.py "$images/hero.png" "$work/hero" ;;
     locality) scripts/pictures/locality.py "$images/locality.gif" "$work/locality" ;;
     automatic_cages) scripts/pictures/automatic_cages.py "$images/automatic_cages.png" "$work/cages" "$models" ;;
+    smoothness) scripts/pictures/smoothness.py "$images/smoothness.png" "$work/smoothness" ;;
     charts) scripts/pictures/charts.py "$images" ;;
     view)
       run 3d limb 20
