@@ -83,7 +83,7 @@ CreaseCheck check_creases(const PointList<3>& rest, const PointList<3>& posed,
   if (changes.empty()) return check;
   check.edges = static_cast<Index>(changes.size());
   for (const double change : changes) check.mean += change / static_cast<double>(check.edges);
-  const auto rank = changes.begin() + static_cast<std::ptrdiff_t>(0.99 * (changes.size() - 1));
+  const auto rank = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() - 1) * 99 / 100;
   std::nth_element(changes.begin(), rank, changes.end());
   check.high = *rank;
   return check;
