@@ -163,7 +163,9 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
   if (!plan::active_set_pays(active_set::density(*problem_, active), options)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
   active_set::Settings settings;
-  settings.penalty = options.penalty ? *options.penalty : cold ? plan::kFirstPenalty : from.penalty;
+  settings.penalty = options.penalty ? *options.penalty
+                     : cold          ? plan::first_penalty(problem_->smoothness)
+                                     : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
   settings.relaxation = *options.relaxation;
   settings.tolerance = *options.tolerance;
@@ -182,7 +184,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   if (options.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
     const double penalty = options.penalty  ? *options.penalty
-                           : from.is_cold() ? plan::kFirstPenalty
+                           : from.is_cold() ? plan::first_penalty(problem_->smoothness)
                                             : from.penalty;
     iteration_ = make_value(*problem_, options, penalty, true);
     iteration_->start(from);

@@ -223,8 +223,10 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   auto [dual2, motion2] = squared_lengths(moved);
   dual2 += data_.boundary_dual2;
   if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double factor = std::max(1 / (ratio * std::sqrt(dual2 / motion2)), penalty_ / largest);
-  penalty_ /= factor;
+  const double balanced = std::min(ratio * penalty_ * std::sqrt(dual2 / motion2), largest) +
+                          plan::kPenaltyOfSmoothness * problem_.smoothness;
+  const double factor = penalty_ / balanced;
+  penalty_ = balanced;
   const auto shrink = static_cast<Scalar>(1 / factor);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) {

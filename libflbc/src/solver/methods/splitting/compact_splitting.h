@@ -85,7 +85,7 @@ class CompactSplitting final : public Iteration<Dim> {
 
   //! Performs an iteration, then balances the penalty against the change of weights since the
   //! start, keeping duals. rho becomes ratio * rho |grad w - y| / |grad (w - w_start)|, at most
-  //! `largest`. Not allowed after a start from duals.
+  //! `largest`, plus a multiple of the smoothness. Not allowed after a start from duals.
   Step iterate_and_adapt(double ratio, double largest = std::numeric_limits<double>::infinity());
 
   //! Switches the storage of duals to single precision, because half precision makes them
