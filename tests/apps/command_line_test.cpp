@@ -79,6 +79,21 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, SolveSamples,
                          ::testing::Values("2d/figure", "2d/letter", "2d/ring", "3d/limb",
                                            "3d/star", "3d/torus"));
 
+// The relaxation of lbc2014 depends on whether a penalty is given.
+TEST_F(CommandLine, ReportsTellTheRelaxationInUse) {
+  const auto relaxation = [&](const std::string& options) {
+    const int not_converged = 3;
+    expect("solve " + sample("2d/letter_cage.obj") +
+               " --vertices 300 --max-iterations 20 -q --method lbc2014 -o " + path("w.npy") +
+               " --report " + path("r.json") + options,
+           not_converged);
+    return nlohmann::json::parse(slurp(path("r.json")))["options"]["relaxation"].get<double>();
+  };
+  EXPECT_EQ(relaxation(""), 1.9);
+  EXPECT_EQ(relaxation(" --penalty 10"), 1.65);
+  EXPECT_EQ(relaxation(" --penalty 10 --relaxation 1.2"), 1.2);
+}
+
 TEST_F(CommandLine, DrawsOnlyWhatFits) {
   const auto cage = sample("2d/letter_cage.obj");
   expect("solve " + cage + " -o " + path("w.npy") + " --vertices 500 --method harmonic -q" +
