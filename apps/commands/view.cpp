@@ -108,7 +108,7 @@ template <int Dim>
 std::string describe_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
   const auto before = count_influences(given).max;
   const auto after = count_influences(content.weights).max;
-  if (before == after) return "at most " + std::to_string(after) + " influences per point";
+  if (before == after) return "at most " + std::to_string(after) + " influences per vertex";
   constexpr int kRandomPoses = 20;
   const auto error =
       deformation_error(smooth_poses(content.cage.points, kRandomPoses), given, content.weights);

@@ -95,11 +95,12 @@ void check_shape(const CellList<2>& triangles, const DrawnShape& shape, const Dr
   const auto num_points = shape.points.cols();
   if (num_points != other.points.cols() ||
       shape.control_points.cols() != other.control_points.cols()) {
-    throw InputError("the shape or its cage has another number of points before than after");
+    throw InputError(
+        "the model or its cage has another number of vertices at rest than in the pose");
   }
-  if (!shape.points.allFinite()) throw InputError("a point of the shape is not finite");
+  if (!shape.points.allFinite()) throw InputError("a vertex of the model is not finite");
   if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= num_points)) {
-    throw InputError("a triangle of the shape refers to a point that does not exist");
+    throw InputError("a triangle of the model refers to a vertex that does not exist");
   }
 }
 
