@@ -6,6 +6,7 @@
 
 #include "commands/commands.h"
 #include "files/convert_weights.h"
+#include "files/gltf_facts.h"
 #include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
@@ -71,6 +72,10 @@ void print_polygons(const std::string& path) {
 
 void print_info(const std::string& path) {
   if (is_weight_file(path)) return print_weights(path);
+  if (is_gltf_file(path)) {
+    std::cout << describe_gltf(path);
+    return;
+  }
   if (io::holds(path, {io::Content::kModel}) || !io::holds(path, kMeshFiles)) {
     return print_polygons(path);
   }
@@ -83,7 +88,7 @@ void print_info(const std::string& path) {
 void add_info_command(CLI::App& app, int&) {
   auto path = std::make_shared<std::string>();
   auto* command =
-      app.add_subcommand("info", "show what a cage, mesh, model, or weight file contains");
+      app.add_subcommand("info", "show what a cage, mesh, model, skin, or weight file contains");
   command->add_option("FILE", *path, "file to show")->required();
   command->callback([path] { print_info(*path); });
 }

@@ -75,6 +75,28 @@ TEST_F(ExportCommand, Sample3D) {
   expect_sample("3d/limb", "d.mesh");
 }
 
+TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
+  solve("3d/limb", "d.mesh");
+  expect("export " + sample("3d/limb_model.obj") + " --weights " + path("w.npy") + " --cage " +
+         sample("3d/limb_cage.obj") + " --pose " + sample("3d/limb_cage_pose.obj") +
+         " --fps 1 -k 8 -q -o " + path("s.glb"));
+  const GlbFile skin(slurp(path("s.glb")));
+  const auto info = expect("info " + path("s.glb")).output;
+  const auto contains = [&](const std::string& words) {
+    EXPECT_NE(info.find(words), std::string::npos) << info;
+  };
+  contains("glTF model of 3352 vertices, ");
+  contains("skin of " + std::to_string(skin.json["skins"][0]["joints"].size()) +
+           " joints, at most 8 influences");
+  file("t.gltf", skin.json.dump());
+  const auto words = [](const std::string& text) { return text.substr(text.find(": ")); };
+  EXPECT_EQ(words(expect("info " + path("t.gltf")).output), words(info));
+  for (const std::string& damaged : {slurp(path("s.glb")).substr(0, 500), std::string("glTF"),
+                                     std::string(R"({"meshes": 3})"), std::string()}) {
+    expect("info " + file("u.glb", damaged), 2, "not a glTF file, or damaged");
+  }
+}
+
 TEST_F(ExportCommand, BoundaryOfADomain) {
   const auto cage = sample("3d/torus_cage.obj");
   for (const std::string name : {"d.mesh", "d.node", "d.vtu", "d.msh"}) {
