@@ -14,7 +14,7 @@
 namespace flbc::app {
 namespace {
 
-using Json = nlohmann::json;
+using GltfJson = nlohmann::json;
 
 // The text of the JSON: the whole file, or the first chunk of a binary one.
 std::string json_of(const std::string& bytes) {
@@ -31,8 +31,8 @@ struct Counts {
 };
 
 // Primitives may share their vertices.
-void count_triangles(const Json& gltf, const Json& primitive, std::set<std::size_t>& positions,
-                     Counts& counts) {
+void count_triangles(const GltfJson& gltf, const GltfJson& primitive,
+                     std::set<std::size_t>& positions, Counts& counts) {
   constexpr int kTriangles = 4;
   if (primitive.value("mode", kTriangles) != kTriangles) return;
   const auto& attributes = primitive.at("attributes");
@@ -49,9 +49,9 @@ void count_triangles(const Json& gltf, const Json& primitive, std::set<std::size
   counts.influences = std::max(counts.influences, kSize * sets);
 }
 
-Counts count(const Json& gltf) {
-  const Json none = Json::array();
-  const auto all = [&](const Json& parent, const char* name) {
+Counts count(const GltfJson& gltf) {
+  const GltfJson none = GltfJson::array();
+  const auto all = [&](const GltfJson& parent, const char* name) {
     return parent.contains(name) ? parent.at(name) : none;
   };
   Counts counts;
@@ -83,7 +83,7 @@ bool is_gltf_file(const std::string& path) {
 std::string describe_gltf(const std::string& path) {
   const auto bytes = io::read_file(path);
   try {
-    const auto counts = count(Json::parse(json_of(bytes)));
+    const auto counts = count(GltfJson::parse(json_of(bytes)));
     std::ostringstream text;
     text << path << ": glTF model of " << counts.vertices << " vertices, " << counts.triangles
          << " triangles\n";
@@ -93,7 +93,7 @@ std::string describe_gltf(const std::string& path) {
     }
     if (counts.seconds > 0) text << "  animation of " << counts.seconds << " s\n";
     return text.str();
-  } catch (const Json::exception&) {
+  } catch (const GltfJson::exception&) {
     throw InputError(path + ": not a glTF file, or damaged");
   }
 }
