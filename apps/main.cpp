@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
@@ -179,10 +181,21 @@ int run(int argc, char** argv) {
   return exit_status;
 }
 
+// Where a standard stream is closed, the next file would get its number, and messages would go into
+// that file. What takes its place fails in use, as the closed one would; only messages may be lost.
+void occupy_standard_streams() {
+  constexpr std::pair<int, int> kStreams[] = {
+      {STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
+  for (const auto& [stream, mode] : kStreams) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", mode);  // gets the smallest free number
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace flbc::app;
+  occupy_standard_streams();
   // Matrices go back to the system when they are freed. By default freed memory of their size is
   // kept, in pieces between others, which costs a fifth of what a solve takes.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);

@@ -152,6 +152,19 @@ TEST_F(CommandLine, ALostOutputIsAFailure) {
   }
 }
 
+// Job systems close them.
+TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
+  const auto mesh = std::string(FLBC_PROGRAM) + " mesh " + sample("3d/limb_cage.obj") +
+                    " --vertices 500 -o " + path("m.mesh");
+  for (const std::string streams : {" <&- >&-", " <&- 2>&-", " >&- 2>&-", " <&- >&- 2>&-"}) {
+    fs::remove(path("m.mesh"));
+    EXPECT_EQ(WEXITSTATUS(std::system((mesh + streams).c_str())), 0) << streams;
+    EXPECT_GE(io::read_domain<3>(path("m.mesh")).num_vertices(), 400) << streams;
+  }
+  const auto info = std::string(FLBC_PROGRAM) + " info " + sample("3d/limb_cage.obj");
+  EXPECT_EQ(WEXITSTATUS(std::system((info + " >&- 2>&-").c_str())), 4);
+}
+
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
   const auto cage = sample("3d/limb_cage.obj");

@@ -2,6 +2,7 @@
 #include "meshing/isolated_process.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace flbc {
 namespace {
@@ -59,6 +61,29 @@ TEST_F(IsolatedProcessTest, OutputArrivesInOrderAndWhole) {
   ASSERT_EQ(outcome.end, ProcessEnd::kFinished);
   const char* expected = reinterpret_cast<const char*>(numbers.data());
   EXPECT_EQ(outcome.output, std::vector<char>(expected, expected + numbers.size() * sizeof(int)));
+}
+
+// Daemons and job systems start programs without standard streams.
+TEST_F(IsolatedProcessTest, WorksWithoutStandardStreams) {
+  for (const auto& streams : {std::vector<int>{0, 1}, {0, 2}, {1, 2}, {0, 1, 2}}) {
+    std::vector<int> kept;
+    for (const int stream : streams) {
+      kept.push_back(fcntl(stream, F_DUPFD_CLOEXEC, 100));
+      close(stream);
+    }
+    const auto outcome = run_isolated(
+        [](const ByteSink& send) {
+          std::fprintf(stderr, "child");
+          send("done", 4);
+        },
+        60);
+    for (std::size_t k = 0; k < streams.size(); ++k) {
+      dup2(kept[k], streams[k]);
+      close(kept[k]);
+    }
+    EXPECT_EQ(outcome.end, ProcessEnd::kFinished);
+    EXPECT_EQ(std::string(outcome.output.begin(), outcome.output.end()), "done");
+  }
 }
 
 TEST_F(IsolatedProcessTest, ChangesInTheChildStayThere) {

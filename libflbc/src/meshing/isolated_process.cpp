@@ -88,6 +88,29 @@ void write_all(int descriptor, const void* data, std::size_t size) {
 
 // --------------------------------------------------------------------------------- in the parent
 
+// Closes both ends of a pipe. Keeps errno.
+void close_both(const int (&ends)[2]) {
+  const int reason = errno;
+  close(ends[0]);
+  close(ends[1]);
+  errno = reason;
+}
+
+// In a process whose standard streams are closed, a pipe gets their numbers, and the child would
+// replace its ends by the null device.
+void move_above_standard_streams(int (&ends)[2]) {
+  for (int& end : ends) {
+    if (end > STDERR_FILENO) continue;
+    const int moved = fcntl(end, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (moved < 0) {
+      close_both(ends);
+      throw_system_error("open a pipe");
+    }
+    close(end);
+    end = moved;
+  }
+}
+
 // The child process and its pipe, with RAII cleanup.
 class Child {
  public:
@@ -98,12 +121,10 @@ class Child {
     const std::lock_guard<std::mutex> lock(start_mutex);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw_system_error("open a pipe");
+    move_above_standard_streams(ends);
     process_ = fork();
     if (process_ < 0) {
-      const int reason = errno;
-      close(ends[0]);
-      close(ends[1]);
-      errno = reason;
+      close_both(ends);
       throw_system_error("start a process");
     }
     if (process_ == 0) {
