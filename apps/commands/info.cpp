@@ -11,14 +11,17 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
+#include "report/facts.h"
 
 namespace flbc::app {
 namespace {
 
 void print_box(const Eigen::MatrixXd& points) {
-  const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
-  std::cout << "  from " << points.rowwise().minCoeff().transpose().format(row) << " to "
-            << points.rowwise().maxCoeff().transpose().format(row) << '\n';
+  const Eigen::RowVectorXd low = points.rowwise().minCoeff().transpose();
+  const Eigen::RowVectorXd high = points.rowwise().maxCoeff().transpose();
+  const Eigen::IOFormat row(digits_of_box(low, high), Eigen::DontAlignCols, ", ", ", ", "", "", "(",
+                            ")");
+  std::cout << "  from " << low.format(row) << " to " << high.format(row) << '\n';
 }
 
 void print_weights(const std::string& path) {
