@@ -8,6 +8,7 @@
 #include "files/convert_weights.h"
 #include "files/gltf_facts.h"
 #include "files/movable_model.h"
+#include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
@@ -70,7 +71,11 @@ void print_polygons(const std::string& path) {
             << " polygons, " << soup.polylines.size() << " polylines\n";
   if (soup.points.empty()) return;
   print_box(io::to_points<3>(soup, path));
-  std::visit([](const auto& cage) { print_cage(cage); }, io::to_cage(soup, path));
+  try {
+    std::visit([](const auto& cage) { print_cage(cage); }, io::to_cage(soup, path));
+  } catch (const InputError& error) {
+    std::cout << "  not a cage:\n    " << error.what() << '\n';
+  }
 }
 
 void print_info(const std::string& path) {

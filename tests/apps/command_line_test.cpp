@@ -131,6 +131,9 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
       EXPECT_EQ(words(info.output), words(run("info " + path(mesh)).output));
     }
   }
+  result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
+  EXPECT_NE(result.output.find("4 vertices"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("no facets and no polylines"), std::string::npos) << result.output;
   expect("info " + path("missing.obj"), 4);
 }
 

@@ -35,6 +35,19 @@ TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
   }
 }
 
+TEST(CageIo, PointsInSpaceAreNoCage) {
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  try {
+    to_cage(soup, "scan.ply");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("scan.ply: has no facets and no polylines"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // A pyramid over a bent quadrilateral, whose shorter diagonal is 1-3.
 TEST(CageIo, QuadranglesAreCutAlongTheShorterDiagonal) {
   PolygonSoup soup;
