@@ -2,9 +2,11 @@
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
 #include <fcntl.h>
 #include <malloc.h>
+#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
@@ -191,11 +193,20 @@ void occupy_standard_streams() {
   }
 }
 
+// Limits of the system end in messages rather than in signals.
+void adapt_to_limits() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails to be written
+  constexpr int kMostThreads = 64;
+  const int most = std::max(kMostThreads, omp_get_num_procs());
+  if (omp_get_max_threads() > most) omp_set_num_threads(most);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace flbc::app;
   occupy_standard_streams();
+  adapt_to_limits();
   // Matrices go back to the system when they are freed. By default freed memory of their size is
   // kept, in pieces between others, which costs a fifth of what a solve takes.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);

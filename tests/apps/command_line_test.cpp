@@ -168,6 +168,22 @@ TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
   EXPECT_EQ(WEXITSTATUS(std::system((info + " >&- 2>&-").c_str())), 4);
 }
 
+TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
+  const auto status_of = [&](const std::string& limit, const std::string& arguments) {
+    const auto command =
+        "bash -c '" + limit + " exec " FLBC_PROGRAM " " + arguments + "' 2>" + path("errors.txt");
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const auto mesh = "mesh " + sample("3d/limb_cage.obj") + " --vertices 3000 -o " + path("m.mesh");
+  EXPECT_EQ(status_of("ulimit -f 10;", mesh), 4);
+  EXPECT_FALSE(fs::exists(path("m.mesh")));
+  EXPECT_EQ(status_of("ulimit -s 128;", mesh), 0) << slurp(path("errors.txt"));
+  EXPECT_EQ(status_of("OMP_NUM_THREADS=100000", "solve " + sample("2d/letter_cage.obj") +
+                                                    " --vertices 2000 -o " + path("w.npy")),
+            0)
+      << slurp(path("errors.txt"));
+}
+
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
   const auto cage = sample("3d/limb_cage.obj");

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -106,6 +107,32 @@ TEST_F(IsolatedProcessTest, CrashIsReportedEvenIfTheParentHandlesTheSignal) {
   const ProcessOutcome outcome = run_isolated([](const ByteSink&) { raise(SIGSEGV); }, 60);
   std::signal(SIGSEGV, before);
   EXPECT_EQ(outcome.end, ProcessEnd::kCrashed);
+}
+
+int depth_of(int levels) {
+  volatile char room[1024];
+  room[0] = static_cast<char>(levels);
+  return levels == 0 ? 0 : depth_of(levels - 1) + (room[0] == static_cast<char>(levels) ? 1 : 0);
+}
+
+TEST_F(IsolatedProcessTest, ASmallStackIsNoObstacle) {
+  rlimit before{};
+  getrlimit(RLIMIT_STACK, &before);
+  const rlimit small{128 << 10, before.rlim_max};
+  setrlimit(RLIMIT_STACK, &small);
+  constexpr int kLevels = 8000;  // 8 MiB
+  const auto outcome = run_isolated(
+      [](const ByteSink& send) {
+        const int depth = depth_of(kLevels);
+        send(&depth, sizeof depth);
+      },
+      60);
+  setrlimit(RLIMIT_STACK, &before);
+  EXPECT_EQ(outcome.end, ProcessEnd::kFinished);
+  int depth = 0;
+  ASSERT_EQ(outcome.output.size(), sizeof depth);
+  std::memcpy(&depth, outcome.output.data(), sizeof depth);
+  EXPECT_EQ(depth, kLevels);
 }
 
 TEST_F(IsolatedProcessTest, ExceptionsEndTheChildOnly) {

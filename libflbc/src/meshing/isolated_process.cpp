@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -74,15 +75,40 @@ void write_all(int descriptor, const void* data, std::size_t size) {
   }
 }
 
+// Meshers recurse deeply. Below the usual limit of 8 MiB, the work gets a stack of its own.
+bool has_small_stack() {
+  constexpr rlim_t kUsual = 8 << 20;
+  rlimit limit{};
+  return getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < kUsual;
+}
+
+void call_on_large_stack(const std::function<void()>& work) {
+  constexpr std::size_t kSize = 64 << 20;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kSize);
+  const auto start = [](void* call) -> void* {
+    (*static_cast<const std::function<void()>*>(call))();
+    return nullptr;
+  };
+  pthread_t thread;
+  auto* const call = const_cast<std::function<void()>*>(&work);
+  if (pthread_create(&thread, &attributes, start, call) != 0) _exit(kExitOutOfMemory);
+  pthread_join(thread, nullptr);
+}
+
 [[noreturn]] void run_child(const std::function<void(const ByteSink&)>& work, int pipe_end) {
   detach_from_parent();
-  try {
-    work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
-  } catch (const std::bad_alloc&) {
-    _exit(kExitOutOfMemory);
-  } catch (...) {
-    _exit(kExitThrew);
-  }
+  const auto run = [&] {
+    try {
+      work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
+    } catch (const std::bad_alloc&) {
+      _exit(kExitOutOfMemory);
+    } catch (...) {
+      _exit(kExitThrew);
+    }
+  };
+  has_small_stack() ? call_on_large_stack(run) : run();
   _exit(0);
 }
 
