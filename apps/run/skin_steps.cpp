@@ -155,8 +155,11 @@ void reduce_influences(Run<Dim>& run) {
 
   const SparseWeights before(run.dense);
   const SparseWeights after(run.sparse);
-  const auto errors = errors_json<Dim>(
-      {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
+  const auto errors = [&] {
+    const ProgressBar bar(run.arguments.quiet, "measuring the error of fewer influences");
+    return errors_json<Dim>(
+        {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
+  }();
   const auto error = deformation_error_in(errors);
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });

@@ -16,6 +16,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
+#include "solve/estimate.h"
 #include "solve/make_domain.h"
 #include "solve/progress_bar.h"
 
@@ -138,8 +139,19 @@ void CageSolver<Dim>::make_domain(bool quiet) {
 }
 
 template <int Dim>
+void CageSolver<Dim>::announce() const {
+  const auto method = resolve(settings_.options).method;
+  const auto estimate =
+      estimate_solve(Dim, cage_.size(), domain_.num_vertices(), settings_.options);
+  if (method != Method::kValue || !is_long(estimate)) return;
+  std::cerr << "flbc: solving for " << cage_.size() << " control points and "
+            << domain_.num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
+}
+
+template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
   const auto& options = settings_.options;
+  if (!quiet) announce();
   ProgressBar bar(quiet, "setting up: boundary values, distances", options);
   HistoryRecorder recorder(options);
   Observer observer;

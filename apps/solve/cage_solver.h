@@ -55,6 +55,8 @@ class CageSolver {
 
  private:
   void fill_cage(bool quiet);
+  // Says how long a long solve may take.
+  void announce() const;
   SparseWeights weights_of_model() const;
 
   const Cage<Dim>& cage_;

@@ -156,6 +156,24 @@ TEST_F(CommandLine, ALostOutputIsAFailure) {
 }
 
 // Job systems close them.
+TEST_F(CommandLine, LongSolvesAreAnnounced) {
+  const auto cage = sample("3d/limb_cage.obj");
+  EXPECT_EQ(expect("info " + cage).output.find("takes about"), std::string::npos);
+  const auto seconds = [&](const std::string& vertices) {
+    const auto text = expect("info " + cage + " --estimate" + vertices).output;
+    const auto at = text.find("takes about ");
+    EXPECT_NE(at, std::string::npos) << text;
+    return std::stod(text.substr(at + 12));
+  };
+  EXPECT_NEAR(seconds(""), 1, 0.7);
+  EXPECT_GT(seconds(" --vertices 50000"), 4 * seconds(""));
+  EXPECT_NE(expect("info " + cage + " --estimate --vertices 10000000").output.find(" min and "),
+            std::string::npos);
+  expect("info " + cage + " --vertices 500", 1, "requires --estimate");
+  const auto quick = expect("solve " + cage + " --vertices 500 -o " + path("w.npy"));
+  EXPECT_EQ(quick.errors.find("this may take"), std::string::npos) << quick.errors;
+}
+
 TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
   const auto mesh = std::string(FLBC_PROGRAM) + " mesh " + sample("3d/limb_cage.obj") +
                     " --vertices 500 -o " + path("m.mesh");

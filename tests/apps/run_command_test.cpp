@@ -307,6 +307,7 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
+  expect_run("out", sample("3d/limb_model.obj"), 1, "did you mean --auto-cage?");
   expect_run("out", cage + " --sparsify best", 1, "invalid value 'best'");
   expect_run("out", cage + " --pose " + sample("2d/letter_cage.obj"), 2, "has 24 vertices, but");
   expect_run("out", cage + " --pose " + path("no_%d.obj"), 4, "there is neither");
