@@ -16,11 +16,12 @@
 #include "commands/commands.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
+#include "help/wording.h"
 
 namespace {
 
 int fail(int exit_status, const char* what) {
-  std::cerr << "flbc: " << what << '\n';
+  std::cerr << "flbc: " << flbc::app::in_words_of_program(what) << '\n';
   return exit_status;
 }
 

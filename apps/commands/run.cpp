@@ -12,6 +12,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "help/wording.h"
 #include "report/facts.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
@@ -40,7 +41,7 @@ void check_control_point(const Cage<Dim>& cage, Index control_point) {
 template <class Action>
 void naming_step(const std::string& step, const Action& action) {
   const auto text = [&](const std::exception& error) {
-    return "step " + step + ": " + error.what();
+    return "step " + step + ": " + in_words_of_program(error.what());
   };
   try {
     action();

@@ -257,8 +257,8 @@ const std::vector<Row> kSolver{
      "$F solve square.obj --domain d.obj --mesh-timeout 10 -o x.npy",
      1,
      {"$F solve square.obj --domain d.obj -o x.npy"}},
-    {"gap (--gap) does not apply to weights that may be negative; choose non_negative "
-     "(--non-negative) constraint or project",
+    {"--gap does not apply to weights that may be negative; choose --non-negative constraint or "
+     "project",
      "$F solve square.obj $V --gap 1e-3 --non-negative off -o x.npy",
      1,
      {"$F solve square.obj $V --gap 1e-3 --non-negative constraint -o x.npy",
