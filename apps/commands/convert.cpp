@@ -29,7 +29,7 @@ void check_mesh_arguments(const WeightConversion& files) {
   if (!io::holds(files.input, kMeshFiles)) {
     throw OptionError(files.input + ": unknown file format; weights end in " +
                       io::extensions_of(kWeightFiles) + ", meshes in " +
-                      io::extensions_of(kMeshFiles));
+                      io::extensions_of(kMeshFiles) + io::conversion_hint(files.input));
   }
   if (is_weight_file(files.output))
     throw OptionError(files.output + ": a mesh cannot be written as weights; choose from " +

@@ -49,7 +49,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 [[noreturn]] void fail_extension(const std::string& path, const std::string& extensions) {
-  throw OptionError(path + ": unknown file format; the file must end in " + extensions);
+  const bool is_fbx = io::extension_of(path) == "fbx";
+  throw OptionError(path + ": unknown file format; the file must end in " + extensions +
+                    (is_fbx ? "; programs that read FBX usually read glTF (.glb) as well" : ""));
 }
 
 }  // namespace

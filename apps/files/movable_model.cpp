@@ -62,7 +62,7 @@ void save(const std::string& path, const io::Model& model) {
 void require_mesh_readable(const std::string& path) {
   if (holds(path, kMeshFiles)) return;
   throw OptionError(path + ": unknown file format; a model or mesh must end in " +
-                    io::extensions_of(kMeshFiles));
+                    io::extensions_of(kMeshFiles) + io::conversion_hint(path));
 }
 
 void require_formats(const MovedFile& file) {
