@@ -86,6 +86,7 @@ TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
     EXPECT_NE(info.find(words), std::string::npos) << info;
   };
   contains("glTF model of 3352 vertices, ");
+  contains("animation of 1 s");
   contains("skin of " + std::to_string(skin.json["skins"][0]["joints"].size()) +
            " joints, at most 8 influences");
   file("t.gltf", skin.json.dump());
@@ -286,8 +287,13 @@ TEST_F(ExportCommand, SequencesOfCages) {
   expect_export(command + pattern, 0, "3 poses in 0.0833333 s that move 1 joints");
   expect_export(command + pattern + " --fps 0.5", 0, "3 poses in 4 s");
   EXPECT_EQ(skin("s.glb").joints(3)(0, 0), 1.5);
-  expect_export(command + " --pose " + path("cage.obj"), 0, "1 poses in 0 s that move 0 joints");
+  expect_export(command + " --pose " + path("cage.obj"), 0, "2 poses in 1 s that move 0 joints");
   EXPECT_FALSE(skin("s.glb").json.contains("animations"));
+  // A single pose begins at rest.
+  expect_export(command + " --pose " + path("pose_3.obj"), 0, "2 poses in 1 s that move 1 joints");
+  EXPECT_EQ(skin("s.glb").joints(0)(0, 0), 0);
+  EXPECT_EQ(skin("s.glb").joints(0.5)(0, 0), 1);
+  EXPECT_EQ(skin("s.glb").joints(1)(0, 0), 2);
 
   std::filesystem::remove(path("s.glb"));
   expect_export(command + pattern + " --fps 0", 1, "--fps");

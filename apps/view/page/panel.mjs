@@ -25,10 +25,10 @@ export function tell(text) {
 }
 
 async function copyCommand(viewer) {
-  const command = commandOf(viewer);
+  const command = commandOf(viewer, window.location.href);
   try {
     await navigator.clipboard.writeText(command);
-    tell(`Copied: ${command}`);
+    tell(`Copied. Run it in the folder of the saved pose: ${command}`);
   } catch {
     tell(command);  // browsers may refuse: then it can be read at least
   }
