@@ -216,7 +216,16 @@ std::string describe(const Placement<Dim>& placement, double size) {
 }
 
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
-  if (report.status == SolveStatus::kConverged) return true;
+  if (report.status == SolveStatus::kConverged) {
+    // The criteria of some methods say little about the distance to the optimum.
+    constexpr double kLargeGap = 5e-3;
+    const double gap = report.certificate.relative_gap;
+    if (is_certified(report) && gap > kLargeGap) {
+      std::cerr << "flbc: converged by the criterion of this method, but up to " << 100 * gap
+                << "% above the optimum; lower --tolerance, or use the default --method\n";
+    }
+    return true;
+  }
   std::cerr
       << "flbc: not converged within " << settings.options.max_iterations
       << " iterations; the result is written. Increase --max-iterations, --tolerance, or --gap\n";

@@ -346,6 +346,19 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
 }
 
+// The published criterion can be met far from the optimum.
+TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
+  const auto solve = "solve " + sample("2d/ring_cage.obj") + " --vertices 500 --certify -o " +
+                     path("w.npy") + " --report " + path("r.json") + " --method ";
+  const auto paper = expect(solve + "paper");
+  const auto report = nlohmann::json::parse(slurp(path("r.json")));
+  EXPECT_EQ(report["status"], "converged");
+  EXPECT_GT(report["relative_gap"], 5e-3);
+  EXPECT_NE(paper.errors.find("above the optimum; lower --tolerance"), std::string::npos)
+      << paper.errors;
+  EXPECT_EQ(expect(solve + "value").errors.find("above the optimum"), std::string::npos);
+}
+
 TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {
   expect("solve " + sample("2d/ring_cage.obj") + " -o " + path("w.npy") +
              " --vertices 1000 --max-iterations 5 --report " + path("r.json"),
