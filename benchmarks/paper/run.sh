@@ -12,6 +12,10 @@ models=$(realpath -- "$1")
 out=$(realpath -m -- "$2")
 shift 2
 cd "$(dirname "$0")/../.."
+if ! compgen -G "$models/2d/*.obj" >/dev/null && ! compgen -G "$models/3d/*.obj" >/dev/null; then
+  echo "run.sh: $models has no cages in 2d/ or 3d/; benchmarks/paper/README.md says where they come from" >&2
+  exit 1
+fi
 
 [[ -f build/release/build.ninja ]] || cmake --preset release
 cmake --build --preset release --target flbc_bench_paper flbc_app

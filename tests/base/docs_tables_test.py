@@ -5,6 +5,7 @@
 import contextlib
 import io
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -160,8 +161,17 @@ arm,2000,58,31.8,4,poisson,0.2,1.1,47,0.04,0.9,,0.021,0.08,0.0006,0.008,""")
     assert sparsify[1].startswith(" | 4 | poisson | 110 (4,700) |")
 
 
+def refuses_folders_without_cages():
+    script = pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper" / "run.sh"
+    with tempfile.TemporaryDirectory() as name:
+        ended = subprocess.run([script, name, f"{name}/out"], capture_output=True, text=True, timeout=20)
+        assert ended.returncode == 1 and "has no cages in 2d/ or 3d/" in ended.stderr, ended
+        assert not ended.stdout, "something was built"
+
+
 if __name__ == "__main__":
     result = docs.check()
+    refuses_folders_without_cages()
     notices_numbers_in_sentences()
     notices_changes()
     shows_the_numbers()
