@@ -63,7 +63,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   solver.solve(arguments.quiet);
   const auto& rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);
-  const auto json = to_text(solver.json(delivered));
+  const auto json = arguments.report.empty() ? std::string() : to_text(solver.json(delivered));
   {
     const HeldSignals held;
     io::write_weights(arguments.output, rows);

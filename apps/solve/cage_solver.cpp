@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -184,9 +185,18 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
   });
 }
 
+// Of weights of a method that does not minimize it.
+template <int Dim>
+double CageSolver<Dim>::objective() const {
+  const auto problem = make_problem(cage_, domain_, settings_.options.phi);
+  return flbc::objective(problem.mesh, problem.phi, domain_weights()) /
+         std::pow(problem.scale, Dim - 1);
+}
+
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), delivered});
+  if (std::isnan(report().objective) && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(settings_.outside)},
                        {"on_cage", beside_json(placement_.on_cage)},

@@ -58,6 +58,7 @@ class CageSolver {
   // Says how long a long solve may take.
   void announce() const;
   SparseWeights weights_of_model() const;
+  double objective() const;
 
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;

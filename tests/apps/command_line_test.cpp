@@ -346,6 +346,25 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
 }
 
+// Which other coordinates do not minimize.
+TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
+  const auto cage = sample("2d/letter_cage.obj");
+  expect("mesh " + cage + " --vertices 800 -q -o " + path("d.obj"));
+  const auto objective = [&](const std::string& method) {
+    expect("solve " + cage + " --domain " + path("d.obj") + " -q --method " + method + " -o " +
+           path(method + ".npy") + " --report " + path("r.json"));
+    return nlohmann::json::parse(slurp(path("r.json")))["objective"].get<double>();
+  };
+  const double least = objective("value");
+  EXPECT_GT(objective("harmonic"), 1.01 * least);
+  EXPECT_GT(objective("meanvalue"), 1.01 * least);
+  expect("check " + cage + " --domain " + path("d.obj") + " --weights " + path("harmonic.npy") +
+         " --json " + path("c.json"));
+  const auto check = nlohmann::json::parse(slurp(path("c.json")));
+  EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), objective("harmonic"),
+              1e-9 * least);
+}
+
 // The published criterion can be met far from the optimum.
 TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
   const auto solve = "solve " + sample("2d/ring_cage.obj") + " --vertices 500 --certify -o " +
