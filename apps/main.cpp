@@ -31,13 +31,15 @@ bool has_command(const CLI::App& app, const std::string& name) {
               .empty();
 }
 
-// Names that options had before: scripts may still use them, but --help does not show them.
+// Names that options had before. Scripts may still use them, but --help does not show them.
 struct OldName {
   const char *command, *old_name, *name;
 };
 constexpr OldName kOldNames[] = {{"run", "--deformed", "--pose"},
                                  {"deform", "--cage", "--pose"},
-                                 {"export", "--cages", "--pose"}};
+                                 {"export", "--cages", "--pose"},
+                                 {"run", "--sparsify", "--reduction"},
+                                 {"sparsify", "--method", "--reduction"}};
 
 // The arguments with the names that options have now, in reverse order, as CLI11 wants them.
 std::vector<std::string> arguments_of(int argc, char** argv) {

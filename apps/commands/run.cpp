@@ -224,9 +224,7 @@ void add_shapes(CLI::App& command, RunArguments& a) {
 
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
   command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
-  add_choice(command, "--sparsify", {kPoisson, kQuadratic}, a.reduction,
-             "method that reduces influences (default: poisson). poisson: avoid seams between "
-             "neighbors. quadratic: treat each vertex separately, which is faster");
+  add_reduction_option(command, a.reduction);
   command
       .add_option("--fps", a.frames_per_second,
                   "poses of --pose per second in model.glb (default: 24, or 1 for one pose)")

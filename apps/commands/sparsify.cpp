@@ -38,7 +38,7 @@ struct SparsifyArguments {
   std::string output;
   std::vector<std::string> poses;
   std::string report;
-  std::string method = kQuadratic;
+  std::string reduction = kAutomatic;
   bool quiet = false;
   SparsifyOptions options;
 };
@@ -100,12 +100,12 @@ std::uintmax_t size_of_file(const std::string& path) {
 template <int Dim>
 SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
                           const SparseWeights& weights, const std::vector<PointList<Dim>>& poses,
-                          const SparsifyArguments& arguments) {
+                          const std::string& method, const SparsifyArguments& arguments) {
   const std::string stage = "reducing influences";
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
   options.progress = [&](double done) { bar.show(stage, done); };
-  if (arguments.method == kPoisson) {
+  if (method == kPoisson) {
     return SparseWeights(reduce_by_poisson<Dim>(control_points, model.points, model.edges,
                                                 weights.dense(), poses, options));
   }
@@ -116,19 +116,16 @@ template <int Dim>
 void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
   const auto model = load_points<Dim>(arguments.points);
-  if (arguments.method == kPoisson && model.edges.ends.empty()) {
-    throw InputError(arguments.points +
-                     ": has no faces and no lines, so --method poisson finds no neighbors; use "
-                     "--method quadratic");
-  }
+  const auto method = reduction_for(arguments.reduction, arguments.points, model.edges, cage.size(),
+                                    model.points.cols());
   const auto before = load_weights(arguments, cage.points, model.points);
   const auto poses = load_poses<Dim>(arguments, cage.points.cols());
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    return make_sparse<Dim>(cage.points, model, before, poses, arguments);
+    return make_sparse<Dim>(cage.points, model, before, poses, method, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  Json report{{"method", arguments.method},
+  Json report{{"method", method},
               {"dim", Dim},
               {"control_points", cage.size()},
               {"points", model.points.cols()},
@@ -179,9 +176,7 @@ void add_sparsify_command(CLI::App& app, int&) {
   auto* threshold = command->add_option(
       "--threshold", a.options.threshold,
       "first drop weights below this value where the others can reproduce the vertex");
-  add_choice(*command, "--method", {kQuadratic, kPoisson}, a.method,
-             "method that reduces influences (default: quadratic). quadratic: treat each vertex "
-             "separately. poisson: avoid seams between neighbors");
+  add_reduction_option(*command, a.reduction);
   command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy")->required();
   command
       ->add_option(

@@ -46,7 +46,7 @@ struct RunArguments {
   std::string keyframes;           //!< file of poses instead
   std::string output;              //!< folder
   Index max_influences = 8;
-  std::string reduction = kPoisson;
+  std::string reduction = kAutomatic;
   double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
   Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
   std::string pictures = "png";  //!< format of pictures
