@@ -206,9 +206,9 @@ void add_deform_command(CLI::App& app, int&) {
                    ".msh)")
       ->required();
   command
-      ->add_option(
-          "--weights", a.weights,
-          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->add_option("--weights", a.weights,
+                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                   ".npy, .csv, .mat")
       ->required();
   auto* pose = command->add_option(
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
@@ -219,8 +219,9 @@ void add_deform_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.file.output,
                    "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")
       ->required();
-  command->add_option("--displacement", a.displacement,
-                      "write displacement lengths, one column per pose: .npy, .dmat, .mtx");
+  command->add_option(
+      "--displacement", a.displacement,
+      "write displacement lengths, one column per pose: .npy, .dmat, .mtx, .csv, .mat");
   command->add_flag("--show-displacement", a.file.shows_displacement,
                     "write displacement lengths as vertex colors, or as a field in .vtu and .mesh");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

@@ -181,9 +181,9 @@ void add_export_command(CLI::App& app, int&) {
                    ".msh) whose boundary is exported")
       ->required();
   command
-      ->add_option(
-          "--weights", a.weights,
-          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->add_option("--weights", a.weights,
+                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                   ".npy, .csv, .mat")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* poses = command->add_option(

@@ -59,7 +59,8 @@ struct ConnectedPoints {
 
 // The vertices of a domain mesh or a model.
 template <int Dim>
-ConnectedPoints<Dim> load_points(const std::string& path) {
+ConnectedPoints<Dim> load_connected_points(const std::string& path) {
+  if (is_point_file(path)) return {load_points<Dim>(path), {}};
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
@@ -115,7 +116,7 @@ SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedP
 template <int Dim>
 void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
-  const auto model = load_points<Dim>(arguments.points);
+  const auto model = load_connected_points<Dim>(arguments.points);
   const auto method = reduction_for(arguments.reduction, arguments.points, model.edges, cage.size(),
                                     model.points.cols());
   const auto before = load_weights(arguments, cage.points, model.points);
@@ -164,9 +165,9 @@ void add_sparsify_command(CLI::App& app, int&) {
       "The result has weights >= 0 that sum to 1 and reproduce the vertices, even if WEIGHTS do "
       "not.");
   command
-      ->add_option(
-          "WEIGHTS", a.weights,
-          "weights: .mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
+      ->add_option("WEIGHTS", a.weights,
+                   "weights: .mtx, .dmat, .npy, .csv, .mat, or .txt with \"CONTROL_POINT POINT "
+                   "WEIGHT\" on every line")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
@@ -177,7 +178,8 @@ void add_sparsify_command(CLI::App& app, int&) {
       "--threshold", a.options.threshold,
       "first drop weights below this value where the others can reproduce the vertex");
   add_reduction_option(*command, a.reduction);
-  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy")->required();
+  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy, .csv, .mat")
+      ->required();
   command
       ->add_option(
           "--pose", a.poses,

@@ -346,6 +346,38 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
 }
 
+// Lists of points are models, and functions are fields of a mesh.
+TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
+  const auto cage = sample("2d/letter_cage.obj"), model = sample("2d/letter_model.obj");
+  const auto solve = "solve " + cage + " --vertices 600 --method harmonic -q -o ";
+  const auto points = io::to_points<2>(io::read_polygons(model), model);
+  io::write_weights(path("p.npy"), points);
+  io::write_weights(path("p.csv"), points);
+  expect(solve + path("expected.npy") + " --model " + model + " --save-domain " + path("d.vtu"));
+  const auto expected = io::read_weights(path("expected.npy"));
+  for (const std::string list : {"p.npy", "p.csv"}) {
+    expect(solve + path("w.npy") + " --model " + path(list));
+    EXPECT_EQ(io::read_weights(path("w.npy")), expected) << list;
+    expect("check " + cage + " --model " + path(list) + " --weights " + path("w.npy"));
+    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + path(list) +
+           " -k 4 -q -o " + path("s.mtx"));
+    expect("convert " + path("w.npy") + " -q --points " + path(list) + " -o " + path("w.mat"));
+  }
+  expect(solve + path("w.npy") + " --model " + file("q.csv", "1,2,3\n"), 2,
+         "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");
+
+  std::vector<io::VertexField> fields;
+  const auto domain = io::read_domain<2>(path("d.vtu"), fields);
+  expect(solve + path("v.npy") + " --domain " + path("d.vtu"));
+  const auto weights = io::read_weights(path("v.npy"));
+  ASSERT_EQ(fields.size(), static_cast<std::size_t>(weights.rows()));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    EXPECT_EQ(fields[i].name, "w_" + std::to_string(i));
+    const Eigen::VectorXd row = weights.row(static_cast<Eigen::Index>(i));
+    EXPECT_LT((fields[i].values - row).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
 // Which other coordinates do not minimize.
 TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
   const auto cage = sample("2d/letter_cage.obj");

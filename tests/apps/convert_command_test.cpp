@@ -52,7 +52,7 @@ class ConvertCommand : public CommandLineTest {
 };
 
 TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
-  const std::string formats[] = {"npy", "dmat", "mtx", "txt"};
+  const std::string formats[] = {"npy", "dmat", "mtx", "csv", "mat", "txt"};
   const auto weights = write_weights("a.npy");
   for (const auto& from : formats) {
     if (from != "npy") expect_converted(path("a.npy") + " -o " + path("a." + from));

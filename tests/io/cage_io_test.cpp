@@ -107,7 +107,8 @@ TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
 TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
   // A frame of four quadrilaterals around a hole.
   PolygonSoup frame;
-  frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2}, {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
+  frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2},
+                  {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
   for (Index k = 0; k < 4; ++k) {
     frame.polygons.push_back({k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k});
   }

@@ -33,6 +33,8 @@ constexpr Format kFormats[] = {
     {"mtx", {}, {}, {}, {nullptr, nullptr, read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
+    {"csv", {}, {}, {}, {read_csv, write_csv}},
+    {"mat", {}, {}, {}, {read_mat, write_mat}},
     {"txt"},  // flbc/io/weights_triplets.h
 };
 
