@@ -41,6 +41,7 @@ constexpr std::size_t kLongestBody = 16 << 20;
 // Whole requests and whole replies; programs on the same machine need far less.
 constexpr seconds kLongestExchange(10);
 constexpr seconds kLongestDrain(1);
+constexpr std::size_t kMostDrained = 1 << 20;
 constexpr std::size_t kMostConnections = 512;
 // A page that is loaded again is closed for a moment.
 constexpr milliseconds kReloading(2500);
@@ -129,7 +130,7 @@ struct Connection {
   std::string received{};
   std::size_t body_begin = 0, body_size = 0;
   std::string reply{};
-  std::size_t sent = 0;
+  std::size_t sent = 0, drained = 0;
 
   bool has_deadline() const { return state != State::kWaits && state != State::kWatches; }
   short events() const {
@@ -245,6 +246,10 @@ struct LocalServer::State {
       if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
       if (count <= 0) return closed.push_back(connection.id);
       const bool reads_head = connection.state == CState::kReadsHead;
+      if (connection.state == CState::kDrains) {
+        connection.drained += static_cast<std::size_t>(count);
+        if (connection.drained > kMostDrained) return closed.push_back(connection.id);
+      }
       if (!reads_head && connection.state != CState::kReadsBody) continue;  // not of interest
       connection.received.append(bytes, static_cast<std::size_t>(count));
       if (reads_head) read_head(connection);

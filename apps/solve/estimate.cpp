@@ -24,6 +24,14 @@ bool uses_active_set(int dim, double control_points, double pairs, const SolverO
   return dim == 3 && control_points >= 80 && pairs >= 400000 && !options.certify;
 }
 
+// "0.25", "1.3", "120".
+std::string rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  std::ostringstream text;
+  text << std::round(value / unit) * unit;
+  return text.str();
+}
+
 }  // namespace
 
 Estimate estimate_solve(int dim, Index control_points, Index vertices,
@@ -39,18 +47,11 @@ Estimate estimate_solve(int dim, Index control_points, Index vertices,
 
 std::string describe(const Estimate& estimate) {
   constexpr double kMinute = 60, kGigabyte = 1e9, kMegabyte = 1e6;
-  std::ostringstream text;
-  text.precision(2);
-  text << "about ";
-  if (estimate.seconds > 2 * kMinute) {
-    text << std::round(estimate.seconds / kMinute) << " min";
-  } else {
-    text << estimate.seconds << " s";
-  }
+  const bool is_slow = estimate.seconds > 2 * kMinute;
   const bool is_large = estimate.bytes >= kGigabyte;
-  text << " and " << estimate.bytes / (is_large ? kGigabyte : kMegabyte)
-       << (is_large ? " GB" : " MB");
-  return text.str();
+  return "about " + rounded(is_slow ? estimate.seconds / kMinute : estimate.seconds) +
+         (is_slow ? " min" : " s") + " and " +
+         rounded(estimate.bytes / (is_large ? kGigabyte : kMegabyte)) + (is_large ? " GB" : " MB");
 }
 
 bool is_long(const Estimate& estimate) {

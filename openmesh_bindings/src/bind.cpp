@@ -109,7 +109,7 @@ template <int Dim>
 Eigen::VectorXd reproducing_in(const PointList<Dim>& cage, const PointList<Dim>& point,
                                WeightMatrix weights, std::size_t most) {
   project_non_negative(cage, point, weights);
-  if (most > 0) weights = sparsify<Dim>(cage, point, weights, {static_cast<Index>(most)});
+  if (most > 0) weights = flbc::sparsify<Dim>(cage, point, weights, {static_cast<Index>(most)});
   return weights;
 }
 
