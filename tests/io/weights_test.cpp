@@ -357,9 +357,9 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat or .npy"});
+    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat, .npy, .csv or .mat"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .dmat or .npy"});
+                              {file, ".mtx, .dmat, .npy, .csv or .mat"});
   }
   EXPECT_TRUE(names().empty());
 }

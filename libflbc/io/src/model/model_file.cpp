@@ -33,7 +33,7 @@ std::string describe_mistake(const std::string& path, const std::string& content
   if (likely == "binary") {
     return extension == "obj" || extension == "off" ? start + "a binary file" : std::string();
   }
-  const auto hint = conversion_hint("." + likely);
+  const auto hint = conversion_hint("a." + likely);
   return start + upper(likely) + (hint.empty() ? "; let its name end in ." + likely : hint);
 }
 
