@@ -83,8 +83,9 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
 // A cube with another corner so near the last that no mesher can separate them; reported before
 // meshing.
 // What is sound can be solved, also far from the origin, and the box keeps its digits there.
-TEST_F(CheckCommand, CagesFarAwayAreSolved) {
-  const auto away = [&](const std::string& name, int dim) {
+// Farther away, cages are refused before anything is written.
+TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
+  const auto away = [&](const std::string& name, int dim, double distance) {
     std::ostringstream text;
     text.precision(17);
     std::istringstream lines(slurp(sample(name)));
@@ -97,13 +98,18 @@ TEST_F(CheckCommand, CagesFarAwayAreSolved) {
         text << line << '\n';
         continue;
       }
-      text << "v " << x + 1e8 << ' ' << y - 1e8 << ' ' << z + (dim == 3 ? 1e8 : 0) << '\n';
+      text << "v " << x + distance << ' ' << y - distance << ' ' << z + (dim == 3 ? distance : 0)
+           << '\n';
     }
     return file(std::to_string(dim) + ".obj", text.str());
   };
   for (const int dim : {2, 3}) {
     SCOPED_TRACE(dim);
-    const auto cage = away(dim == 2 ? "2d/letter_cage.obj" : "3d/star_cage.obj", dim);
+    const auto name = dim == 2 ? "2d/letter_cage.obj" : "3d/star_cage.obj";
+    const auto farther = away(name, dim, 5e9);
+    expect("run " + farther + " -o " + path("out"), 2, "too far from the origin");
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+    const auto cage = away(name, dim, 1e8);
     const auto checked = expect("check " + cage);
     EXPECT_NE(checked.output.find("sound"), std::string::npos);
     EXPECT_EQ(checked.output.find("e+08"), std::string::npos) << checked.output;
