@@ -23,6 +23,8 @@ constexpr Wording kWordings[] = {
     {"certify needs a method", "--certify needs a method"},
     {"gap needs a method", "--gap needs a method"},
     {"gap must be positive", "--gap must be positive"},
+    {"smoothness must be positive", "--smoothness must be positive"},
+    {"smoothness is for the methods", "--smoothness is for the methods"},
     {"tolerance must be positive", "--tolerance must be positive"},
     {"penalty must be positive", "--penalty must be positive"},
     {"relaxation must be in", "--relaxation must be in"},
