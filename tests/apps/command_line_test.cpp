@@ -101,6 +101,15 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   const auto draw =
       "draw " + path("d.obj") + " --weights " + path("w.npy") + " -o " + path("p.png") + " --cage ";
   expect_failure(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
+  // Of two kinds of weights, both functions and their difference.
+  expect("solve " + cage + " --domain " + path("d.obj") + " -q --method meanvalue -o " +
+         path("m.npy"));
+  expect(draw + cage + " --compare " + path("m.npy"));
+  const auto three = slurp(path("p.png"));
+  expect(draw + cage + " --compare " + path("w.npy"));
+  EXPECT_NE(slurp(path("p.png")), three);
+  fs::remove(path("p.png"));
+  expect_failure(draw + cage + " --all --compare " + path("m.npy"), 1, "cannot be combined");
   expect_failure(draw + sample("2d/ring_cage.obj"), 2, "has weights for 24 control points, but");
 }
 
