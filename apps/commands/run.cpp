@@ -252,7 +252,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command
       ->add_option("--keyframes", a.keyframes,
                    "poses as displacements of the cage, with times in seconds")
-      ->excludes(poses);
+      ->excludes(poses)
+      ->group(kMore);
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()

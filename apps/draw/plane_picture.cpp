@@ -172,7 +172,8 @@ std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
   std::ostringstream label;
   label.precision(2);
   label << "difference, at most " << largest;
-  const Eigen::VectorXd shown[] = {values, others, largest > 0 ? difference / largest : difference};
+  const double unit_of_difference = largest > 0 ? largest : 1;
+  const Eigen::VectorXd shown[] = {values, others, difference / unit_of_difference};
   const std::string names[] = {labels[0], labels[1], label.str()};
   const Box content = bounding_box(cage.points);
   const auto sheet = plan_sheet(content, 3, options);

@@ -96,9 +96,9 @@ nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context) {
+  // The penalty has another unit, but other options depend on whether it is set.
   auto given = settings.options;
-  given.penalty =
-      settings.penalty;  // in another unit, but other options depend on whether it is set
+  given.penalty = settings.penalty;
   const auto options = resolve(given);
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
