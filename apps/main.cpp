@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
+#include <fcntl.h>
 #include <malloc.h>
+#include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
@@ -12,11 +16,12 @@
 #include "commands/commands.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
+#include "help/wording.h"
 
 namespace {
 
 int fail(int exit_status, const char* what) {
-  std::cerr << "flbc: " << what << '\n';
+  std::cerr << "flbc: " << flbc::app::in_words_of_program(what) << '\n';
   return exit_status;
 }
 
@@ -26,13 +31,15 @@ bool has_command(const CLI::App& app, const std::string& name) {
               .empty();
 }
 
-// Names that options had before: scripts may still use them, but --help does not show them.
+// Names that options had before. Scripts may still use them, but --help does not show them.
 struct OldName {
   const char *command, *old_name, *name;
 };
 constexpr OldName kOldNames[] = {{"run", "--deformed", "--pose"},
                                  {"deform", "--cage", "--pose"},
-                                 {"export", "--cages", "--pose"}};
+                                 {"export", "--cages", "--pose"},
+                                 {"run", "--sparsify", "--reduction"},
+                                 {"sparsify", "--method", "--reduction"}};
 
 // The arguments with the names that options have now, in reverse order, as CLI11 wants them.
 std::vector<std::string> arguments_of(int argc, char** argv) {
@@ -179,10 +186,30 @@ int run(int argc, char** argv) {
   return exit_status;
 }
 
+// Where a standard stream is closed, the next file would get its number, and messages would go into
+// that file. What takes its place fails in use, as the closed one would; only messages may be lost.
+void occupy_standard_streams() {
+  constexpr std::pair<int, int> kStreams[] = {
+      {STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
+  for (const auto& [stream, mode] : kStreams) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", mode);  // gets the smallest free number
+  }
+}
+
+// Limits of the system end in messages rather than in signals.
+void adapt_to_limits() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails to be written
+  constexpr int kMostThreads = 64;
+  const int most = std::max(kMostThreads, omp_get_num_procs());
+  if (omp_get_max_threads() > most) omp_set_num_threads(most);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace flbc::app;
+  occupy_standard_streams();
+  adapt_to_limits();
   // Matrices go back to the system when they are freed. By default freed memory of their size is
   // kept, in pieces between others, which costs a fifth of what a solve takes.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);

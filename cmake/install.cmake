@@ -46,7 +46,7 @@ if(TARGET flbc_openmesh)
   install(DIRECTORY openmesh_bindings/include/flbc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.h")
   install(DIRECTORY openmesh_bindings/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
-    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.cpp")
+    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.cpp" PATTERN CMakeLists.txt)
 endif()
 
 # ---- the CMake package ---------------------------------------------------------------------------

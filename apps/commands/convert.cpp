@@ -29,7 +29,7 @@ void check_mesh_arguments(const WeightConversion& files) {
   if (!io::holds(files.input, kMeshFiles)) {
     throw OptionError(files.input + ": unknown file format; weights end in " +
                       io::extensions_of(kWeightFiles) + ", meshes in " +
-                      io::extensions_of(kMeshFiles));
+                      io::extensions_of(kMeshFiles) + io::conversion_hint(files.input));
   }
   if (is_weight_file(files.output))
     throw OptionError(files.output + ": a mesh cannot be written as weights; choose from " +
@@ -75,7 +75,8 @@ void add_convert_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
-      "Weights: .mtx, .dmat, .npy, and .txt with \"CONTROL_POINT POINT WEIGHT\" on every line,\n"
+      "Weights: .mtx, .dmat, .npy, .csv, .mat, and .txt with \"CONTROL_POINT POINT WEIGHT\" on "
+      "every line,\n"
       "numbered from 0. Conversions between them are lossless.\n"
       "Models: .obj, .off, .ply, .stl, .om. Meshes: 2D .obj, .off, .vtu; 3D .mesh, .node, .ele,\n"
       ".msh, .vtu. The program reports attributes that the new format does not support. A .ply or\n"

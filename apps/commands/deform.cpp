@@ -95,20 +95,48 @@ SparseWeights load_weights(const MovableModel<Dim>& model, const PointList<Dim>&
   return weights;
 }
 
+// Removes the files of a sequence that were new, unless all were written.
+class NewFiles {
+ public:
+  NewFiles() = default;
+  ~NewFiles() {
+    std::error_code ignored;
+    for (const auto& path : paths_) std::filesystem::remove(path, ignored);
+  }
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+
+  // To be called before a file is written.
+  void expect(const std::string& path) {
+    std::error_code ignored;
+    for (const auto& file : files_of_model(path)) {
+      if (!std::filesystem::exists(file, ignored)) paths_.push_back(file);
+    }
+  }
+  void keep() { paths_.clear(); }
+
+ private:
+  std::vector<std::string> paths_;
+};
+
 template <int Dim>
 void write_results(const MovableModel<Dim>& model, const SparseWeights& weights,
                    const std::vector<Pose<Dim>>& poses, const Displacement& displacement,
                    const std::vector<std::string>& outputs, const DeformArguments& arguments) {
+  NewFiles files;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const auto points = deform(weights, poses[k].points);
+    files.expect(outputs[k]);
     Eigen::VectorXd lengths;
     if (arguments.file.shows_displacement) lengths = displacement.lengths.row(k).transpose();
     const HeldSignals held;
     naming(outputs[k], [&] { model.write(outputs[k], points, lengths, displacement.largest); });
   }
-  if (arguments.displacement.empty()) return;
-  const HeldSignals held;
-  io::write_weights(arguments.displacement, displacement.lengths);
+  if (!arguments.displacement.empty()) {
+    const HeldSignals held;
+    io::write_weights(arguments.displacement, displacement.lengths);
+  }
+  files.keep();
 }
 
 template <int Dim>
@@ -150,6 +178,9 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   Displacement displacement;
   if (!arguments.rest.empty()) {
     displacement = measure_displacement(weights, model.points(), poses);
+    if (!displacement.lengths.allFinite()) {
+      throw InputError(poses[displacement.pose].name + ": displacements are not finite");
+    }
   }
   write_results(model, weights, poses, displacement, outputs, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -175,9 +206,9 @@ void add_deform_command(CLI::App& app, int&) {
                    ".msh)")
       ->required();
   command
-      ->add_option(
-          "--weights", a.weights,
-          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->add_option("--weights", a.weights,
+                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                   ".npy, .csv, .mat")
       ->required();
   auto* pose = command->add_option(
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
@@ -188,8 +219,9 @@ void add_deform_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.file.output,
                    "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")
       ->required();
-  command->add_option("--displacement", a.displacement,
-                      "write displacement lengths, one column per pose: .npy, .dmat, .mtx");
+  command->add_option(
+      "--displacement", a.displacement,
+      "write displacement lengths, one column per pose: .npy, .dmat, .mtx, .csv, .mat");
   command->add_flag("--show-displacement", a.file.shows_displacement,
                     "write displacement lengths as vertex colors, or as a field in .vtu and .mesh");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc draw: coordinate functions and deformations as pictures.
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numeric>
@@ -31,6 +32,7 @@ struct DrawArguments {
   std::string cage;
   std::string pose;
   std::string shown_model;
+  std::string compared;  // other weights of the same vertices
   std::string output;
   std::string color;
   std::string view = "three-quarter";
@@ -88,9 +90,23 @@ std::vector<Index> all_of(Index count) {
   return control_points;
 }
 
+std::string stem_of(const std::string& path) {
+  return std::filesystem::path(path).stem().string();
+}
+
 std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
   if (!arguments.shown_model.empty()) throw OptionError("--show-model is for cages in 3D");
+  if (!arguments.compared.empty()) {
+    const auto others = io::read_weights(arguments.compared);
+    check_sizes(others, cage.size(), domain.num_vertices(),
+                {arguments.compared, arguments.cage,
+                 arguments.domain.empty() ? arguments.model : arguments.domain});
+    const Index i = arguments.control_point;
+    return draw::draw_comparison(cage, domain, weights.row(i), others.row(i),
+                                 {stem_of(arguments.weights), stem_of(arguments.compared)}, i,
+                                 arguments.options);
+  }
   if (arguments.all) {
     return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
   }
@@ -100,6 +116,7 @@ std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const Weig
 
 std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
+  if (!arguments.compared.empty()) throw OptionError("--compare is for cages in 2D");
   if (arguments.all) {
     return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
   }
@@ -162,6 +179,7 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
 }
 
 std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
+  if (!arguments.compared.empty()) throw OptionError("--compare is for cages in 2D");
   const auto view = parse_view(arguments.view);
   const auto posed = load_posed(cage, arguments);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
@@ -198,13 +216,17 @@ void add_options(CLI::App& command, DrawArguments& a) {
   model->excludes(domain);
   command.add_option("--weights", a.weights, "weights at the vertices")->required();
   command.add_option("--cage", a.cage, "cage of the weights")->required();
+  auto* compare = command.add_option(
+      "--compare", a.compared,
+      "other weights of the same vertices: draw both functions and their difference, in 2D");
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
   auto* point =
       command.add_option("--control-point", a.control_point,
                          "control point whose function is drawn, counted from 0 (default: 0)");
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
-      ->needs(model);
+      ->needs(model)
+      ->excludes(compare);
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
              "what the colors of the model show (default: weight, or plain with --pose)")
       ->needs(model);
@@ -220,7 +242,8 @@ void add_options(CLI::App& command, DrawArguments& a) {
                     ->needs(domain);
   command.add_flag("--all", a.all, "draw all functions on one sheet")
       ->excludes(point)
-      ->excludes(shown);
+      ->excludes(shown)
+      ->excludes(compare);
   command.add_option("--slices", a.slices, "number of slices in 3D (default: 3)");
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command.add_option("--isolines", a.options.isolines,

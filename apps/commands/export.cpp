@@ -27,8 +27,8 @@ struct ExportArguments {
   std::string cage;
   std::vector<std::string> poses;
   std::string keyframes;
-  double frames_per_second = 24;
-  int bits = 0;  // 0 = float
+  double frames_per_second = 0;  // 0 = 24, or one second for a single pose
+  int bits = 0;                  // 0 = float
   std::string output;
   bool quiet = false;
   gltf::SkinOptions options;
@@ -85,7 +85,13 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
   const auto& keyframes = arguments.keyframes;
   const auto num_control_points = static_cast<Index>(rest.cols());
   if (keyframes.empty()) {
-    return animation_of(load_poses<Dim>(poses, arguments.frames_per_second), num_control_points);
+    const double rate = frame_rate(poses.paths.size(), arguments.frames_per_second);
+    auto animation = animation_of(load_poses<Dim>(poses, rate), num_control_points);
+    if (animation.poses.size() == 1) {  // one pose does not move: it begins at rest
+      animation.times = {0, 1 / rate};
+      animation.poses.insert(animation.poses.begin(), rest);
+    }
+    return animation;
   }
   auto animation = animation_of(load_keyframes<Dim>(keyframes, rest), num_control_points);
   naming(keyframes, [&] { gltf::validate(animation, rest.cols()); });
@@ -175,9 +181,9 @@ void add_export_command(CLI::App& app, int&) {
                    ".msh) whose boundary is exported")
       ->required();
   command
-      ->add_option(
-          "--weights", a.weights,
-          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->add_option("--weights", a.weights,
+                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                   ".npy, .csv, .mat")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* poses = command->add_option(
@@ -186,7 +192,10 @@ void add_export_command(CLI::App& app, int&) {
       ->add_option("--keyframes", a.keyframes,
                    "animation: displacements of the cage, with times in seconds")
       ->excludes(poses);
-  command->add_option("--fps", a.frames_per_second, "poses of --pose per second (default: 24)")
+  command
+      ->add_option(
+          "--fps", a.frames_per_second,
+          "poses of --pose per second (default: 24, or 1 for one pose, which begins at rest)")
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
   command->add_option("-k,--max-influences", a.options.max_influences,

@@ -6,18 +6,24 @@
 
 #include "commands/commands.h"
 #include "files/convert_weights.h"
+#include "files/gltf_facts.h"
 #include "files/movable_model.h"
+#include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
+#include "report/facts.h"
+#include "solve/estimate.h"
 
 namespace flbc::app {
 namespace {
 
 void print_box(const Eigen::MatrixXd& points) {
-  const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
-  std::cout << "  from " << points.rowwise().minCoeff().transpose().format(row) << " to "
-            << points.rowwise().maxCoeff().transpose().format(row) << '\n';
+  const Eigen::RowVectorXd low = points.rowwise().minCoeff().transpose();
+  const Eigen::RowVectorXd high = points.rowwise().maxCoeff().transpose();
+  const Eigen::IOFormat row(digits_of_box(low, high), Eigen::DontAlignCols, ", ", ", ", "", "", "(",
+                            ")");
+  std::cout << "  from " << low.format(row) << " to " << high.format(row) << '\n';
 }
 
 void print_weights(const std::string& path) {
@@ -45,8 +51,14 @@ void print_domain(const std::string& path, const DomainMesh<Dim>& domain) {
   print_box(domain.points);
 }
 
+struct InfoArguments {
+  std::string path;
+  bool estimates = false;
+  Index vertices = 10000;
+};
+
 template <int Dim>
-void print_cage(const Cage<Dim>& cage) {
+void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
   auto defects = find_defects(cage);
 #ifdef FLBC_WITH_CGAL
   if (defects.empty()) defects = find_self_intersections(cage);
@@ -54,25 +66,38 @@ void print_cage(const Cage<Dim>& cage) {
   if (defects.empty()) {
     std::cout << "  a sound " << Dim << "D cage of " << cage.size() << " control points and "
               << cage.facets.cols() << (Dim == 2 ? " edges\n" : " triangles\n");
+    if (!arguments.estimates) return;
+    std::cout << "  a solve on " << arguments.vertices << " mesh vertices takes "
+              << describe(estimate_solve(Dim, cage.size(), arguments.vertices, {})) << '\n';
     return;
   }
   std::cout << "  not a cage:\n";
   for (const auto& defect : defects) std::cout << "    " << defect.message << '\n';
 }
 
-void print_polygons(const std::string& path) {
+void print_polygons(const InfoArguments& arguments) {
+  const auto& path = arguments.path;
   const auto soup = io::read_polygons(path);
   std::cout << path << ": " << soup.points.size() << " vertices, " << soup.polygons.size()
             << " polygons, " << soup.polylines.size() << " polylines\n";
   if (soup.points.empty()) return;
   print_box(io::to_points<3>(soup, path));
-  std::visit([](const auto& cage) { print_cage(cage); }, io::to_cage(soup, path));
+  try {
+    std::visit([&](const auto& cage) { print_cage(cage, arguments); }, io::to_cage(soup, path));
+  } catch (const InputError& error) {
+    std::cout << "  not a cage:\n    " << error.what() << '\n';
+  }
 }
 
-void print_info(const std::string& path) {
+void print_info(const InfoArguments& arguments) {
+  const auto& path = arguments.path;
   if (is_weight_file(path)) return print_weights(path);
+  if (is_gltf_file(path)) {
+    std::cout << describe_gltf(path);
+    return;
+  }
   if (io::holds(path, {io::Content::kModel}) || !io::holds(path, kMeshFiles)) {
-    return print_polygons(path);
+    return print_polygons(arguments);
   }
   std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
              load_any_model({path, path}));
@@ -81,11 +106,19 @@ void print_info(const std::string& path) {
 }  // namespace
 
 void add_info_command(CLI::App& app, int&) {
-  auto path = std::make_shared<std::string>();
+  auto arguments = std::make_shared<InfoArguments>();
+  auto& a = *arguments;
   auto* command =
-      app.add_subcommand("info", "show what a cage, mesh, model, or weight file contains");
-  command->add_option("FILE", *path, "file to show")->required();
-  command->callback([path] { print_info(*path); });
+      app.add_subcommand("info", "show what a cage, mesh, model, skin, or weight file contains");
+  command->add_option("FILE", a.path, "file to show")->required();
+  auto* estimate = command->add_flag("--estimate", a.estimates,
+                                     "estimate the time and the memory of a solve for a cage");
+  command
+      ->add_option("--vertices", a.vertices,
+                   "number of mesh vertices for --estimate (default: 10000)")
+      ->check(refuse_vertex_count)
+      ->needs(estimate);
+  command->callback([arguments] { print_info(*arguments); });
 }
 
 }  // namespace flbc::app

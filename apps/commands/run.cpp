@@ -12,6 +12,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "help/wording.h"
 #include "report/facts.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
@@ -40,7 +41,7 @@ void check_control_point(const Cage<Dim>& cage, Index control_point) {
 template <class Action>
 void naming_step(const std::string& step, const Action& action) {
   const auto text = [&](const std::exception& error) {
-    return "step " + step + ": " + error.what();
+    return "step " + step + ": " + in_words_of_program(error.what());
   };
   try {
     action();
@@ -68,15 +69,17 @@ void take_steps(Run<Dim>& run) {
       {"check", check_weights_of_mesh}, {"sparsify", reduce_influences}, {"deform", deform_shape},
       {"export", export_shape},         {"pictures", draw_pictures},     {"page", write_page},
   };
-  double total = 0;
   for (const auto& [name, take] : steps) {
     const auto start = std::chrono::steady_clock::now();
     naming_step(name, [&, step = take] { step(run); });
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     run.report["seconds"][name] = seconds.count();
-    total += seconds.count();
   }
-  run.report["seconds"]["total"] = total;
+  auto& report = run.report["seconds"];
+  report["cage"] = report["cage"].template get<double>() + run.arguments.caging_seconds;
+  const std::chrono::duration<double> total =
+      std::chrono::steady_clock::now() - run.arguments.start;
+  report["total"] = total.count();
 }
 
 template <int Dim>
@@ -142,6 +145,15 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   return finish(run);
 }
 
+// A model is easily taken for a cage, and then keeps the solver busy for long.
+void refuse_model_as_cage(const io::PolygonSoup& soup, const SolveSettings& settings) {
+  constexpr std::size_t kMost = 2000;
+  if (soup.points.size() <= kMost || !settings.model.empty()) return;
+  throw OptionError(settings.cage + ": has " + std::to_string(soup.points.size()) +
+                    " vertices, more than cages usually have; did you mean --auto-cage? Otherwise "
+                    "name the model inside this cage, or use flbc solve");
+}
+
 void require_model_to_embed(const SolveSettings& settings) {
   if (!settings.embed || !settings.model.empty()) return;
   throw OptionError("--embed requires MODEL");
@@ -152,7 +164,9 @@ void require_model_to_embed(const SolveSettings& settings) {
 int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
-    throw OptionError("--auto-cage makes the cage; give MODEL only");
+    throw OptionError(
+        "--auto-cage makes the cage; give MODEL only, and the number of control points by "
+        "--control-points");
   }
   const bool is_picture = io::extension_of(settings.cage) == "png";
   auto& file = is_picture ? arguments.picture : settings.model;
@@ -162,63 +176,55 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   CagingOptions options;
   options.control_points = arguments.cage_control_points;
   const auto run_in_cage = [&](const auto& model) {
+    const auto start = std::chrono::steady_clock::now();
     const auto cage = [&] {
       const ProgressBar bar(arguments.quiet, "making a cage");
       return make_cage(file, model, options).cage;
     }();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    arguments.caging_seconds = seconds.count();
     return run_cage(cage, arguments);
   };
   return std::visit(run_in_cage, load_model_facets(file));
 }
 
-// Of --auto-cage: a number, or nothing.
-void read_auto_cage(const CLI::Option& option, RunArguments& arguments) {
-  arguments.makes_cage = option.count() > 0;
-  if (!arguments.makes_cage) return;
-  const auto& values = option.results();
-  constexpr const char* kNoValue = "{}";  // of CLI11
-  if (values.empty() || values.front().empty() || values.front() == kNoValue) return;
-  const auto refusal = refuse_vertex_count(values.front());
-  if (!refusal.empty()) throw OptionError("--auto-cage: " + refusal);
-  arguments.cage_control_points = std::stoi(values.front());
-}
-
 // \return the exit status
-int run_as_told(const CLI::App& command, const CLI::Option& auto_cage, RunArguments& arguments) {
+int run_as_told(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
-  read_auto_cage(auto_cage, arguments);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
   require_model_to_embed(arguments.settings);
   const io::ModelFile file(arguments.settings.cage);
-  const auto cage = checked_cage(file.model().soup, arguments.settings.cage);
+  const auto& soup = file.model().soup;
+  refuse_model_as_cage(soup, arguments.settings);
+  const auto cage = checked_cage(soup, arguments.settings.cage);
   return std::visit([&](const auto& any) { return run_cage(any, arguments, &file); }, cage);
 }
 
-// CAGE, MODEL, and the option that makes the first of them of the second.
-CLI::Option* add_shapes(CLI::App& command, SolveSettings& settings) {
+// CAGE, MODEL, and the options that make the first of them of the second.
+void add_shapes(CLI::App& command, RunArguments& a) {
   command
-      .add_option("CAGE", settings.cage,
+      .add_option("CAGE", a.settings.cage,
                   "closed polylines (2D) or surface (3D); with --auto-cage a model, or a .png with "
                   "transparent pixels")
       ->required();
-  command.add_option("MODEL", settings.model,
+  command.add_option("MODEL", a.settings.model,
                      "model inside the cage: .obj .off .ply .stl .om (default: the mesh of the "
                      "cage interior)");
   command.option_defaults()->group("Cage and poses");
-  return command
-      .add_option("--auto-cage",
-                  "make a cage around the first file, with at most N control points (default: "
-                  "depends on the shape)")
-      ->expected(0, 1)
-      ->type_name("[N]");
+  auto* makes_cage =
+      command.add_flag("--auto-cage", a.makes_cage, "make a cage around the first file");
+  command
+      .add_option(
+          "--control-points", a.cage_control_points,
+          "maximum number of control points for --auto-cage (default: depends on the shape)")
+      ->check(refuse_vertex_count)
+      ->needs(makes_cage);
 }
 
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
   command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
-  add_choice(command, "--sparsify", {kPoisson, kQuadratic}, a.reduction,
-             "method that reduces influences (default: poisson). poisson: avoid seams between "
-             "neighbors. quadratic: treat each vertex separately, which is faster");
+  add_reduction_option(command, a.reduction);
   command
       .add_option("--fps", a.frames_per_second,
                   "poses of --pose per second in model.glb (default: 24, or 1 for one pose)")
@@ -240,13 +246,14 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "pose, model.glb (an animated skin), pictures, model.html (a page for moving the cage), and\n"
       "report.json. A run replaces the files of an earlier run in OUTDIR. Model and skin use the\n"
       "sparse weights. If a step fails, the results of earlier steps remain.");
-  auto* auto_cage = add_shapes(*command, a.settings);
+  add_shapes(*command, a);
   auto* poses = command->add_option(
       "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command
       ->add_option("--keyframes", a.keyframes,
                    "poses as displacements of the cage, with times in seconds")
-      ->excludes(poses);
+      ->excludes(poses)
+      ->group(kMore);
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()
@@ -262,9 +269,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
       ->check(refuse_vertex_count);
   add_solver_options(*command, a.settings);
   add_rare_options(*command, a, poses);
-  command->callback([arguments, command, auto_cage, &exit_status] {
-    exit_status = run_as_told(*command, *auto_cage, *arguments);
-  });
+  command->callback(
+      [arguments, command, &exit_status] { exit_status = run_as_told(*command, *arguments); });
 }
 
 }  // namespace flbc::app

@@ -51,6 +51,19 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   std::cerr << describe(solver.placement(), bounding_box_diagonal(solver.cage().points)) << '\n';
 }
 
+// Programs that read VTK show the coordinate functions as fields.
+template <int Dim>
+void save_domain(const std::string& path, const CageSolver<Dim>& solver) {
+  std::vector<io::VertexField> fields;
+  if (io::extension_of(path) == "vtu") {
+    const auto weights = solver.domain_weights().dense();
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      fields.push_back({"w_" + std::to_string(i), weights.row(i)});
+    }
+  }
+  io::write_domain(path, solver.domain(), fields);
+}
+
 template <int Dim>
 int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
@@ -63,11 +76,11 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   solver.solve(arguments.quiet);
   const auto& rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);
-  const auto json = to_text(solver.json(delivered));
+  const auto json = arguments.report.empty() ? std::string() : to_text(solver.json(delivered));
   {
     const HeldSignals held;
     io::write_weights(arguments.output, rows);
-    if (!arguments.save_domain.empty()) io::write_domain(arguments.save_domain, solver.domain());
+    if (!arguments.save_domain.empty()) save_domain(arguments.save_domain, solver);
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
@@ -86,9 +99,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");
   command
-      ->add_option(
-          "-o,--output", a.output,
-          "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy")
+      ->add_option("-o,--output", a.output,
+                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                   ".npy, .csv, .mat")
       ->required();
   command->add_option("--report", a.report,
                       "write a report of the solve to this .json file, or to standard output (-)");
@@ -100,8 +113,11 @@ void add_solve_command(CLI::App& app, int& exit_status) {
           ->check(refuse_vertex_count);
   auto* domain = command->add_option("--domain", settings.domain,
                                      "use this mesh of the cage interior instead of a new one");
-  command->add_option("--save-domain", a.save_domain,
-                      "write the mesh of the cage interior: " + mesh_formats());
+  command->add_option(
+      "--save-domain", a.save_domain,
+      "write the mesh of the cage interior, in .vtu with the coordinate functions as fields "
+      "w_0, w_1, and so on: " +
+          mesh_formats());
   auto* model = command->add_option(
       "--model", settings.model,
       "compute weights at the vertices of this model (default: of the domain mesh)");

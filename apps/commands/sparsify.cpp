@@ -38,7 +38,7 @@ struct SparsifyArguments {
   std::string output;
   std::vector<std::string> poses;
   std::string report;
-  std::string method = kQuadratic;
+  std::string reduction = kAutomatic;
   bool quiet = false;
   SparsifyOptions options;
 };
@@ -59,7 +59,8 @@ struct ConnectedPoints {
 
 // The vertices of a domain mesh or a model.
 template <int Dim>
-ConnectedPoints<Dim> load_points(const std::string& path) {
+ConnectedPoints<Dim> load_connected_points(const std::string& path) {
+  if (is_point_file(path)) return {load_points<Dim>(path), {}};
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
@@ -100,12 +101,12 @@ std::uintmax_t size_of_file(const std::string& path) {
 template <int Dim>
 SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
                           const SparseWeights& weights, const std::vector<PointList<Dim>>& poses,
-                          const SparsifyArguments& arguments) {
+                          const std::string& method, const SparsifyArguments& arguments) {
   const std::string stage = "reducing influences";
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
   options.progress = [&](double done) { bar.show(stage, done); };
-  if (arguments.method == kPoisson) {
+  if (method == kPoisson) {
     return SparseWeights(reduce_by_poisson<Dim>(control_points, model.points, model.edges,
                                                 weights.dense(), poses, options));
   }
@@ -115,20 +116,17 @@ SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedP
 template <int Dim>
 void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
-  const auto model = load_points<Dim>(arguments.points);
-  if (arguments.method == kPoisson && model.edges.ends.empty()) {
-    throw InputError(arguments.points +
-                     ": has no faces and no lines, so --method poisson finds no neighbors; use "
-                     "--method quadratic");
-  }
+  const auto model = load_connected_points<Dim>(arguments.points);
+  const auto method = reduction_for(arguments.reduction, arguments.points, model.edges, cage.size(),
+                                    model.points.cols());
   const auto before = load_weights(arguments, cage.points, model.points);
   const auto poses = load_poses<Dim>(arguments, cage.points.cols());
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    return make_sparse<Dim>(cage.points, model, before, poses, arguments);
+    return make_sparse<Dim>(cage.points, model, before, poses, method, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  Json report{{"method", arguments.method},
+  Json report{{"method", method},
               {"dim", Dim},
               {"control_points", cage.size()},
               {"points", model.points.cols()},
@@ -167,9 +165,9 @@ void add_sparsify_command(CLI::App& app, int&) {
       "The result has weights >= 0 that sum to 1 and reproduce the vertices, even if WEIGHTS do "
       "not.");
   command
-      ->add_option(
-          "WEIGHTS", a.weights,
-          "weights: .mtx, .dmat, .npy, or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
+      ->add_option("WEIGHTS", a.weights,
+                   "weights: .mtx, .dmat, .npy, .csv, .mat, or .txt with \"CONTROL_POINT POINT "
+                   "WEIGHT\" on every line")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
@@ -179,10 +177,9 @@ void add_sparsify_command(CLI::App& app, int&) {
   auto* threshold = command->add_option(
       "--threshold", a.options.threshold,
       "first drop weights below this value where the others can reproduce the vertex");
-  add_choice(*command, "--method", {kQuadratic, kPoisson}, a.method,
-             "method that reduces influences (default: quadratic). quadratic: treat each vertex "
-             "separately. poisson: avoid seams between neighbors");
-  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy")->required();
+  add_reduction_option(*command, a.reduction);
+  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy, .csv, .mat")
+      ->required();
   command
       ->add_option(
           "--pose", a.poses,

@@ -108,7 +108,7 @@ template <int Dim>
 std::string describe_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
   const auto before = count_influences(given).max;
   const auto after = count_influences(content.weights).max;
-  if (before == after) return "at most " + std::to_string(after) + " influences per point";
+  if (before == after) return "at most " + std::to_string(after) + " influences per vertex";
   constexpr int kRandomPoses = 20;
   const auto error =
       deformation_error(smooth_poses(content.cage.points, kRandomPoses), given, content.weights);
@@ -181,9 +181,9 @@ void add_view_command(CLI::App& app, int&) {
       "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
   command->add_option("MODEL", a.model,
                       "model (.obj .off .ply .stl .om), or domain mesh whose boundary is shown");
-  command->add_option(
-      "--weights", a.weights,
-      "weights, one row per vertex and one column per control point: .mtx, .dmat, .npy");
+  command->add_option("--weights", a.weights,
+                      "weights, one row per vertex and one column per control point: .mtx, .dmat, "
+                      ".npy, .csv, .mat");
   command->add_option("--cage", a.cage, "cage of the weights");
   auto* poses = command->add_option(
       "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");

@@ -22,11 +22,12 @@ PointList<2> PixelMap::operator()(const PointList<2>& points) const {
 }
 
 Box bounding_box(const PointList<2>& points) {
-  if (points.cols() == 0) throw InputError("there is nothing to draw: the cage has no points");
+  if (points.cols() == 0)
+    throw InputError("there is nothing to draw: the cage has no control points");
   Box box{points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
   const double extent = box.size().maxCoeff();
   if (!points.allFinite() || !std::isfinite(extent) || extent <= 0) {
-    throw InputError("the cage cannot be drawn: its points coincide or are not finite");
+    throw InputError("the cage cannot be drawn: its control points coincide or are not finite");
   }
   return box;
 }

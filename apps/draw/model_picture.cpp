@@ -13,11 +13,11 @@ void check_indices(const DrawnModel& model, const ModelPlace& place) {
   const auto num_points = place.points.cols();
   const auto num_control_points = place.control_points.cols();
   if (!place.points.allFinite() || !place.control_points.allFinite()) {
-    throw InputError("a point of the model or of its cage is not finite");
+    throw InputError("a vertex of the model or a control point is not finite");
   }
   if (model.triangles.size() > 0 &&
       (model.triangles.minCoeff() < 0 || model.triangles.maxCoeff() >= num_points)) {
-    throw InputError("a triangle of the model refers to a point that does not exist");
+    throw InputError("a triangle of the model refers to a vertex that does not exist");
   }
   for (const auto& [i, j] : model.cage_edges) {
     if (std::min(i, j) < 0 || std::max(i, j) >= num_control_points) {
@@ -33,13 +33,14 @@ void check(const DrawnModel& model, const std::vector<ModelPlace>& places,
   for (const auto& place : places) {
     if (place.points.cols() != first.points.cols() ||
         place.control_points.cols() != first.control_points.cols()) {
-      throw InputError("the model or its cage has another number of points before than after");
+      throw InputError(
+          "the model or its cage has another number of vertices at rest than in the pose");
     }
     check_indices(model, place);
   }
   if (shown.values.size() != 0 && shown.values.size() != first.points.cols()) {
     throw InputError("there are values of " + std::to_string(shown.values.size()) +
-                     " points, but the model has " + std::to_string(first.points.cols()));
+                     " vertices, but the model has " + std::to_string(first.points.cols()));
   }
   if (!shown.values.allFinite()) throw InputError("a value to be shown is not finite");
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "draw/layout.h"
@@ -95,11 +97,12 @@ void check_shape(const CellList<2>& triangles, const DrawnShape& shape, const Dr
   const auto num_points = shape.points.cols();
   if (num_points != other.points.cols() ||
       shape.control_points.cols() != other.control_points.cols()) {
-    throw InputError("the shape or its cage has another number of points before than after");
+    throw InputError(
+        "the model or its cage has another number of vertices at rest than in the pose");
   }
-  if (!shape.points.allFinite()) throw InputError("a point of the shape is not finite");
+  if (!shape.points.allFinite()) throw InputError("a vertex of the model is not finite");
   if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= num_points)) {
-    throw InputError("a triangle of the shape refers to a point that does not exist");
+    throw InputError("a triangle of the model refers to a vertex that does not exist");
   }
 }
 
@@ -152,6 +155,34 @@ std::string draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const Weigh
     paint_function(canvas, map, cage, mesh, weights.row(control_point), control_point, options,
                    unit);
     paint_symbol(canvas, sheet.label(k), control_point, sheet.label_height);
+  }
+  return canvas.encode();
+}
+
+std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
+                            const Eigen::VectorXd& values, const Eigen::VectorXd& others,
+                            const std::array<std::string, 2>& labels, Index control_point,
+                            const WeightPictureOptions& options) {
+  validate(options);
+  check_edges(cage);
+  check_weight(values, mesh.num_vertices(), control_point, cage.size());
+  check_weight(others, mesh.num_vertices(), control_point, cage.size());
+  const Eigen::VectorXd difference = (values - others).cwiseAbs();
+  const double largest = difference.maxCoeff();
+  std::ostringstream label;
+  label.precision(2);
+  label << "difference, at most " << largest;
+  const double unit_of_difference = largest > 0 ? largest : 1;
+  const Eigen::VectorXd shown[] = {values, others, difference / unit_of_difference};
+  const std::string names[] = {labels[0], labels[1], label.str()};
+  const Box content = bounding_box(cage.points);
+  const auto sheet = plan_sheet(content, 3, options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (int k = 0; k < 3; ++k) {
+    const PixelMap map(content, sheet.frames[k]);
+    paint_function(canvas, map, cage, mesh, shown[k], control_point, options, unit);
+    paint_label(canvas, {sheet.frames[k].center().x(), sheet.frames[k].low.y()}, names[k], unit);
   }
   return canvas.encode();
 }

@@ -179,8 +179,7 @@ void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index contr
   }
   if (values.size() != num_vertices) {
     throw InputError("the weights belong to " + std::to_string(values.size()) +
-                     " points, but the domain mesh has " + std::to_string(num_vertices) +
-                     " vertices");
+                     " vertices, but the domain mesh has " + std::to_string(num_vertices));
   }
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     if (!std::isfinite(values[v])) {

@@ -13,6 +13,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
 
 namespace flbc::app {
@@ -49,7 +50,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 [[noreturn]] void fail_extension(const std::string& path, const std::string& extensions) {
-  throw OptionError(path + ": unknown file format; the file must end in " + extensions);
+  const bool is_fbx = io::extension_of(path) == "fbx";
+  throw OptionError(path + ": unknown file format; the file must end in " + extensions +
+                    (is_fbx ? "; programs that read FBX usually read glTF (.glb) as well" : ""));
 }
 
 }  // namespace
@@ -92,8 +95,25 @@ void name_faces(std::vector<Defect>& defects, const io::PolygonSoup& soup) {
   }
 }
 
+bool is_point_file(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  return extension == "npy" || extension == "csv";
+}
+
+template <int Dim>
+PointList<Dim> load_points(const std::string& path) {
+  const auto numbers = io::read_weights(path);  // a row per point, as for weights
+  if (numbers.rows() != Dim || numbers.cols() == 0) {
+    throw InputError(path + ": holds " + std::to_string(numbers.cols()) + " rows of " +
+                     std::to_string(numbers.rows()) + " numbers; points need " +
+                     std::to_string(Dim) + " coordinates");
+  }
+  return numbers;
+}
+
 template <int Dim>
 PointList<Dim> load_model(const std::string& path) {
+  if (is_point_file(path)) return load_points<Dim>(path);
   auto points = io::to_points<Dim>(io::read_polygons(path), path);
   if (points.cols() == 0) throw InputError(path + ": the model has no vertices");
   return points;
@@ -159,6 +179,8 @@ void require_distinct(const std::vector<std::string>& inputs,
   }
 }
 
+template PointList<2> load_points(const std::string&);
+template PointList<3> load_points(const std::string&);
 template PointList<2> load_model(const std::string&);
 template PointList<3> load_model(const std::string&);
 

@@ -34,7 +34,14 @@ io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path);
 //! polygons with more corners: " (faces 3 and 7 of the file)", numbered from 0.
 void name_faces(std::vector<Defect>& defects, const io::PolygonSoup& soup);
 
-//! The vertices of a model. \throws InputError if it has none
+//! Whether a path names a mere list of points: .npy or .csv with a row of coordinates per point.
+bool is_point_file(const std::string& path);
+
+//! The points of such a file. \throws InputError unless there are rows of Dim numbers
+template <int Dim>
+PointList<Dim> load_points(const std::string& path);
+
+//! The vertices of a model, or the points of a list. \throws InputError if there are none
 template <int Dim>
 PointList<Dim> load_model(const std::string& path);
 

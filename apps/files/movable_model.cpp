@@ -7,6 +7,7 @@
 #include "draw/colormap.h"
 #include "files/load.h"
 #include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
 #ifdef FLBC_WITH_OPENMESH
 #include "flbc/openmesh/om_file.h"
 #endif
@@ -62,7 +63,7 @@ void save(const std::string& path, const io::Model& model) {
 void require_mesh_readable(const std::string& path) {
   if (holds(path, kMeshFiles)) return;
   throw OptionError(path + ": unknown file format; a model or mesh must end in " +
-                    io::extensions_of(kMeshFiles));
+                    io::extensions_of(kMeshFiles) + io::conversion_hint(path));
 }
 
 void require_formats(const MovedFile& file) {
@@ -210,6 +211,7 @@ AnyModel load_any_model(const MovedFile& file) {
 }
 
 Index count_vertices(const std::string& path) {
+  if (is_point_file(path)) return static_cast<Index>(io::read_weights(path).cols());
   if (is_model_file(path)) return static_cast<Index>(io::read_polygons(path).points.size());
   require_mesh_readable(path);
   return std::visit([](const auto& any) { return static_cast<Index>(any.points().cols()); },

@@ -8,6 +8,7 @@
 
 #include "flbc/check.h"
 #include "report/check_report.h"
+#include "report/facts.h"
 
 namespace flbc::app {
 namespace {
@@ -19,9 +20,11 @@ std::string number(double value, int digits = 6) {
 }
 
 template <int Dim>
-std::string position(const Vector<Dim>& point) {
+std::string position(const Vector<Dim>& point, int digits = 6) {
   std::string text = "(";
-  for (int axis = 0; axis < Dim; ++axis) text += (axis > 0 ? ", " : "") + number(point[axis]);
+  for (int axis = 0; axis < Dim; ++axis) {
+    text += (axis > 0 ? ", " : "") + number(point[axis], digits);
+  }
   return text + ")";
 }
 
@@ -105,9 +108,11 @@ void print_cage(std::ostream& out, const CheckReport<Dim>& report) {
              std::to_string(facts.parts) +
                  (facts.parts > 1 ? ", not connected; each part is solved on its own" : ""));
   print_fact(out, Dim == 2 ? "holes" : "cavities", std::to_string(facts.holes));
+  const Vector<Dim> low = cage.points.rowwise().minCoeff();
+  const Vector<Dim> high = cage.points.rowwise().maxCoeff();
+  const int digits = digits_of_box(low, high);
   print_fact(out, "bounding box",
-             "from " + position<Dim>(cage.points.rowwise().minCoeff()) + " to " +
-                 position<Dim>(cage.points.rowwise().maxCoeff()));
+             "from " + position<Dim>(low, digits) + " to " + position<Dim>(high, digits));
   print_fact(out, "size", number(facts.size) + ", the diagonal of the bounding box");
   print_fact(out, Dim == 2 ? "area" : "volume", number(facts.measure));
   print_fact(out, "shortest edge",

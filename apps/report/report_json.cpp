@@ -96,7 +96,10 @@ nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_
 
 nlohmann::ordered_json report_json(const SolveReport& report, const SolveSettings& settings,
                                    const RunContext& context) {
-  const auto options = resolve(settings.options);
+  // The penalty has another unit, but other options depend on whether it is set.
+  auto given = settings.options;
+  given.penalty = settings.penalty;
+  const auto options = resolve(given);
   nlohmann::ordered_json json;
   json["method"] = name_of(report.method);
   json["dim"] = context.dim;
@@ -121,7 +124,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
                        {"vertices", report.distances.vertices},
                        {"phi_error", report.distances.phi_error}};
   json["active_set"] = {{"density", report.active_set.density},
-                          {"growths", report.active_set.growths}};
+                        {"growths", report.active_set.growths}};
   json["coarse_levels"] = levels_json(report.coarse_levels);
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;

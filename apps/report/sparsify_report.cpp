@@ -6,11 +6,13 @@
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
+#include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
+#include "help/options.h"
 
 namespace flbc::app {
 namespace {
@@ -54,6 +56,27 @@ std::string percents(const Json& errors) {
 }
 
 }  // namespace
+
+void add_reduction_option(CLI::App& command, std::string& reduction) {
+  add_choice(command, "--reduction", {kAutomatic, kPoisson, kQuadratic}, reduction,
+             "method that reduces influences (default: auto, which is poisson where the vertices "
+             "have edges). poisson: avoid seams between neighbors. quadratic: treat each vertex "
+             "separately, which is faster");
+}
+
+std::string reduction_for(const std::string& asked, const std::string& points_file,
+                          const EdgeList& edges, Eigen::Index control_points, Eigen::Index points) {
+  constexpr double kMostNumbers = 2.5e8;  // 2 GB
+  const bool has_edges = !edges.ends.empty();
+  if (asked == kPoisson && !has_edges) {
+    throw InputError(points_file +
+                     ": has no faces and no lines, so --reduction poisson finds no neighbors; use "
+                     "--reduction quadratic");
+  }
+  if (asked != kAutomatic) return asked;
+  const double numbers = static_cast<double>(control_points) * static_cast<double>(points);
+  return has_edges && numbers <= kMostNumbers ? kPoisson : kQuadratic;
+}
 
 template <int Dim>
 Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWeights& weights,

@@ -38,7 +38,7 @@ Shape<Dim> load_shape(const std::string& path) {
   const std::filesystem::path file(path);
   if (!io::holds(path, {io::Content::kModel})) {
     throw OptionError(path + ": unknown file format; a model must end in " +
-                      io::extensions_of({io::Content::kModel}));
+                      io::extensions_of({io::Content::kModel}) + io::conversion_hint(path));
   }
   Shape<Dim> shape{file.stem().string(), file.extension().string()};
   shape.file = std::make_unique<MovableModel<Dim>>(MovedFile{path, path});

@@ -3,6 +3,7 @@
 //! What flbc run reads, and how the files are named that it makes.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,11 +46,14 @@ struct RunArguments {
   std::string keyframes;           //!< file of poses instead
   std::string output;              //!< folder
   Index max_influences = 8;
-  std::string reduction = kPoisson;
+  std::string reduction = kAutomatic;
   double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
   Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
   std::string pictures = "png";  //!< format of pictures
-  bool force = false;            //!< results replace files of others, too
+  double caging_seconds = 0;     //!< for making the cage
+  std::chrono::steady_clock::time_point start =
+      std::chrono::steady_clock::now();  //!< of the command
+  bool force = false;                    //!< results replace files of others, too
   bool quiet = false;
 };
 

@@ -33,20 +33,15 @@ std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
   return points;
 }
 
-// Without neighbours there are no seams between them.
 template <int Dim>
-bool uses_poisson(const Run<Dim>& run) {
-  return run.arguments.reduction == kPoisson && !run.shape().edges.ends.empty();
-}
-
-template <int Dim>
-WeightMatrix reduce(const Run<Dim>& run, const std::vector<PointList<Dim>>& poses) {
+WeightMatrix reduce(const Run<Dim>& run, const std::string& method,
+                    const std::vector<PointList<Dim>>& poses) {
   const std::string stage = "reducing influences";
   ProgressBar bar(run.arguments.quiet, stage);
   SparsifyOptions options{run.arguments.max_influences};
   options.progress = [&](double done) { bar.show(stage, done); };
   const auto& shape = run.shape();
-  if (!uses_poisson(run)) {
+  if (method == kQuadratic) {
     return sparsify<Dim>(run.cage.points, shape.points, run.dense, options);
   }
   return reduce_by_poisson<Dim>(run.cage.points, shape.points, shape.edges, run.dense, poses,
@@ -147,16 +142,20 @@ void reduce_influences(Run<Dim>& run) {
   const auto poses = points_of(run.poses());
   const auto& model = run.arguments.settings.model;
   const auto& shape = run.shape();
-  run.sparse =
-      naming(model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model,
-             [&] { return reduce(run, poses); });
+  const auto file = model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model;
+  const auto method =
+      reduction_for(run.arguments.reduction, file, shape.edges, run.dense.rows(), run.dense.cols());
+  run.sparse = naming(file, [&] { return reduce(run, method, poses); });
   std::vector<std::string> pose_files;
   for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
 
   const SparseWeights before(run.dense);
   const SparseWeights after(run.sparse);
-  const auto errors = errors_json<Dim>(
-      {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
+  const auto errors = [&] {
+    const ProgressBar bar(run.arguments.quiet, "measuring the error of fewer influences");
+    return errors_json<Dim>(
+        {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
+  }();
   const auto error = deformation_error_in(errors);
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });
@@ -165,7 +164,7 @@ void reduce_influences(Run<Dim>& run) {
     std::error_code ignored;
     return std::filesystem::file_size(run.folder.path_of(name), ignored);
   };
-  run.report["sparsify"] = {{"method", uses_poisson(run) ? kPoisson : kQuadratic},
+  run.report["sparsify"] = {{"method", method},
                             {"max_influences", run.arguments.max_influences},
                             {"deformation_error", {{"rms", error.rms}, {"max", error.max}}},
                             {"before", weights_json(kWeights, size_of_file(kWeights), before,

@@ -13,6 +13,7 @@
 #include "report/check_report.h"
 #include "report/facts.h"
 #include "report/report_json.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 
@@ -77,6 +78,7 @@ void compute_weights(Run<Dim>& run) {
 
 template <int Dim>
 void check_weights_of_mesh(Run<Dim>& run) {
+  const ProgressBar bar(run.arguments.quiet, "checking the weights");
   auto check = check_cage(run.cage, run.arguments.settings.cage);
   check.domain_file = run.report["mesh"]["file"];
   check.weights_file = run.has_model() ? kDomainWeights : kWeights;

@@ -21,12 +21,19 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-// Ctrl-C ends the server rather than the program, which then ends as it should.
+// Ctrl-C ends the server rather than the program, which then ends as it should. A second one does
+// not wait for the answer that is being made.
 class InterruptsNoticed {
  public:
   InterruptsNoticed() {
     struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = 1; };
+    action.sa_handler = [](int signal) {
+      if (interrupted != 0) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+      }
+      interrupted = 1;
+    };
     sigaction(SIGINT, &action, &old_interrupt_);
     sigaction(SIGTERM, &action, &old_terminate_);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
+#include "solve/estimate.h"
 #include "solve/make_domain.h"
 #include "solve/progress_bar.h"
 
@@ -138,8 +140,19 @@ void CageSolver<Dim>::make_domain(bool quiet) {
 }
 
 template <int Dim>
+void CageSolver<Dim>::announce() const {
+  const auto method = resolve(settings_.options).method;
+  const auto estimate =
+      estimate_solve(Dim, cage_.size(), domain_.num_vertices(), settings_.options);
+  if (method != Method::kValue || !is_long(estimate)) return;
+  std::cerr << "flbc: solving for " << cage_.size() << " control points and "
+            << domain_.num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
+}
+
+template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
   const auto& options = settings_.options;
+  if (!quiet) announce();
   ProgressBar bar(quiet, "setting up: boundary values, distances", options);
   HistoryRecorder recorder(options);
   Observer observer;
@@ -172,9 +185,18 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
   });
 }
 
+// Of weights of a method that does not minimize it.
+template <int Dim>
+double CageSolver<Dim>::objective() const {
+  const auto problem = make_problem(cage_, domain_, settings_.options.phi);
+  return flbc::objective(problem.mesh, problem.phi, domain_weights()) /
+         std::pow(problem.scale, Dim - 1);
+}
+
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), delivered});
+  if (std::isnan(report().objective) && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(settings_.outside)},
                        {"on_cage", beside_json(placement_.on_cage)},
@@ -204,7 +226,16 @@ std::string describe(const Placement<Dim>& placement, double size) {
 }
 
 bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
-  if (report.status == SolveStatus::kConverged) return true;
+  if (report.status == SolveStatus::kConverged) {
+    // The criteria of some methods say little about the distance to the optimum.
+    constexpr double kLargeGap = 5e-3;
+    const double gap = report.certificate.relative_gap;
+    if (is_certified(report) && gap > kLargeGap) {
+      std::cerr << "flbc: converged by the criterion of this method, but up to " << 100 * gap
+                << "% above the optimum; lower --tolerance, or use the default --method\n";
+    }
+    return true;
+  }
   std::cerr
       << "flbc: not converged within " << settings.options.max_iterations
       << " iterations; the result is written. Increase --max-iterations, --tolerance, or --gap\n";

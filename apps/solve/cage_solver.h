@@ -55,7 +55,10 @@ class CageSolver {
 
  private:
   void fill_cage(bool quiet);
+  // Says how long a long solve may take.
+  void announce() const;
   SparseWeights weights_of_model() const;
+  double objective() const;
 
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;

@@ -7,6 +7,7 @@
 #include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
+#include "help/wording.h"
 
 namespace flbc::app {
 namespace {
@@ -120,8 +121,9 @@ DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, Mesher asked_for,
       if (asked_for == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
         throw InputError(error.what() + std::string("; or try --mesher netgen"));
       }
-      if (is_last && (failures.empty() || failures == error.what())) throw;
-      add_sentence(failures, error.what());
+      const auto failure = in_words_of_program(error.what());
+      if (is_last && (failures.empty() || failures == failure)) throw;
+      add_sentence(failures, failure);
       if (is_last) throw InputError(failures);
     } catch (const OptionError&) {
       if (failures.empty()) throw;  // else this mesher cannot do what the one before could not

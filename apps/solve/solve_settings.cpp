@@ -87,8 +87,8 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--precision", options.precision,
              "floating-point precision of the iteration (default: auto)");
   command.add_option("--gap", options.gap,
-                     "certified relative gap at which to stop early, 0 for never (default: 1e-3, "
-                     "or 0 if --tolerance is given)");
+                     "certified relative gap, 0 for none; the first of --gap and --tolerance that is "
+                     "met ends the iteration (default: 1e-3, or 0 if --tolerance is given)");
   command.add_option("--max-iterations", options.max_iterations,
                      "maximum number of iterations (default: 20000)");
   command.add_option("--penalty", settings.penalty,

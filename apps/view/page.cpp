@@ -50,12 +50,13 @@ void check(const PageContent<Dim>& content) {
   if (content.weights.rows() != n || content.weights.cols() != num_points) {
     throw InputError("there are weights of " + std::to_string(content.weights.rows()) +
                      " control points and " + std::to_string(content.weights.cols()) +
-                     " points, not of " + std::to_string(n) + " and " + std::to_string(num_points));
+                     " vertices, not of " + std::to_string(n) + " and " +
+                     std::to_string(num_points));
   }
   for (const auto& pose : content.poses) {
     if (pose.points.cols() != n) {
       throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
-                       " vertices, but the cage has " + std::to_string(n));
+                       " control points, but the cage has " + std::to_string(n));
     }
   }
   if (!content.points.allFinite() || !content.cage.points.allFinite()) {
@@ -69,7 +70,7 @@ Json pack_weights(const SparseWeights& weights) {
   for (Index p = 0; p < weights.num_points(); ++p) {
     const auto count = weights.starts()[p + 1] - weights.starts()[p];
     if (count > kMostInfluences) {
-      throw InputError("point " + std::to_string(p) + " has " + std::to_string(count) +
+      throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(count) +
                        " influences, but a page holds " + std::to_string(kMostInfluences) +
                        " at most");
     }
@@ -215,7 +216,7 @@ WeightMatrix limit_influences(const PointList<Dim>& control_points, const PointL
                               const WeightMatrix& weights, Index most) {
   if (most < Dim + 1 || most > kMostInfluences) {
     throw OptionError("a page holds from " + std::to_string(Dim + 1) + " to " +
-                      std::to_string(kMostInfluences) + " influences per point, not " +
+                      std::to_string(kMostInfluences) + " influences per vertex, not " +
                       std::to_string(most));
   }
   std::vector<Eigen::Index> crowded;

@@ -89,7 +89,7 @@ def reduce(context, title, cage, model, weights, counts, folder):
         for method, words in runs:
             report = folder / "report.json"
             done = context.run([context.flbc, "sparsify", weights, "--cage", cage, "--points", model,
-                                "-k", k, "--method", method.split(",")[0], "-o", folder / "few.mtx",
+                                "-k", k, "--reduction", method.split(",")[0], "-o", folder / "few.mtx",
                                 "-q", "--report", report, *words])
             if done.status:
                 context.failed(f"{title}, {k}, {method}: {done.errors}")

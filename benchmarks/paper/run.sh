@@ -1,17 +1,36 @@
 #!/usr/bin/env bash
 # Regenerates the paper's tables and figures: numbers, then pictures. See README.md beside it.
 #
-#   benchmarks/paper/run.sh MODELS_FOLDER OUT_FOLDER [--quick] [--busy] [--only NAME,...] [--models A,B,...] [--threads T]
+#   benchmarks/paper/run.sh MODELS_FOLDER|samples OUT_FOLDER [--quick] [--busy] [--only NAME,...] [--models A,B,...] [--threads T]
 set -euo pipefail
 
 if [[ $# -lt 2 || $1 == -* || $2 == -* ]]; then
   sed -n '2,4s/^# \{0,1\}//p' "$0" >&2
   exit 1
 fi
-models=$(realpath -- "$1")
+models=$1
 out=$(realpath -m -- "$2")
 shift 2
+note=
+if [[ $models == samples ]]; then
+  # Without the papers' cages the samples stand in, under their names.
+  meshes=$(realpath -- "$(dirname "$0")/../../meshes")
+  models=$out/samples
+  mkdir -p "$models/2d" "$models/3d"
+  for pair in 2d/figure=woody-control-edgeset 2d/letter=LBClogo-control-edgeset 2d/ring=cactus-control-edgeset \
+    3d/limb=horse_cage 3d/star=armadillo_cage 3d/torus=shark_cage 3d/knot=beast_cage; do
+    sample=${pair%=*} name=${pair#*=}
+    ln -sf "$meshes/${sample}_cage.obj" "$models/${sample%/*}/$name.obj"
+    echo "run.sh: the sample $sample stands in for $name" >&2
+  done
+  note=", samples in place of the papers' cages"
+fi
+models=$(realpath -- "$models")
 cd "$(dirname "$0")/../.."
+if ! compgen -G "$models/2d/*.obj" >/dev/null && ! compgen -G "$models/3d/*.obj" >/dev/null; then
+  echo "run.sh: $models has no cages in 2d/ or 3d/; benchmarks/paper/README.md says where they come from" >&2
+  exit 1
+fi
 
 [[ -f build/release/build.ninja ]] || cmake --preset release
 cmake --build --preset release --target flbc_bench_paper flbc_app
@@ -21,7 +40,7 @@ fi
 
 # A case that failed must not keep the others from being drawn.
 status=0
-commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
+commit=$(git describe --always --dirty 2>/dev/null || echo unknown)$note
 build/release/benchmarks/flbc_bench_paper "$models" "$out" --commit "$commit" "$@" || status=$?
 /usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --commit "$commit" "$@" || status=$?
 [[ -d $out ]] || exit "$status"

@@ -4,9 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/messages.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "flbc/non_negative.h"
 #include "flbc/solver.h"
+#include "flbc/sparsify.h"
 
 namespace flbc::openmesh::internal {
 namespace {
@@ -98,6 +101,35 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   report.quality = measure_quality<Dim>(input.cage.points, evaluation.points, binding.weights);
   binding.offsets = std::move(evaluation.offsets);
   return binding;
+}
+
+namespace {
+
+template <int Dim>
+Eigen::VectorXd reproducing_in(const PointList<Dim>& cage, const PointList<Dim>& point,
+                               WeightMatrix weights, std::size_t most) {
+  project_non_negative(cage, point, weights);
+  if (most > 0) weights = flbc::sparsify<Dim>(cage, point, weights, {static_cast<Index>(most)});
+  return weights;
+}
+
+}  // namespace
+
+Eigen::VectorXd reproducing(const Eigen::MatrixXd& cage, const Eigen::VectorXd& point, int vertex,
+                            const Eigen::VectorXd& weights, std::size_t most) {
+  try {
+    return cage.rows() == 2 ? reproducing_in<2>(cage, point, weights, most)
+                            : reproducing_in<3>(cage, point, weights, most);
+  } catch (const InputError&) {
+    throw InputError("vertex " + std::to_string(vertex) + " at " + format_point(point) +
+                     " is outside the convex hull of the cage; move it inside");
+  }
+}
+
+void refuse_without_neighbors(int vertex) {
+  throw InputError("vertex " + std::to_string(vertex) +
+                   " is not connected with vertices that have weights; connect it, or bind the "
+                   "model again");
 }
 
 template Binding<2> bind_points(const BindInput<2>&, const BindOptions&);

@@ -23,7 +23,7 @@ MARGIN, BAR_LEFT, BAR_RIGHT = 44 * UNIT, PANEL - 130 * UNIT, PANEL - 104 * UNIT
 def solve(work):
     """Per method: weights, findings, and the picture of the function."""
     domain = work / "domain.obj"
-    flbc("solve", CAGE, "--vertices", 8000, "-q", "--save-domain", domain, "-o", work / "value.npy")
+    flbc("solve", CAGE, "-q", "--save-domain", domain, "-o", work / "value.npy")
     for _, method in METHODS:
         weights = work / f"{method}.npy"
         if method != "value":

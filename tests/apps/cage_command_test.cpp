@@ -31,9 +31,7 @@ TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
     EXPECT_LE(report["cage"]["control_points"], 40);
     EXPECT_EQ(report["model"]["outside"], 0);
     const std::string weights = path("weights.npy");
-    expect("solve " + cage + " --vertices 1500 --model " + model + " -o " +
-               weights + " -q",
-           0, "");
+    expect("solve " + cage + " --vertices 1500 --model " + model + " -o " + weights + " -q", 0, "");
   }
 }
 
@@ -156,9 +154,16 @@ TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {
 TEST_F(CageCommand, RunFromTheModelAlone) {
   for (const std::string& name : {std::string("2d/figure"), std::string("3d/limb")}) {
     const auto model = sample(name + "_model.obj"), out = path("out");
-    const auto options = " --auto-cage 30 --vertices 1500 -o " + out;
-    expect("run " + model + options, 0, "cage.obj");
+    // Options may precede the model.
+    expect("run --auto-cage --control-points 30 " + model + " --vertices 1500 -o " + out, 0,
+           "cage.obj");
     const auto report = nlohmann::json::parse(slurp(out + "/report.json"));
+    double sum = 0;
+    for (const auto& [step, seconds] : report["seconds"].items()) {
+      EXPECT_GT(seconds.get<double>(), step == "cage" ? 1e-3 : 0);
+      if (step != "total") sum += seconds.get<double>();
+    }
+    EXPECT_GE(report["seconds"]["total"].get<double>(), sum);
     EXPECT_TRUE(report["check"]["fine"]);
     const auto cage = path("cage.obj");
     expect("cage " + model + " -q --control-points 30 -o " + cage, 0, "");
@@ -167,8 +172,11 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
   const auto model = sample("2d/figure_model.obj");
   const auto into = [&](const std::string& folder) { return " -q -o " + path(folder); };
   expect("run " + model + " --auto-cage --vertices 1500" + into("plain"), 0, "");
-  expect("run " + model + " --auto-cage two" + into("none"), 1, "--auto-cage");
-  expect("run " + model + " " + model + " --auto-cage 30" + into("none"), 1, "--auto-cage");
+  expect("run " + model + " --auto-cage --control-points two" + into("none"), 1,
+         "--control-points");
+  expect("run " + model + " --control-points 30" + into("none"), 1, "requires --auto-cage");
+  expect("run " + model + " " + model + " --auto-cage" + into("none"), 1, "--auto-cage");
+  expect("run " + model + " --auto-cage 30" + into("none"), 1, "by --control-points");
 }
 
 }  // namespace

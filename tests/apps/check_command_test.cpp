@@ -82,6 +82,45 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
 
 // A cube with another corner so near the last that no mesher can separate them; reported before
 // meshing.
+// What is sound can be solved, also far from the origin, and the box keeps its digits there.
+// Farther away, cages are refused before anything is written.
+TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
+  const auto away = [&](const std::string& name, int dim, double distance) {
+    std::ostringstream text;
+    text.precision(17);
+    std::istringstream lines(slurp(sample(name)));
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string keyword;
+      double x = 0, y = 0, z = 0;
+      words >> keyword >> x >> y >> z;
+      if (keyword != "v") {
+        text << line << '\n';
+        continue;
+      }
+      text << "v " << x + distance << ' ' << y - distance << ' ' << z + (dim == 3 ? distance : 0)
+           << '\n';
+    }
+    return file(std::to_string(dim) + ".obj", text.str());
+  };
+  for (const int dim : {2, 3}) {
+    SCOPED_TRACE(dim);
+    const auto name = dim == 2 ? "2d/letter_cage.obj" : "3d/star_cage.obj";
+    const auto farther = away(name, dim, 5e9);
+    expect("run " + farther + " -o " + path("out"), 2, "too far from the origin");
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+    const auto cage = away(name, dim, 1e8);
+    const auto checked = expect("check " + cage);
+    EXPECT_NE(checked.output.find("sound"), std::string::npos);
+    EXPECT_EQ(checked.output.find("e+08"), std::string::npos) << checked.output;
+    EXPECT_EQ(expect("info " + cage).output.find("e+08"), std::string::npos);
+    expect("solve " + cage + " --vertices 500 -q --save-domain " +
+           path(dim == 2 ? "d.obj" : "d.mesh") + " -o " + path("w.npy"));
+    expect("check " + cage + " --domain " + path(dim == 2 ? "d.obj" : "d.mesh") + " --weights " +
+           path("w.npy"));
+  }
+}
+
 TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   const auto cage = file("thin.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"

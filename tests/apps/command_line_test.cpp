@@ -79,6 +79,21 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, SolveSamples,
                          ::testing::Values("2d/figure", "2d/letter", "2d/ring", "3d/limb",
                                            "3d/star", "3d/torus"));
 
+// The relaxation of lbc2014 depends on whether a penalty is given.
+TEST_F(CommandLine, ReportsTellTheRelaxationInUse) {
+  const auto relaxation = [&](const std::string& options) {
+    const int not_converged = 3;
+    expect("solve " + sample("2d/letter_cage.obj") +
+               " --vertices 300 --max-iterations 20 -q --method lbc2014 -o " + path("w.npy") +
+               " --report " + path("r.json") + options,
+           not_converged);
+    return nlohmann::json::parse(slurp(path("r.json")))["options"]["relaxation"].get<double>();
+  };
+  EXPECT_EQ(relaxation(""), 1.9);
+  EXPECT_EQ(relaxation(" --penalty 10"), 1.65);
+  EXPECT_EQ(relaxation(" --penalty 10 --relaxation 1.2"), 1.2);
+}
+
 TEST_F(CommandLine, DrawsOnlyWhatFits) {
   const auto cage = sample("2d/letter_cage.obj");
   expect("solve " + cage + " -o " + path("w.npy") + " --vertices 500 --method harmonic -q" +
@@ -86,6 +101,15 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   const auto draw =
       "draw " + path("d.obj") + " --weights " + path("w.npy") + " -o " + path("p.png") + " --cage ";
   expect_failure(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
+  // Of two kinds of weights, both functions and their difference.
+  expect("solve " + cage + " --domain " + path("d.obj") + " -q --method meanvalue -o " +
+         path("m.npy"));
+  expect(draw + cage + " --compare " + path("m.npy"));
+  const auto three = slurp(path("p.png"));
+  expect(draw + cage + " --compare " + path("w.npy"));
+  EXPECT_NE(slurp(path("p.png")), three);
+  fs::remove(path("p.png"));
+  expect_failure(draw + cage + " --all --compare " + path("m.npy"), 1, "cannot be combined");
   expect_failure(draw + sample("2d/ring_cage.obj"), 2, "has weights for 24 control points, but");
 }
 
@@ -116,6 +140,9 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
       EXPECT_EQ(words(info.output), words(run("info " + path(mesh)).output));
     }
   }
+  result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
+  EXPECT_NE(result.output.find("4 vertices"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("no facets and no polylines"), std::string::npos) << result.output;
   expect("info " + path("missing.obj"), 4);
 }
 
@@ -135,6 +162,59 @@ TEST_F(CommandLine, ALostOutputIsAFailure) {
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
     EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos) << arguments;
   }
+}
+
+// Job systems close them.
+TEST_F(CommandLine, LongSolvesAreAnnounced) {
+  const auto cage = sample("3d/limb_cage.obj");
+  EXPECT_EQ(expect("info " + cage).output.find("takes about"), std::string::npos);
+  const auto seconds = [&](const std::string& vertices) {
+    const auto text = expect("info " + cage + " --estimate" + vertices).output;
+    const auto at = text.find("takes about ");
+    EXPECT_NE(at, std::string::npos) << text;
+    return std::stod(text.substr(at + 12));
+  };
+  EXPECT_NEAR(seconds(""), 1, 0.7);
+  EXPECT_GT(seconds(" --vertices 50000"), 4 * seconds(""));
+  EXPECT_NE(expect("info " + cage + " --estimate --vertices 10000000").output.find(" min and "),
+            std::string::npos);
+  expect("info " + cage + " --vertices 500", 1, "requires --estimate");
+  const auto quick = expect("solve " + cage + " --vertices 500 -o " + path("w.npy"));
+  EXPECT_EQ(quick.errors.find("this may take"), std::string::npos) << quick.errors;
+}
+
+TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
+  const auto mesh = std::string(FLBC_PROGRAM) + " mesh " + sample("3d/limb_cage.obj") +
+                    " --vertices 500 -o " + path("m.mesh");
+  for (const std::string streams : {" <&- >&-", " <&- 2>&-", " >&- 2>&-", " <&- >&- 2>&-"}) {
+    fs::remove(path("m.mesh"));
+    EXPECT_EQ(WEXITSTATUS(std::system((mesh + streams).c_str())), 0) << streams;
+    EXPECT_GE(io::read_domain<3>(path("m.mesh")).num_vertices(), 400) << streams;
+  }
+  const auto info = std::string(FLBC_PROGRAM) + " info " + sample("3d/limb_cage.obj");
+  EXPECT_EQ(WEXITSTATUS(std::system((info + " >&- 2>&-").c_str())), 4);
+}
+
+TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
+  const auto status_of = [&](const std::string& limit, const std::string& arguments) {
+    const auto command =
+        "bash -c '" + limit + " " FLBC_PROGRAM " " + arguments + "' 2>" + path("errors.txt");
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const auto mesh = "mesh " + sample("3d/limb_cage.obj") + " --vertices 3000 -o " + path("m.mesh");
+  EXPECT_EQ(status_of("ulimit -f 10;", mesh), 4);
+  EXPECT_FALSE(fs::exists(path("m.mesh")));
+#ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
+  // OpenBLAS would try for ever to get its buffer.
+  const auto solve =
+      "solve " + sample("2d/letter_cage.obj") + " --vertices 2000 -o " + path("w.npy");
+  EXPECT_EQ(status_of("ulimit -v 200000; export OMP_NUM_THREADS=1; timeout 60", solve), 5);
+#endif
+  EXPECT_EQ(status_of("ulimit -s 128;", mesh), 0) << slurp(path("errors.txt"));
+  EXPECT_EQ(status_of("OMP_NUM_THREADS=100000", "solve " + sample("2d/letter_cage.obj") +
+                                                    " --vertices 2000 -o " + path("w.npy")),
+            0)
+      << slurp(path("errors.txt"));
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
@@ -168,7 +248,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
   expect_failure("solve " + cage + o + " --embed", 1, "--model");
   expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat or .npy");
+  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat, .npy, .csv or .mat");
   expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off or .vtu");
   expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
@@ -279,6 +359,71 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
                      model_path("defective/half_outside_model.obj");
   expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 vertices are outside the cage");
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
+}
+
+// Lists of points are models, and functions are fields of a mesh.
+TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
+  const auto cage = sample("2d/letter_cage.obj"), model = sample("2d/letter_model.obj");
+  const auto solve = "solve " + cage + " --vertices 600 --method harmonic -q -o ";
+  const auto points = io::to_points<2>(io::read_polygons(model), model);
+  io::write_weights(path("p.npy"), points);
+  io::write_weights(path("p.csv"), points);
+  expect(solve + path("expected.npy") + " --model " + model + " --save-domain " + path("d.vtu"));
+  const auto expected = io::read_weights(path("expected.npy"));
+  for (const std::string list : {"p.npy", "p.csv"}) {
+    expect(solve + path("w.npy") + " --model " + path(list));
+    EXPECT_EQ(io::read_weights(path("w.npy")), expected) << list;
+    expect("check " + cage + " --model " + path(list) + " --weights " + path("w.npy"));
+    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + path(list) +
+           " -k 4 -q -o " + path("s.mtx"));
+    expect("convert " + path("w.npy") + " -q --points " + path(list) + " -o " + path("w.mat"));
+  }
+  expect(solve + path("w.npy") + " --model " + file("q.csv", "1,2,3\n"), 2,
+         "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");
+
+  std::vector<io::VertexField> fields;
+  const auto domain = io::read_domain<2>(path("d.vtu"), fields);
+  expect("solve " + cage + " --method harmonic -q --domain " + path("d.vtu") + " -o " +
+         path("v.npy"));
+  const auto weights = io::read_weights(path("v.npy"));
+  ASSERT_EQ(fields.size(), static_cast<std::size_t>(weights.rows()));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    EXPECT_EQ(fields[i].name, "w_" + std::to_string(i));
+    const Eigen::VectorXd row = weights.row(static_cast<Eigen::Index>(i));
+    EXPECT_LT((fields[i].values - row).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+// Which other coordinates do not minimize.
+TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
+  const auto cage = sample("2d/letter_cage.obj");
+  expect("mesh " + cage + " --vertices 800 -q -o " + path("d.obj"));
+  const auto objective = [&](const std::string& method) {
+    expect("solve " + cage + " --domain " + path("d.obj") + " -q --method " + method + " -o " +
+           path(method + ".npy") + " --report " + path("r.json"));
+    return nlohmann::json::parse(slurp(path("r.json")))["objective"].get<double>();
+  };
+  const double least = objective("value");
+  EXPECT_GT(objective("harmonic"), 1.01 * least);
+  EXPECT_GT(objective("meanvalue"), 1.01 * least);
+  expect("check " + cage + " --domain " + path("d.obj") + " --weights " + path("harmonic.npy") +
+         " --json " + path("c.json"));
+  const auto check = nlohmann::json::parse(slurp(path("c.json")));
+  EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), objective("harmonic"),
+              1e-9 * least);
+}
+
+// The published criterion can be met far from the optimum.
+TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
+  const auto solve = "solve " + sample("2d/ring_cage.obj") + " --vertices 500 --certify -o " +
+                     path("w.npy") + " --report " + path("r.json") + " --method ";
+  const auto paper = expect(solve + "paper");
+  const auto report = nlohmann::json::parse(slurp(path("r.json")));
+  EXPECT_EQ(report["status"], "converged");
+  EXPECT_GT(report["relative_gap"], 5e-3);
+  EXPECT_NE(paper.errors.find("above the optimum; lower --tolerance"), std::string::npos)
+      << paper.errors;
+  EXPECT_EQ(expect(solve + "value").errors.find("above the optimum"), std::string::npos);
 }
 
 TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {

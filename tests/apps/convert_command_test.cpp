@@ -52,7 +52,7 @@ class ConvertCommand : public CommandLineTest {
 };
 
 TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
-  const std::string formats[] = {"npy", "dmat", "mtx", "txt"};
+  const std::string formats[] = {"npy", "dmat", "mtx", "csv", "mat", "txt"};
   const auto weights = write_weights("a.npy");
   for (const auto& from : formats) {
     if (from != "npy") expect_converted(path("a.npy") + " -o " + path("a." + from));
@@ -206,6 +206,25 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
   expect_refused(tetrahedra + to("b.obj"), 1, "b.obj: " + tetrahedra + " holds tetrahedra");
+  // Wrong extensions, and formats of other programs.
+  const auto obj = slurp(model);
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expect_refused(file("obj.stl", "# a model\n" + obj + obj) + to("b.ply"), 2,
+                 "obj.stl: not STL; it looks like OBJ; let its name end in .obj");
+  expect_refused(file("off.obj", off) + to("b.ply"), 2,
+                 "off.obj: not OBJ; it looks like OFF; let its name end in .off");
+  expect_refused(file("ply.off", "ply\nformat ascii 1.0\n") + to("b.ply"), 2,
+                 "ply.off: not OFF; it looks like PLY");
+  expect_refused(file("glb.obj", "glTF\x02") + to("b.ply"), 2,
+                 "glb.obj: not OBJ; it looks like GLB; convert it to .obj or .ply first");
+  expect_refused(file("binary.obj", std::string("\x7f"
+                                                "ELF\0\0\0",
+                                                7)) +
+                     to("b.ply"),
+                 2, "binary.obj: not OBJ; it looks like a binary file");
+  expect_refused(file("model.fbx", "Kaydara FBX Binary") + to("b.ply"), 1,
+                 "convert it to .obj or .ply first, for example in Blender");
+  expect_refused(model + to("b.fbx"), 1, "usually read glTF");
   expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
   expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this input file");

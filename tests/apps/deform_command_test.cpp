@@ -258,6 +258,28 @@ TEST_F(DeformCommand, Keyframes) {
   EXPECT_FALSE(std::filesystem::exists(path("k_0.obj")));
 }
 
+// They are finite, although their squares are not. Of a sequence that fails nothing is left.
+TEST_F(DeformCommand, EnormousDisplacements) {
+  const auto model = file("model.obj", kModel);
+  const auto rest = tetrahedron();
+  const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
+  const std::string steps = "c 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\n";
+  const auto keys = file("keys.txt", "k 0\nk 1\n" + zeros + steps);
+  const auto output = " -o " + path("o_%d.obj");
+  expect_deform(model + " --weights " + linear_weights(model_points()) + " --rest " + rest +
+                    " --displacement " + path("d.npy") + " --keyframes " + keys + output,
+                0, "largest displacement 1e+200");
+  EXPECT_NEAR(io::read_weights(path("d.npy")).maxCoeff(), 1e200, 1e186);
+  std::filesystem::remove(path("o_0.obj"));
+  std::filesystem::remove(path("o_1.obj"));
+
+  io::write_weights(path("w.npy"), WeightMatrix::Ones(4, model_points().cols()));
+  const auto far = tetrahedron("v 1e308 0 0\nv 1e308 0 0\nv 1e308 0 0\nv 1e308 0 0\n", "far.obj");
+  expect_deform(model + " --weights " + path("w.npy") + " --pose " + rest + " " + far + output, 2,
+                "would not be finite");
+  EXPECT_FALSE(std::filesystem::exists(path("o_0.obj")));
+}
+
 TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
   const auto rest = tetrahedron();
   const auto model = file("model.obj", kModel);

@@ -316,7 +316,7 @@ TEST_F(DeformFormats, NothingIsHalfWritten) {
   EXPECT_NE(result.errors.find("o_1.ply: coordinate x of vertex 0 would be too large"),
             std::string::npos)
       << result.errors;
-  EXPECT_EQ(slurp(path("o_0.ply")), slurp(model));
+  EXPECT_FALSE(std::filesystem::exists(path("o_0.ply")));
   EXPECT_FALSE(std::filesystem::exists(path("o_1.ply")));
 
   // Three polygons at an edge.

@@ -51,8 +51,8 @@ class ExportCommand : public CommandLineTest {
     const auto with_weights = " --weights " + path("w.npy") + " --cage ";
     expect("solve " + cage + " --method harmonic -q --vertices 1500 --save-domain " +
            path(domain_file) + " --model " + model + " -o " + path("w.npy"));
-    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model + " -k 4 -q -o " +
-           path("w4.mtx"));
+    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
+           " -k 4 --reduction quadratic -q -o " + path("w4.mtx"));
     expect("deform " + model + " --weights " + path("w4.mtx") + " --pose " + pose + " -q -o " +
            path("posed.obj"));
     const auto result = expect_export(model + with_weights + cage + " -k 4 -o " + path("s.glb") +
@@ -73,6 +73,29 @@ TEST_F(ExportCommand, Sample2D) {
 }
 TEST_F(ExportCommand, Sample3D) {
   expect_sample("3d/limb", "d.mesh");
+}
+
+TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
+  solve("3d/limb", "d.mesh");
+  expect("export " + sample("3d/limb_model.obj") + " --weights " + path("w.npy") + " --cage " +
+         sample("3d/limb_cage.obj") + " --pose " + sample("3d/limb_cage_pose.obj") +
+         " --fps 1 -k 8 -q -o " + path("s.glb"));
+  const GlbFile skin(slurp(path("s.glb")));
+  const auto info = expect("info " + path("s.glb")).output;
+  const auto contains = [&](const std::string& words) {
+    EXPECT_NE(info.find(words), std::string::npos) << info;
+  };
+  contains("glTF model of 3352 vertices, ");
+  contains("animation of 1 s");
+  contains("skin of " + std::to_string(skin.json["skins"][0]["joints"].size()) +
+           " joints, at most 8 influences");
+  file("t.gltf", skin.json.dump());
+  const auto words = [](const std::string& text) { return text.substr(text.find(": ")); };
+  EXPECT_EQ(words(expect("info " + path("t.gltf")).output), words(info));
+  for (const std::string& damaged : {slurp(path("s.glb")).substr(0, 500), std::string("glTF"),
+                                     std::string(R"({"meshes": 3})"), std::string()}) {
+    expect("info " + file("u.glb", damaged), 2, "not a glTF file, or damaged");
+  }
 }
 
 TEST_F(ExportCommand, BoundaryOfADomain) {
@@ -264,8 +287,13 @@ TEST_F(ExportCommand, SequencesOfCages) {
   expect_export(command + pattern, 0, "3 poses in 0.0833333 s that move 1 joints");
   expect_export(command + pattern + " --fps 0.5", 0, "3 poses in 4 s");
   EXPECT_EQ(skin("s.glb").joints(3)(0, 0), 1.5);
-  expect_export(command + " --pose " + path("cage.obj"), 0, "1 poses in 0 s that move 0 joints");
+  expect_export(command + " --pose " + path("cage.obj"), 0, "2 poses in 1 s that move 0 joints");
   EXPECT_FALSE(skin("s.glb").json.contains("animations"));
+  // A single pose begins at rest.
+  expect_export(command + " --pose " + path("pose_3.obj"), 0, "2 poses in 1 s that move 1 joints");
+  EXPECT_EQ(skin("s.glb").joints(0)(0, 0), 0);
+  EXPECT_EQ(skin("s.glb").joints(0.5)(0, 0), 1);
+  EXPECT_EQ(skin("s.glb").joints(1)(0, 0), 2);
 
   std::filesystem::remove(path("s.glb"));
   expect_export(command + pattern + " --fps 0", 1, "--fps");

@@ -171,6 +171,13 @@ TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
       EXPECT_EQ(refused.errors, run(use + pose).errors);
     }
   }
+  for (const auto& [command, old_name] :
+       {std::pair<std::string, std::string>{"run", "--sparsify"}, {"sparsify", "--method"}}) {
+    const auto options = options_of(command);
+    EXPECT_EQ(options.count("--reduction"), 1U) << command;
+    EXPECT_EQ(options.count(old_name), 0U) << command;
+    expect(command + " x " + old_name + " best -o y", 1, "--reduction: invalid value 'best'");
+  }
   const auto cage = tetrahedron();
   const auto model = file("model.obj", "v 0.25 0.25 0.25\n");
   const auto deform = "deform " + model + " --weights " +

@@ -94,7 +94,7 @@ class RunCommand : public CommandLineTest {
     expect_same("solve " + cage + " --domain " + path(domain) + solver, "d.npy",
                 "out/domain_weights.npy", " --report " + path("solve.json"));
     expect_same("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
-                    " -k 6 --method poisson --pose " + pose,
+                    " -k 6 --reduction poisson --pose " + pose,
                 "s.mtx", "out/sparse_weights.mtx", " --report " + path("sparsify.json"));
     expect_same("deform " + model + " --weights " + path("s.mtx") + " --pose " + pose, "m.obj",
                 "out/deformed.obj");
@@ -208,7 +208,7 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   file("out/notes.txt", "mine");
   file("out/deformed_009.obj", "mine, too");
   const auto common = cage + " " + sample("2d/figure_model.obj") + " --method harmonic " +
-                      "--vertices 500 --sparsify quadratic";
+                      "--vertices 500 --reduction quadratic";
   expect_run("out", common + " --pose " + path("pose_%d.obj"), 0, "3 poses; largest");
   auto names = names_in("out");
   for (const char* name : {"deformed_001.obj", "deformed_002.obj", "deformed_003.obj", "notes.txt",
@@ -243,7 +243,7 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
   file("precious.txt", "mine");
   file("out/below.txt", "mine");
   const auto common =
-      sample("2d/letter_cage.obj") + " --method harmonic --vertices 500 --sparsify quadratic";
+      sample("2d/letter_cage.obj") + " --method harmonic --vertices 500 --reduction quadratic";
   for (const char* name : {"weights.npy", "model.glb", "report.json"}) {
     file(std::string("out/") + name, "mine");
     expect_run("out", common, 1,
@@ -288,7 +288,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // A folder where a file should go.
   fs::create_directories(path("busy/model.glb/x"));
   const auto common = sample("2d/letter_cage.obj") + " " + sample("2d/letter_model.obj") +
-                      " --method harmonic --vertices 500 --sparsify quadratic";
+                      " --method harmonic --vertices 500 --reduction quadratic";
   expect_run("busy", common + " --force", 4, "flbc: step export: ");
   EXPECT_EQ(names_in("busy"), (Names{"domain.obj", "weights.npy", "domain_weights.npy",
                                      "sparse_weights.mtx", "model.glb", "report.json"}));
@@ -307,7 +307,8 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
-  expect_run("out", cage + " --sparsify best", 1, "invalid value 'best'");
+  expect_run("out", sample("3d/limb_model.obj"), 1, "did you mean --auto-cage?");
+  expect_run("out", cage + " --reduction best", 1, "invalid value 'best'");
   expect_run("out", cage + " --pose " + sample("2d/letter_cage.obj"), 2, "has 24 vertices, but");
   expect_run("out", cage + " --pose " + path("no_%d.obj"), 4, "there is neither");
   expect_run("out", cage + " " + path("absent.obj"), 4, "absent.obj");

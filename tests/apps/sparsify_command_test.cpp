@@ -108,7 +108,7 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
 
 TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
   const auto sparsify = [&](const std::string& arguments, const std::string& method) {
-    expect("sparsify " + arguments + " -k 4 -q --method " + method + " -o " +
+    expect("sparsify " + arguments + " -k 4 -q --reduction " + method + " -o " +
            path(method + ".npy") + " --report " + path("r.json"));
     const auto report = Json::parse(slurp(path("r.json")));
     EXPECT_EQ(report["method"], method);
@@ -142,7 +142,7 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
   for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
   io::write_model(path("pose.obj"), {pose});
   const auto arguments = "sparsify " + path("v.npy") + " --cage " + sample("2d/ring_cage.obj") +
-                         " --points " + path("ring.vtu") + " -k 3 -q --method poisson -o ";
+                         " --points " + path("ring.vtu") + " -k 3 -q --reduction poisson -o ";
   expect(arguments + path("without.npy"));
   expect(arguments + path("with.npy") + " --pose " + path("pose.obj") + " --report " +
          path("r.json"));
@@ -163,8 +163,8 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
 
 TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   const auto arguments = square();
-  expect_refusal(arguments + " -k 3 --method poisson", 2, "model.obj: has no faces and no lines");
-  expect_refusal(arguments + " -k 3 --method cubic", 1, "choose from quadratic|poisson");
+  expect_refusal(arguments + " -k 3 --reduction poisson", 2, "model.obj: has no faces and no lines");
+  expect_refusal(arguments + " -k 3 --reduction cubic", 1, "choose from auto|poisson|quadratic");
   // Without neighbors there are no edges to measure.
   expect("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"));
   const auto report = Json::parse(slurp(path("r.json")));
@@ -172,7 +172,7 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   EXPECT_FALSE(report["error"].contains("edge"));
   // A line is enough.
   file("model.obj", "v 2 2 0\nv 1 2 0\nl 1 2\n");
-  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --method poisson -o " + path("s.npy")).errors,
+  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --reduction poisson -o " + path("s.npy")).errors,
             "");
 }
 

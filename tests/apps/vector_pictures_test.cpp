@@ -149,7 +149,7 @@ TEST_F(VectorPictures, UnknownFormatsAreNamed) {
 
 TEST_F(VectorPictures, OfARunAsWell) {
   expect("run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
-         " --method harmonic --vertices 500 --sparsify quadratic -q --pictures svg -o " +
+         " --method harmonic --vertices 500 --reduction quadratic -q --pictures svg -o " +
          path("out"));
   for (const char* name : {"out/function.svg", "out/model.svg"}) {
     expect_well_formed(slurp(path(name)));

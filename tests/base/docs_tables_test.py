@@ -5,6 +5,7 @@
 import contextlib
 import io
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -49,7 +50,8 @@ def notices_changes():
         assert quietly(docs.check) == 0
         (docs.STORED / "table9.csv").write_text(CSV)
         assert quietly(docs.check) == 1, "a result without a table went unnoticed"
-        for unfit in ("quick run: small", "only models that were asked for", "incomplete: some"):
+        for unfit in ("quick run: small", "only models that were asked for", "incomplete: some",
+                      "commit 0123abc, samples in place of the papers' cages"):
             (folder / "race.csv").write_text(f"# {unfit}\n" + CSV)
             try:
                 quietly(lambda: docs.take_over(folder))
@@ -160,8 +162,17 @@ arm,2000,58,31.8,4,poisson,0.2,1.1,47,0.04,0.9,,0.021,0.08,0.0006,0.008,""")
     assert sparsify[1].startswith(" | 4 | poisson | 110 (4,700) |")
 
 
+def refuses_folders_without_cages():
+    script = pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper" / "run.sh"
+    with tempfile.TemporaryDirectory() as name:
+        ended = subprocess.run([script, name, f"{name}/out"], capture_output=True, text=True, timeout=20)
+        assert ended.returncode == 1 and "has no cages in 2d/ or 3d/" in ended.stderr, ended
+        assert not ended.stdout, "something was built"
+
+
 if __name__ == "__main__":
     result = docs.check()
+    refuses_folders_without_cages()
     notices_numbers_in_sentences()
     notices_changes()
     shows_the_numbers()

@@ -46,6 +46,22 @@ TEST(Layout, TestsWriteInFoldersOfTheirOwn) {
   }
 }
 
+// Callers of the library have no command line; the program puts its options into messages
+// (apps/help/wording.h).
+TEST(Layout, LibrariesNameNoOptionsOfTheProgram) {
+  static const std::regex option(R"("[^"]*(--[a-z]|\bflbc [a-z]+ ?)[^"]*")");
+  int lines = 0;
+  for (const char* folder : {"libflbc", "openmesh_bindings/src", "openmesh_bindings/include"}) {
+    for (const auto& file : files_in(kRoot / folder, {".h", ".cpp", ".inl"})) {
+      for (const auto& line : lines_of(file)) {
+        ++lines;
+        EXPECT_FALSE(std::regex_search(line, option)) << file << ": " << line;
+      }
+    }
+  }
+  EXPECT_GT(lines, 10000);
+}
+
 // One definition rule: if two classes share a name, the linker picks the functions of either one.
 TEST(Layout, ClassesAreDefinedOnce) {
   static const std::regex name_of_namespace(R"(^namespace ([a-z0-9_:]+) \{)");

@@ -16,6 +16,7 @@ const { rotate, scale, translate } = await load("transforms");
 const { pick, pointsInRectangle } = await load("picking");
 const { ToolDrag } = await load("actions");
 const { Reshaper } = await load("serving");
+const { commandOf } = await load("saving");
 
 // The corners of a cube with edges of length 2.
 const kCube = Float64Array.from({ length: 24 }, (_, k) => (k % 3 === 0 ? Math.floor(k / 3) & 1
@@ -256,4 +257,14 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
   assert.equal(editor.points[0], 3);
   reshaper.toggle();
   near(editor.points, [3, 0, 0, 1, 0, 0, 0, 1, 0]);
+});
+
+test("the copied command names files where they are", () => {
+  const viewer = { content: { title: "arm (2)", files: { model: "../in put/arm #2.ply", weights: "w.mtx" } } };
+  assert.equal(commandOf(viewer, "file:///home/me/out%20dir/model.html"),
+               "flbc deform '/home/me/in put/arm #2.ply' --weights '/home/me/out dir/w.mtx' "
+               + "--pose 'arm (2)_pose.obj' -o 'arm (2)_posed.ply'");
+  assert.equal(commandOf(viewer, "http://127.0.0.1:8000/0/"),
+               "flbc deform '../in put/arm #2.ply' --weights w.mtx "
+               + "--pose 'arm (2)_pose.obj' -o 'arm (2)_posed.ply'");
 });

@@ -221,6 +221,24 @@ async function testInterrupt() {
   assert.throws(() => execFileSync(program, ["view", "--serve", "absent.obj"], { stdio: "pipe" }));
 }
 
+// A browser opens six connections to the program at most, however many pages it shows.
+async function testManyPages() {
+  const served = await Served.start([join(meshes, "2d", "letter_cage.obj"), "--vertices", "300"]);
+  const tabs = [];
+  for (let k = 0; k < 10; ++k) {
+    await served.open();
+    tabs.push(served.tab);
+    assert.deepEqual(served.failures, []);
+  }
+  // The page that holds the connection of all goes first.
+  for (const tab of tabs.slice(0, -1)) await tab.close();
+  await sleep(4000);
+  await served.tab.reload();
+  await served.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
+  await served.tab.close();
+  assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
+}
+
 function median(values) {
   return values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
 }
@@ -253,6 +271,7 @@ try {
     await measure(measuredCage, Number(drags));
   } else {
     await testInterrupt();
+    await testManyPages();
     await testReshaping("2d", "figure", 2);
     await testReshaping("3d", "limb", 3);
     await testCancel();

@@ -135,7 +135,7 @@ TEST_IN_2D_AND_3D(PlacementTest, RefusalsNameTheFarthest) {
               std::string::npos)
         << message;
     EXPECT_NE(message.find("the farthest is vertex 3"), std::string::npos) << message;
-    for (const char* advice : {"--outside nearest", "--outside extend", "flbc cage"}) {
+    for (const char* advice : {"kNearest", "kExtend", "cage_from_model()"}) {
       EXPECT_NE(message.find(advice), std::string::npos) << message;
     }
   }

@@ -35,6 +35,19 @@ TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
   }
 }
 
+TEST(CageIo, PointsInSpaceAreNoCage) {
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  try {
+    to_cage(soup, "scan.ply");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("scan.ply: has no facets and no polylines"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // A pyramid over a bent quadrilateral, whose shorter diagonal is 1-3.
 TEST(CageIo, QuadranglesAreCutAlongTheShorterDiagonal) {
   PolygonSoup soup;
@@ -94,7 +107,8 @@ TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
 TEST(CageIo, PolygonsInThePlaneStandForWhatBoundsThem) {
   // A frame of four quadrilaterals around a hole.
   PolygonSoup frame;
-  frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2}, {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
+  frame.points = {{0, 0, 2}, {3, 0, 2}, {3, 3, 2}, {0, 3, 2},
+                  {1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}};
   for (Index k = 0; k < 4; ++k) {
     frame.polygons.push_back({k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k});
   }

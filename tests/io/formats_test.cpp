@@ -29,7 +29,7 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
   }
   EXPECT_EQ(io::extensions_of({Content::kTriplets}), ".txt");
   EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu or .mesh");
-  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat or .npy");
+  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv or .mat");
 }
 
 // What the table says a mesh can be written to, it can be read from.
@@ -37,7 +37,7 @@ template <int Dim>
 void expect_meshes_return(const std::string& path) {
   const auto mesh = samples<Dim>().front().mesh;
   for (const std::string extension : {"obj", "off", "ply", "stl", "om", "vtu", "mesh", "node",
-                                      "ele", "msh", "mtx", "dmat", "npy", "txt"}) {
+                                      "ele", "msh", "mtx", "dmat", "npy", "csv", "mat", "txt"}) {
     SCOPED_TRACE(extension);
     const auto file = path + "." + extension;
     if (holds(file, {io::kMesh<Dim>})) {

@@ -344,7 +344,7 @@ TEST_F(ModelFileTest, DefectsAreNamed) {
   refuse("b.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
          "the vertices have no x and y");
   refuse("a.om", "OMP\x62" + std::string(12, '\0'), "version 3.2 of the format is not supported");
-  refuse("b.om", "solid", "not an OpenMesh file");
+  refuse("b.om", "liquid", "not an OpenMesh file");
   EXPECT_THROW(ModelFile(path("missing.om")), IoError);
   EXPECT_THROW(ModelFile(path("a.vtk")), OptionError);
   EXPECT_THROW(io::write_model(path("a.vtk"), io::Model{}), OptionError);

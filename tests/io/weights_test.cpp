@@ -27,7 +27,8 @@ class WeightsFile : public FormatTest {
     FormatTest::expect_malformed(name, read_weights, cases);
   }
   void expect_round_trips(const WeightMatrix& weights) const {
-    for (const std::string extension : {"mtx", "dmat", "npy", "NPY"}) {
+    for (const std::string extension : {"mtx", "dmat", "npy", "NPY", "mat", "csv"}) {
+      if (extension == "csv" && weights.size() == 0) continue;  // has no sizes
       const std::string file = path("weights." + extension);
       write_weights(file, weights);
       EXPECT_TRUE(bit_equal(read_weights(file), weights)) << extension;
@@ -101,6 +102,54 @@ TEST_F(WeightsFile, SparseWeightsGiveTheSameFile) {
   expect_error<InputError>([&] { write_weights(path("w.mtx"), SparseWeights(weights)); },
                            {"control point 3", "point 8", "not finite"});
   EXPECT_FALSE(std::filesystem::exists(path("w.mtx")));
+}
+
+TEST_F(WeightsFile, CsvHasALinePerPoint) {
+  write_weights(path("weights.csv"), small_weights());
+  EXPECT_EQ(content("weights.csv"), "1,4\n2,5\n3,6\n");
+  make("weights.csv", "# by hand\r\n 1, 4\r\n2 ,5\n3 6");
+  EXPECT_EQ(read_weights(path("weights.csv")), small_weights());
+  expect_malformed("weights.csv", {{"", ":1: ", "no numbers"},
+                                   {"1,2\n3\n", ":2: ", "expected 2 numbers"},
+                                   {"w_0,w_1\n1,2\n", ":1: ", "w_0"},
+                                   {"1,nan\n", ":1: ", "nan"}});
+}
+
+// The bytes that MATLAB and Octave expect.
+TEST_F(WeightsFile, MatIsALevel5Matrix) {
+  write_weights(path("weights.mat"), small_weights());
+  const std::string written = content("weights.mat");
+  EXPECT_EQ(written.substr(0, 19), "MATLAB 5.0 MAT-file");
+  EXPECT_EQ(written.substr(124, 4), std::string("\0\1IM", 4));
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, written.data() + at, sizeof value);
+    return value;
+  };
+  EXPECT_EQ(word(128), 14U);
+  EXPECT_EQ(128 + 8 + word(132), written.size());
+  EXPECT_EQ(word(144), 6U);  // doubles
+  EXPECT_EQ(word(160), 3U);  // points
+  EXPECT_EQ(word(164), 2U);  // control points
+  EXPECT_EQ(written.substr(176, 8), std::string("weights\0", 8));
+  EXPECT_EQ(written.substr(192), doubles({1, 2, 3, 4, 5, 6}));
+
+  const auto damaged = [&](std::size_t at, char byte) {
+    auto bytes = written;
+    bytes[at] = byte;
+    make("damaged.mat", bytes);
+    expect_error<InputError>([&] { read_weights(path("damaged.mat")); }, {"damaged.mat: at byte"});
+  };
+  damaged(126, 'M');
+  damaged(128, 15);  // compressed
+  damaged(144, 1);   // a cell array
+  damaged(145, 8);   // complex
+  damaged(160, 4);   // another size
+  damaged(184, 7);   // single precision
+  for (const std::size_t size : {0, 100, 130, 150, 190, 200}) {
+    make("cut.mat", written.substr(0, size));
+    expect_error<InputError>([&] { read_weights(path("cut.mat")); }, {"cut.mat: at byte"});
+  }
 }
 
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {
@@ -308,9 +357,9 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat or .npy"});
+    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat, .npy, .csv or .mat"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .dmat or .npy"});
+                              {file, ".mtx, .dmat, .npy, .csv or .mat"});
   }
   EXPECT_TRUE(names().empty());
 }

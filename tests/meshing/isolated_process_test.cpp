@@ -2,7 +2,9 @@
 #include "meshing/isolated_process.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace flbc {
 namespace {
@@ -61,6 +64,29 @@ TEST_F(IsolatedProcessTest, OutputArrivesInOrderAndWhole) {
   EXPECT_EQ(outcome.output, std::vector<char>(expected, expected + numbers.size() * sizeof(int)));
 }
 
+// Daemons and job systems start programs without standard streams.
+TEST_F(IsolatedProcessTest, WorksWithoutStandardStreams) {
+  for (const auto& streams : {std::vector<int>{0, 1}, {0, 2}, {1, 2}, {0, 1, 2}}) {
+    std::vector<int> kept;
+    for (const int stream : streams) {
+      kept.push_back(fcntl(stream, F_DUPFD_CLOEXEC, 100));
+      close(stream);
+    }
+    const auto outcome = run_isolated(
+        [](const ByteSink& send) {
+          std::fprintf(stderr, "child");
+          send("done", 4);
+        },
+        60);
+    for (std::size_t k = 0; k < streams.size(); ++k) {
+      dup2(kept[k], streams[k]);
+      close(kept[k]);
+    }
+    EXPECT_EQ(outcome.end, ProcessEnd::kFinished);
+    EXPECT_EQ(std::string(outcome.output.begin(), outcome.output.end()), "done");
+  }
+}
+
 TEST_F(IsolatedProcessTest, ChangesInTheChildStayThere) {
   int value = 1;
   run_isolated([&](const ByteSink&) { value = 2; }, 60);
@@ -81,6 +107,32 @@ TEST_F(IsolatedProcessTest, CrashIsReportedEvenIfTheParentHandlesTheSignal) {
   const ProcessOutcome outcome = run_isolated([](const ByteSink&) { raise(SIGSEGV); }, 60);
   std::signal(SIGSEGV, before);
   EXPECT_EQ(outcome.end, ProcessEnd::kCrashed);
+}
+
+int depth_of(int levels) {
+  volatile char room[1024];
+  room[0] = static_cast<char>(levels);
+  return levels == 0 ? 0 : depth_of(levels - 1) + (room[0] == static_cast<char>(levels) ? 1 : 0);
+}
+
+TEST_F(IsolatedProcessTest, ASmallStackIsNoObstacle) {
+  rlimit before{};
+  getrlimit(RLIMIT_STACK, &before);
+  const rlimit small{128 << 10, before.rlim_max};
+  setrlimit(RLIMIT_STACK, &small);
+  constexpr int kLevels = 8000;  // 8 MiB
+  const auto outcome = run_isolated(
+      [](const ByteSink& send) {
+        const int depth = depth_of(kLevels);
+        send(&depth, sizeof depth);
+      },
+      60);
+  setrlimit(RLIMIT_STACK, &before);
+  EXPECT_EQ(outcome.end, ProcessEnd::kFinished);
+  int depth = 0;
+  ASSERT_EQ(outcome.output.size(), sizeof depth);
+  std::memcpy(&depth, outcome.output.data(), sizeof depth);
+  EXPECT_EQ(depth, kLevels);
 }
 
 TEST_F(IsolatedProcessTest, ExceptionsEndTheChildOnly) {

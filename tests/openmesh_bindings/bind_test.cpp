@@ -149,6 +149,51 @@ TYPED_TEST(Bind, FramesFollowTheCageAndDoNotAccumulate) {
   EXPECT_EQ(this->points(), this->rest_);
 }
 
+// Vertices that tools of OpenMesh add have no weights: they stay, until they are bound as well.
+TYPED_TEST(Bind, NewVerticesStayUntilTheyAreBound) {
+  constexpr int kDimension = TypeParam::kDim;
+  const auto& cage = this->sample_.cage;
+  for (const Index most : {5, 0}) {
+    auto model = this->model_;
+    this->options_.max_influences = most;
+    openmesh::bind(model, cage, this->sample_.mesh, this->options_);
+    EXPECT_EQ(openmesh::bind_new_vertices(model), 0);
+    const auto face = model.face_handle(3);
+    const auto fresh = model.add_vertex(model.calc_face_centroid(face));
+    model.split(face, fresh);
+    const auto inner = model.add_vertex(model.point(fresh));
+    model.split(*model.vf_iter(fresh), inner);
+    const auto rest = model.point(fresh);
+
+    const auto pose = this->random_pose(2);
+    openmesh::deform(model, pose);
+    EXPECT_EQ(model.point(fresh), rest);
+    EXPECT_EQ(model.point(inner), rest);
+    openmesh::restore_rest(model);
+    EXPECT_EQ(model.point(fresh), rest);
+    EXPECT_EQ(openmesh::points_of<kDimension>(model).leftCols(this->rest_.cols()), this->rest_);
+
+    EXPECT_EQ(openmesh::bind_new_vertices(model), 2);
+    const PointList<kDimension> all = openmesh::points_of<kDimension>(model);
+    const auto weights = openmesh::get_weights(model);
+    if (most > 0) {
+      EXPECT_LE((weights.array() != 0).colwise().count().maxCoeff(), most);
+    }
+    EXPECT_GE(weights.minCoeff(), 0);
+    EXPECT_LT((cage.points * weights - all).cwiseAbs().maxCoeff(), TypeParam::kRounding);
+    openmesh::deform(model, pose);
+    EXPECT_LT((openmesh::points_of<kDimension>(model) - pose * weights).cwiseAbs().maxCoeff(),
+              TypeParam::kRounding);
+    openmesh::restore_rest(model);
+    EXPECT_EQ(openmesh::points_of<kDimension>(model), all);
+
+    model.add_vertex(rest);
+    expect_refused("vertex 51 is not connected", [&] { openmesh::bind_new_vertices(model); });
+  }
+  typename TypeParam::Mesh unbound;
+  expect_refused("has no weights", [&] { openmesh::bind_new_vertices(unbound); });
+}
+
 // The vertex at `index` is put before the middle of a facet, at a tenth of the cage's size.
 template <int Dim, class Mesh>
 Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index facet) {

@@ -14,6 +14,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
+#include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
@@ -41,6 +42,35 @@ TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
       EXPECT_EQ(judgement.lagrange_error, 0);
       EXPECT_LT(judgement.linearity_error, 1e-11);
       EXPECT_EQ(judgement.min_weight, solution.report.quality.min_weight);
+    }
+  }
+}
+
+// Without the projection to weights >= 0, single precision must not remain.
+TYPED_TEST(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = with_fine_cage<kDim>(Shape::kCorner, 2, kDim == 2 ? 8 : 4);
+  for (const auto method : {Method::kValue, Method::kLbc2014}) {
+    for (const auto active_set : {ActiveSet::kOff, ActiveSet::kOn}) {
+      SCOPED_TRACE(static_cast<int>(method));
+      SolverOptions options;
+      options.method = method;
+      options.non_negative = NonNegative::kOff;
+      options.active_set = active_set;
+      if (method == Method::kLbc2014 && active_set == ActiveSet::kOn) continue;
+      for (const bool sparse : {false, true}) {
+        options.sparse = sparse;
+        const auto solution = solve(sample.cage, sample.mesh, options);
+        EXPECT_LT(solution.report.quality.max_partition_error, 1e-13);
+        EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
+        const auto& weights = solution.weights;
+        const auto& control_points = solution.sparse_weights.control_points();
+        const auto nonzeros = sparse ? static_cast<Eigen::Index>(control_points.size())
+                                     : (weights.array() != 0).count();
+        if (active_set == ActiveSet::kOn) {
+          EXPECT_LT(nonzeros, 0.8 * sample.cage.size() * sample.mesh.num_vertices());
+        }
+      }
     }
   }
 }

@@ -33,7 +33,7 @@ export function colorValues(coloring, deformer, selection) {
     const values = deformer.influenceCounts();
     const most = values.reduce((greatest, value) => Math.max(greatest, value), 1);
     for (let p = 0; p < values.length; ++p) values[p] /= most;
-    return { values, legend: { title: "Influences per point", low: "0", high: String(most) } };
+    return { values, legend: { title: "Influences per vertex", low: "0", high: String(most) } };
   }
   return { values: null, legend: null };
 }

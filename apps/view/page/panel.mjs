@@ -11,8 +11,8 @@ function element(id) {
   return document.getElementById(id);
 }
 
-function plural(count, word) {
-  return `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
+function plural(count, word, words = `${word}s`) {
+  return `${count.toLocaleString("en")} ${count === 1 ? word : words}`;
 }
 
 // A line that goes away by itself.
@@ -25,10 +25,10 @@ export function tell(text) {
 }
 
 async function copyCommand(viewer) {
-  const command = commandOf(viewer);
+  const command = commandOf(viewer, window.location.href);
   try {
     await navigator.clipboard.writeText(command);
-    tell(`Copied: ${command}`);
+    tell(`Copied. Run it in the folder of the saved pose: ${command}`);
   } catch {
     tell(command);  // browsers may refuse: then it can be read at least
   }
@@ -88,7 +88,7 @@ export function makeCommands(viewer) {
 function showFacts(content) {
   document.title = `${content.title} – flbc`;
   element("title").textContent = content.title;
-  const facts = [plural(content.base.length / 3, "point"),
+  const facts = [plural(content.base.length / 3, "vertex", "vertices"),
                  plural(content.surface.triangles.length / 3, "triangle"),
                  plural(content.rest.length / 3, "control point")];
   element("facts").textContent = facts.join(" · ");

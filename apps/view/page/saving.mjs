@@ -57,10 +57,19 @@ function quoted(text) {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 }
 
-// Moves the model, exactly and in its own format, into the pose that is saved.
-export function commandOf(viewer) {
+// The place of a file that is named relative to the page, where the page is a file itself.
+function placeOf(file, address) {
+  if (!address.startsWith("file:")) return file;
+  const path = new URL(file.split("/").map(encodeURIComponent).join("/"), address).pathname;
+  return decodeURIComponent(path);
+}
+
+// Moves the model, exactly and in its own format, into the pose that is saved. It works in the folder
+// of the pose, which only the browser knows.
+export function commandOf(viewer, address) {
   const { title, files } = viewer.content;
   const extension = /\.[^./]*$/.exec(files.model)?.[0] ?? ".obj";
-  return ["flbc deform", quoted(files.model), "--weights", quoted(files.weights), "--pose",
+  const place = (file) => quoted(placeOf(file, address));
+  return ["flbc deform", place(files.model), "--weights", place(files.weights), "--pose",
           quoted(`${title}_pose.obj`), "-o", quoted(`${title}_posed${extension}`)].join(" ");
 }

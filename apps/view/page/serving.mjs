@@ -117,14 +117,20 @@ async function post(request) {
   }
 }
 
-// Tells the program that the page is there; it ends when no page is any more.
-async function stayInTouch(onEnd) {
+async function hold(onEnd) {
   try {
     const reader = (await fetch("alive")).body.getReader();
     while (!(await reader.read()).done);
   } finally {
     onEnd();
   }
+}
+
+// Tells the program that a page is there; it ends when no page is any more. Browsers open six
+// connections to an address at most, so one page of a browser holds one for all of them.
+async function stayInTouch(onEnd) {
+  if (!navigator.locks) return hold(onEnd);
+  return navigator.locks.request("alive", () => hold(onEnd));
 }
 
 // \param tell  shows a line to the user

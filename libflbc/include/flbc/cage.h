@@ -32,7 +32,7 @@ struct Defect {
 
 //! Looks for every defect that can be found without computing intersections:
 //! - too few or non-finite control points;
-//! - a size outside 1e-30 to 1e30, or a distance from the origin above 1e9 times the size;
+//! - a size outside 1e-30 to 1e30, or a distance from the origin above 2e8 times the size;
 //! - invalid facet indices, duplicate or unreferenced control points;
 //! - edges of length zero, degenerate triangles;
 //! - open or non-manifold edges and vertices;

@@ -22,6 +22,9 @@
 //! - checks: check.h, cage_facts.h
 //! - the discretized problem: lbc_problem.h
 //! - the optional component `caging`: cage_from_model.h, repair_cage.h
+//! - files, by the library flbc::io: a cage is
+//!   std::get<flbc::Cage<3>>(flbc::io::to_cage(flbc::io::read_polygons(path), path))
+//!   (io/model_file.h, io/cage_io.h); io/mesh_io.h, io/weights_io.h
 #pragma once
 
 #include "flbc/cage.h"         // Cage, validate()

@@ -44,8 +44,9 @@ constexpr double kRelativeTolerance = 1e-10;
 // Meshers multiply up to five lengths; the product must not overflow or underflow.
 constexpr double kSmallestSize = 1e-30;
 constexpr double kLargestSize = 1e30;
-// At a larger distance from the origin, relative to cage size, coordinates have too few digits.
-constexpr double kFarthest = 1e9;
+// At a larger distance from the origin, relative to cage size, rounded coordinates violate the
+// tolerance of reproduction.
+constexpr double kFarthest = 2e8;
 
 template <int Dim>
 std::string facet_name() {

@@ -15,11 +15,15 @@ FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
     : facets_(cage.facets.cols()), tolerance_(tolerance) {
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     auto& facet = facets_[f];
-    for (int k = 0; k < Dim; ++k) facet.corners.col(k) = cage.points.col(cage.facets(k, f));
-    facet.low = facet.corners.rowwise().minCoeff().array() - tolerance;
-    facet.high = facet.corners.rowwise().maxCoeff().array() + tolerance;
-    Eigen::Matrix<double, Dim, Dim - 1> edges;
-    for (int k = 1; k < Dim; ++k) edges.col(k - 1) = facet.corners.col(k) - facet.corners.col(0);
+    facet.origin = cage.points.col(cage.facets(0, f));
+    for (int k = 0; k < Dim; ++k) {
+      facet.corners.col(k) = cage.points.col(cage.facets(k, f)) - facet.origin;
+    }
+    facet.low = facet.origin + facet.corners.rowwise().minCoeff();
+    facet.low.array() -= tolerance;
+    facet.high = facet.origin + facet.corners.rowwise().maxCoeff();
+    facet.high.array() += tolerance;
+    const Eigen::Matrix<double, Dim, Dim - 1> edges = facet.corners.template rightCols<Dim - 1>();
     facet.to_coordinates = dense::least_squares(edges, Eigen::MatrixXd::Identity(Dim, Dim));
   }
 }
@@ -38,18 +42,19 @@ FacetPlace<Dim> FacetLocator<Dim>::nearest(const Vector<Dim>& point) const {
     if ((point.array() < facet.low.array()).any() || (point.array() > facet.high.array()).any()) {
       continue;
     }
+    const Vector<Dim> offset = point - facet.origin;
     // One refinement step, because the pseudo-inverse alone is too inaccurate on needles.
     Vector<Dim> coordinates = Vector<Dim>::Unit(0);
     for (int step = 0; step < 2; ++step) {
       coordinates.template tail<Dim - 1>() +=
-          facet.to_coordinates * (point - facet.corners * coordinates);
+          facet.to_coordinates * (offset - facet.corners * coordinates);
       coordinates[0] = 1 - coordinates.template tail<Dim - 1>().sum();
     }
     // Negative coordinates and rounding errors are clamped, so a point on an edge or at a corner
     // has exact zeros elsewhere.
     coordinates = (coordinates.array() < kRounding).select(0, coordinates);
     coordinates /= coordinates.sum();
-    const double distance = (facet.corners * coordinates - point).norm();
+    const double distance = (facet.corners * coordinates - offset).norm();
     if (distance < nearest.distance) {
       nearest = {static_cast<Index>(f), coordinates, distance};
     }

@@ -35,8 +35,9 @@ class FacetLocator {
 
  private:
   struct Facet {
-    Vector<Dim> low, high;  // bounding box, enlarged by the tolerance
-    Eigen::Matrix<double, Dim, Dim> corners;
+    Vector<Dim> low, high;                    // bounding box, enlarged by the tolerance
+    Vector<Dim> origin;                       // the first corner
+    Eigen::Matrix<double, Dim, Dim> corners;  // relative to it, so that cages far away keep digits
     Eigen::Matrix<double, Dim - 1, Dim> to_coordinates;  // pseudo-inverse of the edge vectors
   };
   std::vector<Facet> facets_;

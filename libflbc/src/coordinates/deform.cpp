@@ -58,7 +58,12 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
     throw InputError("there are " + std::to_string(before.cols()) + " points before and " +
                      std::to_string(after.cols()) + " after the move");
   }
-  return (after - before).colwise().norm().transpose();
+  Eigen::VectorXd lengths(before.cols());
+  // Squares of large displacements are not finite.
+  for (Eigen::Index p = 0; p < before.cols(); ++p) {
+    lengths[p] = (after.col(p) - before.col(p)).stableNorm();
+  }
+  return lengths;
 }
 
 template PointList<2> deform(const WeightMatrix&, const PointList<2>&, int);

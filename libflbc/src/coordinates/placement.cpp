@@ -131,8 +131,8 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
       " at " + format_point(points.col(farthest->point)) + ", " +
       format_number(farthest->distance) + " from it, " +
       format_number(100 * farthest->distance / size) +
-      "% of the cage size; choose --outside nearest or --outside extend, or make a cage around the "
-      "model with flbc cage");
+      "% of the cage size; choose OutsidePoints kNearest or kExtend, or make a cage around the "
+      "model with cage_from_model()");
 }
 
 // Evaluates the weights of one placed point at a time.

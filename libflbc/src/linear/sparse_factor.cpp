@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/sparse_factor.h"
 
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <string>
@@ -9,6 +10,7 @@
 
 #ifdef FLBC_WITH_CHOLMOD
 #include <cholmod.h>
+#include <sys/mman.h>
 #else
 #include <Eigen/SparseCholesky>
 #endif
@@ -71,11 +73,25 @@ void check(const cholmod_common& common, Eigen::Index size) {
   if (common.status < CHOLMOD_OK) fail(size, "not understood by CHOLMOD");
 }
 
+// OpenBLAS takes a buffer at its first use, and tries for ever if there is no room for it.
+void require_room_for_blas(std::size_t numbers_in_factor) {
+  static std::atomic<bool> has_room{false};
+  if (has_room) return;
+  constexpr std::size_t kBuffer = 160 << 20;
+  const std::size_t size = kBuffer + numbers_in_factor * sizeof(double);
+  void* const room =
+      mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  munmap(room, size);
+  has_room = true;
+}
+
 SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
   const auto cholmod = std::make_shared<CholmodFactor>();
   cholmod_sparse view = view_lower_triangle(matrix);
   cholmod->factor = cholmod_analyze(&view, &cholmod->common);
   check(cholmod->common, matrix.rows());
+  require_room_for_blas(cholmod->factor->xsize);
   cholmod_factorize(&view, cholmod->factor, &cholmod->common);
   check(cholmod->common, matrix.rows());
   cholmod_free_work(&cholmod->common);

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -74,19 +75,67 @@ void write_all(int descriptor, const void* data, std::size_t size) {
   }
 }
 
+// Meshers recurse deeply. Below the usual limit of 8 MiB, the work gets a stack of its own.
+bool has_small_stack() {
+  constexpr rlim_t kUsual = 8 << 20;
+  rlimit limit{};
+  return getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < kUsual;
+}
+
+void call_on_large_stack(const std::function<void()>& work) {
+  constexpr std::size_t kSize = 64 << 20;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kSize);
+  const auto start = [](void* call) -> void* {
+    (*static_cast<const std::function<void()>*>(call))();
+    return nullptr;
+  };
+  pthread_t thread;
+  auto* const call = const_cast<std::function<void()>*>(&work);
+  if (pthread_create(&thread, &attributes, start, call) != 0) _exit(kExitOutOfMemory);
+  pthread_join(thread, nullptr);
+}
+
 [[noreturn]] void run_child(const std::function<void(const ByteSink&)>& work, int pipe_end) {
   detach_from_parent();
-  try {
-    work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
-  } catch (const std::bad_alloc&) {
-    _exit(kExitOutOfMemory);
-  } catch (...) {
-    _exit(kExitThrew);
-  }
+  const auto run = [&] {
+    try {
+      work([pipe_end](const void* data, std::size_t size) { write_all(pipe_end, data, size); });
+    } catch (const std::bad_alloc&) {
+      _exit(kExitOutOfMemory);
+    } catch (...) {
+      _exit(kExitThrew);
+    }
+  };
+  has_small_stack() ? call_on_large_stack(run) : run();
   _exit(0);
 }
 
 // --------------------------------------------------------------------------------- in the parent
+
+// Closes both ends of a pipe. Keeps errno.
+void close_both(const int (&ends)[2]) {
+  const int reason = errno;
+  close(ends[0]);
+  close(ends[1]);
+  errno = reason;
+}
+
+// In a process whose standard streams are closed, a pipe gets their numbers, and the child would
+// replace its ends by the null device.
+void move_above_standard_streams(int (&ends)[2]) {
+  for (int& end : ends) {
+    if (end > STDERR_FILENO) continue;
+    const int moved = fcntl(end, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (moved < 0) {
+      close_both(ends);
+      throw_system_error("open a pipe");
+    }
+    close(end);
+    end = moved;
+  }
+}
 
 // The child process and its pipe, with RAII cleanup.
 class Child {
@@ -98,12 +147,10 @@ class Child {
     const std::lock_guard<std::mutex> lock(start_mutex);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw_system_error("open a pipe");
+    move_above_standard_streams(ends);
     process_ = fork();
     if (process_ < 0) {
-      const int reason = errno;
-      close(ends[0]);
-      close(ends[1]);
-      errno = reason;
+      close_both(ends);
       throw_system_error("start a process");
     }
     if (process_ == 0) {

@@ -27,8 +27,8 @@ void check_options(const MeshingOptions<Dim>& options) {
                       " is not a number of vertices; give a positive number, or 0 for the minimum");
   }
   if (options.vertices > kMostVertices) {
-    throw OptionError("vertices (--vertices): " + std::to_string(options.vertices) +
-                      " are too many; at most " + std::to_string(kMostVertices) + " are supported");
+    throw OptionError("vertices: " + std::to_string(options.vertices) + " are too many; at most " +
+                      std::to_string(kMostVertices) + " are supported");
   }
   if (!(options.time_limit > 0)) {
     throw OptionError("time_limit: the limit must be a positive number of seconds");
@@ -98,7 +98,7 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
 void check_vertex_count(Index wanted, Index minimum, double tolerance) {
   if (wanted == 0 || wanted >= (1 - tolerance) * minimum) return;
   throw TooFewVertices(
-      "vertices (--vertices): " + std::to_string(wanted) +
+      "vertices: " + std::to_string(wanted) +
       " vertices are too few: well-shaped cells in this cage need at least about " +
       std::to_string(minimum) + "; ask for more, or for 0 to get the minimum");
 }
@@ -112,8 +112,7 @@ std::string describe_failure(const ProcessOutcome& outcome, double time_limit) {
     case ProcessEnd::kCrashed:
       return "crashed with " + describe_signal(outcome.signal);
     case ProcessEnd::kTimedOut:
-      return "was stopped at the time limit of " + format_number(time_limit) +
-             " s (--mesh-timeout)";
+      return "was stopped at the time limit of " + format_number(time_limit) + " s (time_limit)";
   }
   return {};
 }

@@ -33,6 +33,8 @@ constexpr Format kFormats[] = {
     {"mtx", {}, {}, {}, {nullptr, nullptr, read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
+    {"csv", {}, {}, {}, {read_csv, write_csv}},
+    {"mat", {}, {}, {}, {read_mat, write_mat}},
     {"txt"},  // flbc/io/weights_triplets.h
 };
 
@@ -88,10 +90,19 @@ std::string extensions_of(std::initializer_list<Content> contents) {
   return list;
 }
 
+std::string conversion_hint(const std::string& path) {
+  constexpr const char* kOthers[] = {"fbx", "glb",  "gltf", "blend", "dae", "3ds", "abc",
+                                     "usd", "usda", "usdc", "usdz",  "x3d", "wrl", "max"};
+  const auto extension = extension_of(path);
+  if (std::find(std::begin(kOthers), std::end(kOthers), extension) == std::end(kOthers)) return {};
+  return "; convert it to .obj or .ply first, for example in Blender";
+}
+
 const Format& format_of(const std::string& path, Content content, const char* action) {
   if (holds(path, {content})) return *find(path);
   throw OptionError("cannot " + std::string(action) + " \"" + path +
-                    "\": unknown file format; the file must end in " + extensions_of({content}));
+                    "\": unknown file format; the file must end in " + extensions_of({content}) +
+                    (std::string(action).find("read") == 0 ? conversion_hint(path) : ""));
 }
 
 }  // namespace flbc::io

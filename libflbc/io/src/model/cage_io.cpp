@@ -88,6 +88,11 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
 
 AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
   if (soup.points.empty()) throw InputError(name + ": has no vertices");
+  if (soup.polygons.empty() && soup.polylines.empty() && !is_flat(soup)) {
+    throw InputError(name +
+                     ": has no facets and no polylines; a cage is a closed surface (3D) or closed "
+                     "polylines (2D)");
+  }
   // A flat closed surface has no boundary in its plane; it is a surface without volume.
   FacetList<2> outline(2, 0);
   if (is_flat(soup)) {

@@ -2,6 +2,7 @@
 #include "flbc/io/model_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <ostream>
@@ -11,17 +12,43 @@
 #include "flbc/io/files.h"
 #include "formats/format_table.h"
 #include "model/following_normals.h"
+#include "model/likely_format.h"
 #include "text/text_writer.h"
 
 namespace flbc::io {
 namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+// What a file that cannot be read is instead; empty if that is not known.
+std::string describe_mistake(const std::string& path, const std::string& content) {
+  const auto likely = likely_format(content);
+  const auto extension = extension_of(path);
+  if (path == "-" || likely.empty() || likely == extension) return {};
+  const auto start = path + ": not " + upper(extension) + "; it looks like ";
+  if (likely == "binary") {
+    return extension == "obj" || extension == "off" ? start + "a binary file" : std::string();
+  }
+  const auto hint = conversion_hint("a." + likely);
+  return start + upper(likely) + (hint.empty() ? "; let its name end in ." + likely : hint);
+}
 
 ModelScan scan(const std::string& path, Extent extent) {
   // Standard input has no extension.
   const auto& format = format_of(path == "-" ? "-.obj" : path, Content::kModel, "read a model as");
   ModelScan scan;
   scan.text = read_file(path);
-  format.model.read(path, extent, scan);
+  try {
+    format.model.read(path, extent, scan);
+  } catch (const InputError&) {
+    const auto mistake = describe_mistake(path, scan.text);
+    if (mistake.empty()) throw;
+    throw InputError(mistake);
+  }
   return scan;
 }
 

@@ -140,7 +140,7 @@ DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, doub
     if (seconds > options.time_limit) {
       throw InputError(
           "CGAL was stopped at the time limit of " + format_number(options.time_limit) +
-          " s (--mesh-timeout); raise the limit, ask for fewer vertices, or check the cage "
+          " s (time_limit); raise the limit, ask for fewer vertices, or check the cage "
           "for places that are extremely thin");
     }
   }

@@ -285,7 +285,8 @@ DomainMesh<3> tetrahedralize_by_netgen(const Cage<3>& cage, const MeshingOptions
   validate(cage);
   collect_input_points(cage, options);  // checks the options
   if (options.embedded_points.cols() > 0) {
-    throw OptionError("Netgen cannot make given points vertices of its mesh (--embed, --mesher)");
+    throw OptionError(
+        "Netgen cannot make given points vertices of its mesh; choose another mesher");
   }
   const Task task{orient(cage), bounding_box_diagonal(cage.points), options.time_limit};
   DomainMesh<3> mesh = fill_with(task, options.vertices, options.roughly);

@@ -23,8 +23,8 @@ void validate_gap(const SolverOptions& options, bool iterative) {
     throw OptionError("gap needs a method that minimizes the objective; choose another method");
   if (resolve(options).non_negative == NonNegative::kOff) {
     throw OptionError(
-        "gap (--gap) does not apply to weights that may be negative; choose "
-        "non_negative (--non-negative) constraint or project");
+        "gap does not apply to weights that may be negative; choose non_negative constraint or "
+        "project");
   }
 }
 

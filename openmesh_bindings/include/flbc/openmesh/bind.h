@@ -5,9 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "flbc/meshing.h"
 #include "flbc/openmesh/convert.h"
@@ -72,6 +75,84 @@ struct Binding {
 
 template <int Dim>
 Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options);
+
+//! The weights with at most `most` influences (0: any number) nearest to `weights` that reproduce a
+//! point. \param cage  Dim x n \throws InputError naming the vertex if no weights >= 0 reproduce it
+Eigen::VectorXd reproducing(const Eigen::MatrixXd& cage, const Eigen::VectorXd& point, int vertex,
+                            const Eigen::VectorXd& weights, std::size_t most);
+
+[[noreturn]] void refuse_without_neighbors(int vertex);
+
+//! Whether each vertex has weights. All have if the mesh has no weights of this name.
+template <class Mesh>
+std::vector<bool> bound_vertices(const Mesh& mesh, const std::string& weights) {
+  std::vector<bool> are_bound(mesh.n_vertices(), true);
+  const auto* influences = find_property<Influences>(mesh, weights);
+  const auto* rows = find_property<Wide<double>>(mesh, weights);
+  for (std::size_t v = 0; v < are_bound.size(); ++v) {
+    if (influences) {
+      are_bound[v] = influences->data_vector()[v].count() > 0;
+    } else if (rows) {
+      are_bound[v] = !rows->data_vector()[v].matrix().isZero(0);
+    }
+  }
+  return are_bound;
+}
+
+inline void add_row(const InfluencesView<const double>& influences, Eigen::VectorXd& sum) {
+  for (std::size_t j = 0; j < influences.size(); ++j) {
+    sum[influences.control_point(j)] += influences.weight(j);
+  }
+}
+inline void add_row(const RowsView<const double>& row, Eigen::VectorXd& sum) {
+  sum += row.matrix().row(0).transpose();
+}
+
+inline void set_row(const Eigen::VectorXd& weights, const InfluencesView<double>& influences) {
+  std::size_t j = 0;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    if (weights[i] == 0) continue;
+    influences.control_point(j) = static_cast<std::uint32_t>(i);
+    influences.weight(j++) = weights[i];
+  }
+}
+inline void set_row(const Eigen::VectorXd& weights, const RowsView<double>& row) {
+  row.matrix().row(0) = weights.transpose();
+}
+
+//! \param block  of the weights \param most  pairs per vertex; 0 = all weights
+template <class Mesh, class Block>
+void bind_new(Mesh& mesh, Block& block, const Eigen::MatrixXd& cage, std::size_t most,
+              RowBlock<double>& rest, std::vector<OpenMesh::VertexHandle> open,
+              std::vector<bool> are_bound) {
+  while (!open.empty()) {
+    std::vector<OpenMesh::VertexHandle> done, left;
+    for (const auto vertex : open) {
+      const auto v = static_cast<std::size_t>(vertex.idx());
+      Eigen::VectorXd mean = Eigen::VectorXd::Zero(cage.cols());
+      int neighbors = 0;
+      for (const auto neighbor : mesh.vv_range(vertex)) {
+        if (!are_bound[static_cast<std::size_t>(neighbor.idx())]) continue;
+        add_row(std::as_const(block)[static_cast<std::size_t>(neighbor.idx())], mean);
+        ++neighbors;
+      }
+      if (neighbors == 0) {
+        left.push_back(vertex);
+        continue;
+      }
+      Eigen::VectorXd point(cage.rows());
+      for (int d = 0; d < cage.rows(); ++d) point[d] = static_cast<double>(mesh.point(vertex)[d]);
+      set_row(reproducing(cage, point, vertex.idx(), mean / neighbors, most), block[v]);
+      for (int d = 0; d < kPointSize<Mesh>; ++d) {
+        rest[v][static_cast<std::size_t>(d)] = static_cast<double>(mesh.point(vertex)[d]);
+      }
+      done.push_back(vertex);
+    }
+    if (done.empty()) refuse_without_neighbors(left.front().idx());
+    for (const auto vertex : done) are_bound[static_cast<std::size_t>(vertex.idx())] = true;
+    open = std::move(left);
+  }
+}
 
 template <class T>
 struct IsCage : std::false_type {};
@@ -154,13 +235,49 @@ BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& doma
   return internal::bind_to<Dim>(model, cage, &domain, internal::linked_mesher<Dim>(), options);
 }
 
-//! Restores the vertex positions at the time of bind().
+//! Binds vertices that were added after bind(), for example by split(). They get the mean of the
+//! weights of their neighbors, changed as little as is needed to reproduce their positions. The
+//! model must be at rest. Other vertices keep their weights.
+//! \return number of new vertices
+//! \throws InputError if the model was not bound, or naming a vertex that no neighbors connect with
+//! bound ones, or that lies outside the convex hull of the cage. Vertices before it may be bound
+template <class Model>
+Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
+  static_assert(!std::is_same_v<Model, TetMesh>, "the vertices of a TetMesh do not change");
+  const auto cage = get_rest_cage(model, weights);
+  const auto rest_name = internal::name_of_rest(weights);
+  if (!internal::find_property<Wide<double>>(model, rest_name) || cage.size() == 0) {
+    internal::refuse_without_weights(rest_name);
+  }
+  auto& rest = internal::get_property<Wide<double>>(model, rest_name).data_vector();
+  auto are_bound = internal::bound_vertices(model, weights);
+  std::vector<OpenMesh::VertexHandle> open;
+  for (const auto vertex : model.vertices()) {
+    if (!are_bound[static_cast<std::size_t>(vertex.idx())]) open.push_back(vertex);
+  }
+  const auto count = static_cast<Index>(open.size());
+  if (internal::find_property<Influences>(model, weights)) {
+    auto& block = internal::get_property<Influences>(model, weights).data_vector();
+    internal::bind_new(model, block, cage, block.most(), rest, std::move(open),
+                       std::move(are_bound));
+  } else {
+    weights_property(model, weights);
+    auto& block = internal::get_property<Wide<double>>(model, weights).data_vector();
+    internal::bind_new(model, block, cage, 0, rest, std::move(open), std::move(are_bound));
+  }
+  return count;
+}
+
+//! Restores the vertex positions at the time of bind(). Vertices that were added since stay where
+//! they are, unless bind_new_vertices() has bound them.
 //! \throws InputError if the model was not bound
 template <class Model>
 void restore_rest(Model& model, const std::string& weights = kWeights) {
   const auto* rest = internal::find_property<Wide<double>>(model, internal::name_of_rest(weights));
   if (!rest) internal::refuse_without_weights(internal::name_of_rest(weights));
+  const auto are_bound = internal::bound_vertices(model, weights);
   for (const auto vertex : model.vertices()) {
+    if (!are_bound[static_cast<std::size_t>(vertex.idx())]) continue;
     auto point = model.point(vertex);
     using Coordinate = std::decay_t<decltype(point[0])>;
     for (int d = 0; d < kPointSize<Model>; ++d) {

@@ -68,6 +68,8 @@ void update_normals(Mesh& mesh) {
 
 //! Moves mesh points to x = sum_i w_i c_i, plus the offset for points outside the cage at bind().
 //! The current positions have no effect. The third coordinate of a planar mesh is unchanged.
+//! Vertices without weights, such as those that split() added after bind(), stay where they are;
+//! see bind_new_vertices().
 //! \param control_points  Dim x n
 //! \throws InputError if the mesh has no weights of this name, or the number of control points
 //! differs

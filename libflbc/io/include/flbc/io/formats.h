@@ -29,4 +29,8 @@ bool holds(const std::string& path, std::initializer_list<Content> contents);
 //! The extensions of all such formats, such as ".obj, .off or .vtu".
 std::string extensions_of(std::initializer_list<Content> contents);
 
+//! How to get a model out of a file in a format of other programs, such as .fbx, as the end of a
+//! message; empty for other extensions.
+std::string conversion_hint(const std::string& path);
+
 }  // namespace flbc::io

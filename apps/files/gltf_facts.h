@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What is in a glTF file.
+#pragma once
+
+#include <string>
+
+namespace flbc::app {
+
+//! Whether a path ends in .glb or .gltf.
+bool is_gltf_file(const std::string& path);
+
+//! Counts of vertices, triangles, joints, and influences, and the length of the animation, as lines
+//! for a terminal. \throws IoError, InputError
+std::string describe_gltf(const std::string& path);
+
+}  // namespace flbc::app

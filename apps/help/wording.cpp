@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "help/wording.h"
+
+namespace flbc::app {
+namespace {
+
+struct Wording {
+  const char *library, *program;
+};
+
+constexpr Wording kWordings[] = {
+    {"choose OutsidePoints kNearest or kExtend, or make a cage around the model with "
+     "cage_from_model()",
+     "choose --outside nearest or --outside extend, or make a cage around the model with flbc "
+     "cage"},
+    {"gap does not apply to weights that may be negative; choose non_negative constraint or "
+     "project",
+     "--gap does not apply to weights that may be negative; choose --non-negative constraint or "
+     "project"},
+    {"cannot use non_negative as a constraint;", "cannot use --non-negative constraint;"},
+    {"coarse_to_fine cannot be on", "--coarse-to-fine cannot be on"},
+    {"linear_solver none is for", "--linear-solver none is for"},
+    {"certify needs a method", "--certify needs a method"},
+    {"gap needs a method", "--gap needs a method"},
+    {"gap must be positive", "--gap must be positive"},
+    {"smoothness must be positive", "--smoothness must be positive"},
+    {"smoothness is for the methods", "--smoothness is for the methods"},
+    {"tolerance must be positive", "--tolerance must be positive"},
+    {"penalty must be positive", "--penalty must be positive"},
+    {"relaxation must be in", "--relaxation must be in"},
+    {"max_iterations must be at least", "--max-iterations must be at least"},
+    {"threads must be in [1", "--threads must be in [1"},
+    {" s (time_limit)", " s (--mesh-timeout)"},
+    {"of its mesh; choose another mesher",
+     "of its mesh; choose another --mesher, or leave out --embed"},
+};
+
+// "vertices: 3 vertices are too few", where a file name does not end.
+void name_vertices(std::string& message) {
+  constexpr const char* kName = "vertices: ";
+  for (const char* end :
+       {" are too many; at most", " vertices are too few:", " is not a number of vertices"}) {
+    const auto at = message.find(end);
+    const auto begin = at == std::string::npos ? at : message.rfind(kName, at);
+    if (begin != std::string::npos) message.insert(begin, "--");
+  }
+}
+
+}  // namespace
+
+std::string in_words_of_program(std::string message) {
+  for (const auto& [library, program] : kWordings) {
+    const auto at = message.find(library);
+    if (at == std::string::npos) continue;
+    message.replace(at, std::string(library).size(), program);
+  }
+  name_vertices(message);
+  return message;
+}
+
+}  // namespace flbc::app

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Messages of the library in the words of the program.
+#pragma once
+
+#include <string>
+
+namespace flbc::app {
+
+//! The message with options of the program in place of the names of the library.
+std::string in_words_of_program(std::string message);
+
+}  // namespace flbc::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/estimate.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace flbc::app {
+namespace {
+
+// Fitted to docs/results: models.csv, growth.csv and many.csv.
+constexpr double kSecondsPerPair2D = 0.8e-6, kSecondsPerPair3D = 2e-6;
+constexpr double kBytesPerPair2D = 80, kBytesPerPair3D = 180;
+// On an active set, of the pairs in it.
+constexpr double kSecondsPerActivePair = 6e-6, kBytesPerActivePair = 570;
+constexpr double kBase = 25e6;  // bytes of the program itself
+
+// Share of the pairs in an active set: 15% for 110 control points, 3.5% for 1,000.
+double active_share(double control_points) {
+  return std::fmin(0.5, 0.15 * std::pow(110 / control_points, 0.65));
+}
+
+bool uses_active_set(int dim, double control_points, double pairs, const SolverOptions& options) {
+  if (options.active_set != ActiveSet::kAuto) return options.active_set == ActiveSet::kOn;
+  return dim == 3 && control_points >= 80 && pairs >= 400000 && !options.certify;
+}
+
+// "0.25", "1.3", "120".
+std::string rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  std::ostringstream text;
+  text << std::round(value / unit) * unit;
+  return text.str();
+}
+
+}  // namespace
+
+Estimate estimate_solve(int dim, Index control_points, Index vertices,
+                        const SolverOptions& options) {
+  const double pairs = static_cast<double>(control_points) * vertices;
+  if (uses_active_set(dim, control_points, pairs, options)) {
+    const double active = active_share(control_points) * pairs;
+    return {kSecondsPerActivePair * active, kBase + kBytesPerActivePair * active};
+  }
+  if (dim == 2) return {kSecondsPerPair2D * pairs, kBase + kBytesPerPair2D * pairs};
+  return {kSecondsPerPair3D * pairs, kBase + kBytesPerPair3D * pairs};
+}
+
+std::string describe(const Estimate& estimate) {
+  constexpr double kMinute = 60, kGigabyte = 1e9, kMegabyte = 1e6;
+  const bool is_slow = estimate.seconds > 2 * kMinute;
+  const bool is_large = estimate.bytes >= kGigabyte;
+  return "about " + rounded(is_slow ? estimate.seconds / kMinute : estimate.seconds) +
+         (is_slow ? " min" : " s") + " and " +
+         rounded(estimate.bytes / (is_large ? kGigabyte : kMegabyte)) + (is_large ? " GB" : " MB");
+}
+
+bool is_long(const Estimate& estimate) {
+  constexpr double kSeconds = 10, kBytes = 1e9;
+  return estimate.seconds > kSeconds || estimate.bytes > kBytes;
+}
+
+}  // namespace flbc::app

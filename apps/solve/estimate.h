@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! How long a solve may take, before it starts.
+#pragma once
+
+#include <string>
+
+#include "flbc/options.h"
+
+namespace flbc::app {
+
+//! Roughly: within a factor of three on a usual computer with two cores.
+struct Estimate {
+  double seconds = 0;
+  double bytes = 0;
+};
+
+//! Of a solve by the default method, without meshing.
+Estimate estimate_solve(int dim, Index control_points, Index vertices,
+                        const SolverOptions& options);
+
+//! "about 40 s and 3.8 GB".
+std::string describe(const Estimate& estimate);
+
+//! Whether to tell users before they wait.
+bool is_long(const Estimate& estimate);
+
+}  // namespace flbc::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Comma-separated values: a line per point with a number per control point, without a header.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "text/text_reader.h"
+#include "text/text_writer.h"
+#include "weights/weights_formats.h"
+
+namespace flbc::io {
+
+WeightMatrix read_csv(const std::string& path, std::string content) {
+  std::replace(content.begin(), content.end(), ',', ' ');
+  TextReader reader(path, std::move(content), {'#', false});
+  std::vector<double> numbers;
+  std::size_t columns = 0, rows = 0;
+  while (reader.next_line()) {
+    const std::size_t begin = numbers.size();
+    while (reader.has_word()) numbers.push_back(reader.number());
+    const std::size_t count = numbers.size() - begin;
+    if (rows++ == 0) columns = count;
+    if (count != columns) {
+      reader.fail("expected " + std::to_string(columns) + " numbers as on the first line, found " +
+                  std::to_string(count));
+    }
+  }
+  if (rows == 0) reader.fail("the file has no numbers");
+  return Eigen::Map<const WeightMatrix>(numbers.data(), static_cast<Eigen::Index>(columns),
+                                        static_cast<Eigen::Index>(rows));
+}
+
+void write_csv(std::ostream& out, const WeightMatrix& weights) {
+  TextWriter writer(out);
+  for (Eigen::Index p = 0; p < weights.cols(); ++p) {
+    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+      if (i > 0) writer << ",";
+      writer << weights(i, p);
+    }
+    writer << "\n";
+  }
+  writer.flush();
+}
+
+}  // namespace flbc::io
