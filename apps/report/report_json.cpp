@@ -47,7 +47,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"active", name_of(options.active_set)},
           {"certify", options.certify},
           {"phi", name_of(options.phi)},
-          {"smoothness", options.smoothness},
+          {"smoothness", *options.smoothness},
           {"distances", name_of(options.distances)},
           {"linear_solver", name_of(options.linear_solver)},
           {"recovery", name_of(options.gradient.recovery)},

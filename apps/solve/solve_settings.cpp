@@ -55,7 +55,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "solver method (default: auto, which is value, the weight-splitting ADMM)");
   command.add_option("--smoothness", options.smoothness,
                      "remove kinks of the weights at the cost of more influences: 0 (none) to 0.03 "
-                     "(default: 0)");
+                     "(default: 0; flbc run: 0.003)");
   command.add_option("--tolerance", options.tolerance,
                      "target for the estimated error of the weights (default: 1e-6 for gradient, "
                      "1e-7 for other methods)");

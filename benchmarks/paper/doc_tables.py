@@ -167,13 +167,32 @@ def many(rows):
     return header, body
 
 
+def smoothness(rows):
+    """A line per model and value; creases only where there is a 3D model."""
+    header = ["model", "smoothness", "influences", "jump of gradients", "creases: mean, 99%", "iterations",
+              "true error / tolerance", "default solve, s"]
+    body = []
+    last_model = None
+    for row in rows:
+        title = f"{row['model']}, n = {row['control_points']}, {results.thousands(row['vertices'])} V"
+        first = row["model"] != last_model
+        last_model = row["model"]
+        creases = (f"{results.value(row, 'crease_mean'):.2f}, {results.value(row, 'crease_high'):.1f}"
+                   if row["crease_mean"] else "")
+        body.append([title if first else "", row["smoothness"]] +
+                    formatted(row, [("mean_influences", ".2f"), ("gradient_jump", ".2f")]) +
+                    [creases, tables.iterations(row) if row["iterations"] else ""] +
+                    formatted(row, [("error", ".2f"), ("default_seconds", ".2f")]))
+    return header, body
+
+
 def plain(rows):
     """Every column of the file, numbers in three digits."""
     columns = [c for c in rows[0] if any(r[c] for r in rows)]
     return [c.replace("_", " ") for c in columns], [[brief(r[c]) for c in columns] for r in rows]
 
 
-TABLES = {"race": race, "table2": table2, "table1": tables.table1_rows,
+TABLES = {"race": race, "smoothness": smoothness, "table2": table2, "table1": tables.table1_rows,
           "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
           "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014, "paper_details": lbc2014,
           "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows,

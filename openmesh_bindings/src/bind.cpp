@@ -85,6 +85,7 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   report.mesh_seconds = watch.lap();
   auto solver_options = options.solver;
   solver_options.sparse = true;
+  make_smooth(solver_options);
   const auto solution =
       flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher));
   report.solve = solution.report;

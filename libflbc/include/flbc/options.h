@@ -63,8 +63,12 @@ enum class Recovery {
   kLeastSquares   //!< weights with the nearest gradients, by one Poisson solve
 };
 
-//! Options of the gradient methods, kGradient and kPaper.
-struct GradientOptions {
+//! Smoothness for deforming models, the default of flbc run and openmesh::bind(): poses crease a
+//! model no more than with harmonic coordinates, for 5 % to 30 % more influences
+//! (docs/explanation/smooth_weights.md).
+constexpr double kDeformationSmoothness = 0.003;
+
+//! Options of the gradient methods, kGradient and kPaper.struct GradientOptions {
   //! Method of recovering weights from gradients.
   Recovery recovery = Recovery::kAuto;
 };
@@ -81,8 +85,9 @@ struct SolverOptions {
   //! Trades locality for smoothness: epsilon / size of the cage (bounding_box_diagonal), >= 0. The
   //! objective gets the term epsilon / 2 |grad w_i|^2, which removes the kinks of total variation
   //! and makes the optimum unique. 0 is the problem of the paper. Useful values are 0.001 to 0.03.
-  //! For kValue and kGradient; an error for other methods that minimize.
-  double smoothness = 0;
+  //! For kValue and kGradient; an error for other methods that minimize. Default: 0 for solve() and
+  //! Solver; kDeformationSmoothness for openmesh::bind().
+  std::optional<double> smoothness{};
 
   //! Source of the distances for phi when solve() sets up the problem. kAuto interpolates if the
   //! estimated effect on the weights is below half the tolerance. The report contains the estimated
@@ -157,6 +162,9 @@ struct SolverOptions {
 //! Checks options. solve() and Solver call it first.
 //! \throws OptionError naming the field and its valid range
 void validate(const SolverOptions& options);
+
+//! Sets the smoothness to kDeformationSmoothness if it is not set and the method supports it.
+void make_smooth(SolverOptions& options);
 
 //! Replaces automatic options by the values that will be used. Options that depend on the problem
 //! stay automatic: the penalty and, for CoarseToFine::kAuto, the coarse levels.

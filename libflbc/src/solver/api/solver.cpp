@@ -56,9 +56,9 @@ void require_objective(const LbcProblem<Dim>& problem, const SolverOptions& opti
         "the problem has no weight functions phi for the cells of its mesh; make_problem() "
         "computes them");
   }
-  if (problem.smoothness != options.smoothness) {
+  if (problem.smoothness != *options.smoothness) {
     throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
-                      ", and the options say " + format_number(options.smoothness));
+                      ", and the options say " + format_number(*options.smoothness));
   }
 }
 
@@ -360,7 +360,7 @@ class Solver<Dim>::State {
     if (!share_state(resolve(options), resolve(options_))) restart();
     coarse_.clear();  // made for the previous options
     options_ = options;
-    shape_->problem.smoothness = options.smoothness;
+    shape_->problem.smoothness = options.smoothness.value_or(0);
   }
 
   void restart() {
@@ -416,7 +416,7 @@ class Solver<Dim>::State {
     auto& problem = shape->problem;
     problem =
         make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
-    problem.smoothness = options.smoothness;
+    problem.smoothness = *options.smoothness;
     shape->run.emplace(problem);
     if (!plan::minimizes(options.method)) return shape;
     shape->distances = shape_->distances;

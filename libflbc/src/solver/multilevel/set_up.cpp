@@ -80,7 +80,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
                         ? make_geometry(std::move(cage), std::move(mesh))
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& [problem, coarse, report, seconds] = result;
-  problem.smoothness = options.smoothness;
+  problem.smoothness = *options.smoothness;
   if (plan::minimizes(options.method)) {
     coarse = make_coarse_problems(problem, begun_mesher, sizes, options, use);
     const StageScope scope(reporter.stage(Stage::kDistances));

@@ -63,6 +63,10 @@ bool minimizes(Method method) {
   return method != Method::kHarmonic && method != Method::kMeanValue;
 }
 
+bool smooths(Method method) {
+  return method == Method::kAuto || method == Method::kValue || method == Method::kGradient;
+}
+
 bool inherits(Method method) {
   return method == Method::kValue;
 }
@@ -77,7 +81,7 @@ LinearSolver linear_solver(const Sizes& sizes, const SolverOptions& options) {
 bool half_precision(Index cells, const SolverOptions& options) {
   return options.method == Method::kValue && options.precision == Precision::kAuto &&
          *options.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
-         options.smoothness <= kHalfSmoothness;
+         *options.smoothness <= kHalfSmoothness;
 }
 
 bool active_set(const Sizes& sizes, const SolverOptions& options) {
@@ -137,6 +141,12 @@ Index distances_mesh_size(Index vertices, double tolerance) {
 
 namespace flbc {
 
+void make_smooth(SolverOptions& options) {
+  if (!options.smoothness && plan::smooths(options.method)) {
+    options.smoothness = kDeformationSmoothness;
+  }
+}
+
 SolverOptions resolve(SolverOptions options) {
   if (options.method == Method::kAuto) options.method = Method::kValue;
   const bool gradient = options.method == Method::kGradient;
@@ -154,6 +164,7 @@ SolverOptions resolve(SolverOptions options) {
   if (!options.tolerance)
     options.tolerance = gradient ? plan::kGradientTolerance : plan::kTolerance;
   options.relaxation = plan::relaxation(options);
+  options.smoothness = options.smoothness.value_or(0);
   return options;
 }
 

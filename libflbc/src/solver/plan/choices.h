@@ -25,6 +25,9 @@ Sizes sizes_of(const LbcProblem<Dim>& problem) {
 //! Whether a method minimizes the objective and therefore needs phi.
 bool minimizes(Method method);
 
+//! Whether a method supports the quadratic term of SolverOptions::smoothness.
+bool smooths(Method method);
+
 //! Whether a method can start from the duals of another mesh or rest cage.
 bool inherits(Method method);
 

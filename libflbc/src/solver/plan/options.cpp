@@ -45,8 +45,9 @@ void validate(const SolverOptions& options) {
   };
   require_positive("tolerance", options.tolerance);
   require_positive("penalty", options.penalty);
-  require(std::isfinite(options.smoothness) && options.smoothness >= 0, "smoothness",
-          options.smoothness, "positive, or 0 for none");
+  const double smoothness = options.smoothness.value_or(0);
+  require(std::isfinite(smoothness) && smoothness >= 0, "smoothness", smoothness,
+          "positive, or 0 for none");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
   const double relaxation = options.relaxation.value_or(1);
   require(relaxation > 0 && relaxation < 2, "relaxation", relaxation, "in (0, 2)");
@@ -70,8 +71,7 @@ void validate(const SolverOptions& options) {
   }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
-  const bool published = options.method == Method::kPaper || options.method == Method::kLbc2014;
-  if (published && options.smoothness > 0) {
+  if (smoothness > 0 && plan::minimizes(options.method) && !plan::smooths(options.method)) {
     throw OptionError("smoothness is for the methods value and gradient only");
   }
   validate(options.coarse_levels);

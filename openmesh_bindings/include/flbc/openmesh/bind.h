@@ -36,7 +36,9 @@ struct BindOptions {
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< same as for the program flbc
 
-  SolverOptions solver{};                        //!< method, tolerance, threads, progress
+  //! Method, tolerance, threads, progress. If the smoothness is not set, it is
+  //! kDeformationSmoothness.
+  SolverOptions solver{};
   Index max_influences = 8;                      //!< per vertex; 0 = keep all weights
   Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
   OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage
