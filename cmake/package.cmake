@@ -1,7 +1,7 @@
 # Debian packages, made by `cpack -G DEB` in the build directory. The program, the headers with
-# libraries, the meshers, the Python module, and the bindings are separate packages, because their licenses differ.
-# With shared libraries (preset `package`), names of runtime packages contain the interface version,
-# so several versions can be installed in parallel.
+# libraries, the meshers, the Python module, and the bindings are separate packages, because their
+# licenses differ. With shared libraries (preset `package`), names of runtime packages contain the
+# interface version, so several versions can be installed in parallel.
 set(CPACK_PACKAGE_NAME flbc)
 set(CPACK_PACKAGE_CONTACT "libflbc <libflbc@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")

@@ -49,7 +49,18 @@ def read_cage(path: Path) -> Cage:
 
 
 def write_cage(path: Path, cage: CageLike) -> None:
-    """Writes a cage: .obj, and in 3D also .off, .ply, .stl, or .om."""
+    """Writes a cage.
+
+    Parameters
+    ----------
+    path : str or path
+        .obj, and in 3D also .off, .ply, .stl, or .om.
+    cage : Cage, or what `Cage` accepts
+
+    Raises
+    ------
+    IoError, InputError
+    """
     cage = as_cage(cage)
     nothing = as_polygons(None, "", 0)
     if cage.dim == 2:
@@ -185,7 +196,12 @@ def write_mesh(
 
 
 def read_weights(path: Path) -> Weights:
-    """Reads weights, a row per point: .npy, .dmat, .txt (dense), or .mtx (sparse).
+    """Reads weights, a row per point.
+
+    Parameters
+    ----------
+    path : str or path
+        .npy, .dmat, .txt (dense), or .mtx (sparse).
 
     Returns
     -------
@@ -199,7 +215,13 @@ def read_weights(path: Path) -> Weights:
 
 
 def write_weights(path: Path, weights: Weights) -> None:
-    """Writes weights, shape (P, n), exactly: .npy, .dmat, .txt, or .mtx.
+    """Writes weights exactly.
+
+    Parameters
+    ----------
+    path : str or path
+        .npy, .dmat, .txt, or .mtx.
+    weights : array_like or sparse matrix, shape (P, n)
 
     Raises
     ------

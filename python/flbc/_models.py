@@ -156,7 +156,7 @@ class Binding:
     __slots__ = ("weights", "offsets", "cage", "report", "outside")
 
     def __init__(
-        self, weights: Weights, offsets: Any, cage: Cage, report: Dict[str, Any], outside: Any
+        self, weights: Weights, offsets: Optional[Floats], cage: Cage, report: Dict[str, Any], outside: Any
     ) -> None:
         self.weights, self.offsets, self.cage = weights, offsets, cage
         self.report, self.outside = report, outside
@@ -164,7 +164,9 @@ class Binding:
     def deform(self, control_points: ArrayLike) -> Floats:
         """The vertices of the model, shape (P, d), for moved control points, shape (n, d)."""
         moved = deform(self.weights, control_points)
-        return moved if self.offsets is None else moved + self.offsets
+        if self.offsets is not None:
+            moved += self.offsets
+        return moved
 
     def __repr__(self) -> str:
         points, controls = self.weights.shape

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict
+from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from ._weights import Weights
 
     Callback = Optional[Callable[[_core.Progress], Optional[bool]]]
+
+
+Documented = TypeVar("Documented", bound=Callable[..., Any])
 
 
 class SolverOptions(TypedDict, total=False):
@@ -97,7 +100,7 @@ OPTIONS = """\
 """
 
 
-def with_options(function: Any) -> Any:
+def with_options(function: Documented) -> Documented:
     """Completes a docstring with all options, which all solves share."""
     if function.__doc__ is not None:  # None under python -OO
         function.__doc__ = function.__doc__.replace("    {options}\n", OPTIONS)
@@ -234,11 +237,11 @@ def mesh(
     TooFewVertices
         If quality needs more vertices than requested.
     """
-    cage = as_cage(cage)
-    inside = None if points is None else as_points(points, "points", cage.dim)
+    shape = as_cage(cage)
+    inside = None if points is None else as_points(points, "points", shape.dim)
 
     def fill(count: int) -> DomainMesh:
-        return mesh_from(_core.mesh(cage.points, cage.facets, count, inside, time_limit))
+        return mesh_from(_core.mesh(shape.points, shape.facets, count, inside, time_limit))
 
     if vertices is not None:
         return fill(vertices)
@@ -248,7 +251,7 @@ def mesh(
         return fill(0)
 
 
-def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool, level: int) -> Solution:
+def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
     weights, report = from_core(found[0]), found[1]
     if isinstance(weights, np.ndarray):
         frozen(weights)
@@ -258,7 +261,7 @@ def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool, level: int
             f"not converged within {report['iterations']} iterations; increase max_iterations or "
             "tolerance",
             NotConverged,
-            stacklevel=level + 1,
+            stacklevel=3,
         )
     return solution
 
@@ -322,7 +325,7 @@ def solve(
     found = _core.solve(
         cage.points, cage.facets, domain.points, domain.cells, given, callback
     )
-    return _solution(found, cage, domain, True, 3)
+    return _solution(found, cage, domain, True)
 
 
 mesh_of = mesh  # where an argument has this name
@@ -389,7 +392,7 @@ class Solver:
             With its own copy of the weights. Its report covers only this call.
         """
         found = self._core.solve(iterations, seconds, callback)
-        return _solution(found, self.cage, self.mesh, not (iterations or seconds), 3)
+        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
 
     def move(
         self,
@@ -419,7 +422,7 @@ class Solver:
         cage = self.cage
         moved = as_points(control_points, "control_points", cage.dim, len(cage))
         found = self._core.move(moved, iterations, seconds, callback)
-        return _solution(found, self.cage, self.mesh, not (iterations or seconds), 3)
+        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
 
     def anchor(self) -> None:
         """Makes the mesh follow later moves by the current coordinates of the current cage."""

@@ -80,7 +80,7 @@ inline Polygons polygons_of(const std::vector<std::vector<Index>>& lists) {
     starts.push_back(static_cast<std::int64_t>(corners.size()));
   }
   return {Indices(static_cast<py::ssize_t>(corners.size()), corners.data()),
-          {static_cast<py::ssize_t>(starts.size()), starts.data()}};
+          Polygons::second_type(static_cast<py::ssize_t>(starts.size()), starts.data())};
 }
 
 // Names the capsules that own dense weights.

@@ -72,7 +72,8 @@ py::array triangles(const Doubles& points, const Polygons& polygons) {
     }
     places.clear();
     for (const Index vertex : polygon) places.push_back(lifted(points, vertex));
-    for (const Index corner : io::cut_polygon(places).reshaped()) {
+    const auto parts = io::cut_polygon(places);
+    for (const Index corner : parts.reshaped()) {
       corners.push_back(polygon[corner]);
     }
   }

@@ -158,7 +158,7 @@ SolverOptions options_here(const py::dict& keywords) {
   return options;
 }
 
-py::tuple as_python(Solution solution, bool sparse) {
+py::tuple solved(Solution solution, bool sparse) {
   auto report = as_dict(solution.report);
   if (sparse) return py::make_tuple(as_python(std::move(solution.sparse_weights)), report);
   return py::make_tuple(as_python(std::move(solution.weights)), report);
@@ -175,7 +175,7 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
     auto solution = without_gil([&] {
       return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), watch.observer());
     });
-    return as_python(std::move(solution), options.sparse);
+    return solved(std::move(solution), options.sparse);
   });
 }
 
@@ -186,6 +186,28 @@ struct DimensionOf<Solver<Dim>> : std::integral_constant<int, Dim> {};
 
 // A Solver of either dimension, for one thread at a time.
 class AnySolver {
+  struct Release {
+    void operator()(std::atomic<bool>* flag) const { *flag = false; }
+  };
+
+  template <class Action>
+  auto use(const Action& action) {
+    if (is_used_.exchange(true)) {
+      throw Error("this Solver is in use, by another thread or by the caller of this callback");
+    }
+    const std::unique_ptr<std::atomic<bool>, Release> lock(&is_used_);
+    return std::visit([&](auto& solver) { return action(*solver); }, solver_);
+  }
+
+  template <class Action>
+  py::tuple run(const py::object& callback, const Action& action) {
+    return use([&](auto& solver) {
+      const Watch watch(callback);
+      // A copy, because the Solver needs its weights for the next move.
+      return solved(without_gil([&] { return Solution(action(solver, watch.observer())); }), false);
+    });
+  }
+
  public:
   AnySolver(const Doubles& points, const Indices& facets, const Doubles& vertices,
             const Indices& cells, const py::dict& keywords) {
@@ -235,29 +257,6 @@ class AnySolver {
   }
 
  private:
-  struct Release {
-    void operator()(std::atomic<bool>* flag) const { *flag = false; }
-  };
-
-  template <class Action>
-  auto use(const Action& action) {
-    if (is_used_.exchange(true)) {
-      throw Error("this Solver is in use, by another thread or by the caller of this callback");
-    }
-    const std::unique_ptr<std::atomic<bool>, Release> lock(&is_used_);
-    return std::visit([&](auto& solver) { return action(*solver); }, solver_);
-  }
-
-  template <class Action>
-  py::tuple run(const py::object& callback, const Action& action) {
-    return use([&](auto& solver) {
-      const Watch watch(callback);
-      // A copy, because the Solver needs its weights for the next move.
-      return as_python(without_gil([&] { return Solution(action(solver, watch.observer())); }),
-                       false);
-    });
-  }
-
   std::variant<std::unique_ptr<Solver<2>>, std::unique_ptr<Solver<3>>> solver_;
   std::atomic<bool> is_used_{false};
 };
@@ -265,7 +264,8 @@ class AnySolver {
 }  // namespace
 
 void use_threads_of_this_process() {
-  if (is_forked) omp_set_num_threads(1);
+  // Also in CHOLMOD, which has its own number of threads.
+  if (is_forked) omp_set_max_active_levels(0);
 }
 
 void bind_solving(py::module_& module) {

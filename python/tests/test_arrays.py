@@ -106,7 +106,7 @@ def test_meshes_of_other_libraries_are_cages(limb):
         (lambda s: flbc.deform(s.weights, np.zeros((5, 2))),
          ["control_points", "(5, 2)", "(4, 2 or 3)"]),
         (lambda s: flbc.sparsify(s.weights, s.cage, s.mesh.points[1:]),
-         ["weights", str(s.weights.shape), f"({len(s.mesh) - 1}, 4)"]),
+         ["weights", ", 4), but needs (", "control points"]),
         (lambda s: flbc.sparsify(s.weights, s.cage, s.mesh.points, k=2), ["influences"]),
         (lambda s: flbc.solve(s.cage, s.mesh, tolerance=-1), ["tolerance"]),
         (lambda s: flbc.solve(s.cage, s.mesh, tolerance="small"), ["tolerance", "'small'"]),

@@ -90,7 +90,9 @@ def test_skins(tmp_path, limb, solid, moved):
     data = (tmp_path / "model.glb").read_bytes()
     length = struct.unpack("<I", data[12:16])[0]
     content = json.loads(data[20 : 20 + length])
-    assert len(content["skins"][0]["joints"]) == len(cage) and len(content["animations"]) == 1
+    names = [content["nodes"][joint]["name"] for joint in content["skins"][0]["joints"]]
+    assert sum(name.startswith("control_point_") for name in names) == len(cage)
+    assert len(content["animations"]) == 1
     few = flbc.sparsify(weights, cage, vertices, 4)
     flbc.export(tmp_path / "model.usda", vertices, faces, few, cage, max_influences=4)
     assert (tmp_path / "model.usda").read_text().startswith("#usda")

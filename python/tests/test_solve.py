@@ -86,8 +86,8 @@ def test_not_converged_is_a_warning(flat):
 
 
 def test_embedded_points_are_vertices(limb):
-    cage, vertices, _ = limb
-    mesh = flbc.mesh(cage, vertices=3000, points=vertices)
+    cage, vertices = limb[0], limb[1][::20]
+    mesh = flbc.mesh(cage, vertices=4000, points=vertices)
     assert np.array_equal(mesh.points[: len(cage)], cage.points)
     assert np.array_equal(mesh.points[len(cage) :][: len(vertices)], vertices)
     with pytest.raises(flbc.TooFewVertices, match="[0-9]"):
@@ -189,16 +189,19 @@ def test_other_processes_solve(solid, method):
     here, there = context.Pipe()
     process = context.Process(target=_solve_again, args=(there, solid))
     process.start()
-    assert here.poll(120), "the process hangs"
-    assert np.array_equal(here.recv(), solid.weights)
-    process.join()
+    try:
+        assert here.poll(120), "the process hangs"
+        assert np.array_equal(here.recv(), solid.weights)
+    finally:
+        process.kill()
+        process.join()
 
 
 # ---- Solver ----------------------------------------------------------------------------------------
 def test_solver_continues(flat):
     solver = flbc.Solver(flat.cage, flat.mesh, penalty=1.0)
-    first = solver.solve(iterations=30)
-    assert not first.converged and first.report["iterations"] == 30
+    first = solver.solve(iterations=3)
+    assert not first.converged and first.report["iterations"] == 3
     kept = first.weights.copy()
     last = solver.solve()
     assert last.converged and np.array_equal(first.weights, kept)

@@ -4,12 +4,13 @@ import os
 import subprocess
 import sys
 import zipfile
+from importlib.util import find_spec
 
 import pytest
 from conftest import SOURCE
 
-for name in ("pip", "wheel", "setuptools"):
-    pytest.importorskip(name, reason=f"python3-{name} is missing")
+missing = [name for name in ("pip", "wheel", "setuptools") if find_spec(name) is None]
+pytestmark = pytest.mark.skipif(bool(missing), reason=f"missing: {missing}")
 
 
 def test_wheel(tmp_path):
