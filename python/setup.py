@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lets CMake build and install the module into the wheel.
 
-FLBC_BUILD_DIR names a build directory to use, so that nothing is compiled twice. CMAKE_ARGS has
+FLBC_BUILD_DIR names a finished build to use, so that nothing is compiled twice. CMAKE_ARGS has
 further arguments, such as -DFLBC_WITH_CGAL=OFF.
 """
 import os
@@ -31,7 +31,9 @@ class CMakeBuild(build_ext):
                 + shlex.split(os.environ.get("CMAKE_ARGS", "")),
                 check=True,
             )
-        subprocess.run(["cmake", "--build", build, "--target", "flbc_python", "--parallel"], check=True)
+            subprocess.run(
+                ["cmake", "--build", build, "--target", "flbc_python", "--parallel"], check=True
+            )
         prefix = pathlib.Path(self.build_temp).resolve() / "prefix"
         subprocess.run(
             ["cmake", "--install", build, "--component", "python", "--strip", "--prefix", prefix],

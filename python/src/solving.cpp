@@ -21,6 +21,12 @@ namespace {
 
 std::atomic<bool> is_forked{false};
 
+// For code that runs without the GIL.
+void throw_if_interrupted() {
+  const py::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 // ---------------------------------------------------------------------------------------- meshing
 
 DomainMesh<2> fill([[maybe_unused]] const Cage<2>& cage,
@@ -50,6 +56,7 @@ DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, const MeshingOptions<Dim>& op
     try {
       return fill(cage, options);
     } catch (const InputError& first) {
+      throw_if_interrupted();  // Ctrl-C also ends the process of TetGen
       try {
         return tetrahedralize_by_netgen(cage, options);
       } catch (const Error&) {
@@ -144,8 +151,7 @@ class Watch {
     const auto now = Clock::now();
     if (now - last_ < kInterval) return;
     last_ = now;
-    const py::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    throw_if_interrupted();
   }
 
   Observer observer_;
