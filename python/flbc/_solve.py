@@ -37,6 +37,7 @@ class SolverOptions(TypedDict, total=False):
     threads: int
     non_negative: str
     phi: str
+    smoothness: float
     distances: str
     precision: str
     linear_solver: str
@@ -73,6 +74,9 @@ OPTIONS = """\
     phi : str, default "square"
         Growth of the variation weighting with distance: "square", "linear", "sqrt",
         "constant".
+    smoothness : float, default 0
+        Removes kinks at the cost of more influences, as a fraction of the cage size. Useful
+        values are 0.001 to 0.03, for "value" and "gradient".
     distances : str, default "auto"
         "exact", or "interpolated" from a coarser mesh.
     precision : str, default "auto"

@@ -304,6 +304,7 @@ py::dict as_python(const WeightCheck<Dim>& check) {
   dict["highest_maximum"] = as_python(check.mesh->highest_maximum);
   dict["total_variation"] = check.mesh->total_variation;
   dict["weighted_variation"] = check.mesh->weighted_variation;
+  dict["gradient_jump"] = check.mesh->gradient_jump;
   return dict;
 }
 

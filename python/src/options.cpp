@@ -86,6 +86,7 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("threads", threads),
       FLBC_FIELD("non_negative", non_negative),
       FLBC_FIELD("phi", phi),
+      FLBC_FIELD("smoothness", smoothness),
       FLBC_FIELD("distances", distances),
       FLBC_FIELD("precision", precision),
       FLBC_FIELD("linear_solver", linear_solver),

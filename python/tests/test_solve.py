@@ -17,7 +17,9 @@ from conftest import MESHES
 
 
 @pytest.mark.parametrize("name, vertices", [("2d/figure", 3000), ("3d/limb", 2000)])
-@pytest.mark.parametrize("options", [{}, {"active_set": "on"}, {"method": "gradient"}])
+@pytest.mark.parametrize(
+    "options", [{}, {"active_set": "on"}, {"smoothness": 0.01}, {"method": "gradient"}]
+)
 def test_weights_equal_those_of_the_program(program, tmp_path, name, vertices, options):
     cage_file, model_file = MESHES / f"{name}_cage.obj", MESHES / f"{name}_model.obj"
     cage = flbc.read_cage(cage_file)
