@@ -156,7 +156,12 @@ class Binding:
     __slots__ = ("weights", "offsets", "cage", "report", "outside")
 
     def __init__(
-        self, weights: Weights, offsets: Optional[Floats], cage: Cage, report: Dict[str, Any], outside: Any
+        self,
+        weights: Weights,
+        offsets: Optional[Floats],
+        cage: Cage,
+        report: Dict[str, Any],
+        outside: Any,
     ) -> None:
         self.weights, self.offsets, self.cage = weights, offsets, cage
         self.report, self.outside = report, outside
@@ -363,20 +368,3 @@ def export(
         str(path), cage.points, cage.facets, points, polygons, given, seconds, moved,
         max_influences, name,
     )
-
-
-def random_poses(cage: CageLike, count: int, smooth: bool = True) -> List[Floats]:
-    """Poses to measure deformations with, the same on every machine.
-
-    Parameters
-    ----------
-    cage : Cage, or what `Cage` accepts
-    count : int
-    smooth : bool, default True
-        Whether the cage moves by a smooth map of space, or each control point on its own.
-
-    Returns
-    -------
-    list of ndarray, shape (n, d)
-    """
-    return _core.random_poses(as_cage(cage).points, count, smooth)

@@ -74,7 +74,8 @@ def sparsify(
 ) -> Weights:
     """Reduces weights to at most k influences per point.
 
-    The result is non-negative, sums to 1, and reproduces every point.
+    The result is non-negative, sums to 1, and reproduces every point, even if the given weights do
+    not.
 
     Parameters
     ----------
@@ -83,7 +84,8 @@ def sparsify(
     points : array_like, shape (P, d)
         Inside the convex hull of the control points.
     k : int or None, default 8
-        Maximum influences per point, at least d + 1; None for no limit.
+        Maximum influences per point, at least d + 1; None for no limit, which only makes
+        weights non-negative.
     threshold : float, default 0
         In [0, 1). Smaller weights are dropped first, where the others can reproduce the point.
     faces : array_like of int, optional
@@ -144,27 +146,6 @@ def deform(weights: Weights, control_points: ArrayLike) -> Floats:
         raise InputError(f"weights has shape {array.shape}, but needs (P, n)")
     moved = as_points(control_points, "control_points", count=array.shape[1])
     return np.asarray(array @ moved)
-
-
-def project_non_negative(weights: Weights, cage: CageLike, points: ArrayLike) -> Weights:
-    """Replaces weights by the nearest ones that are non-negative and reproduce the points.
-
-    Parameters
-    ----------
-    weights : array_like or sparse matrix, shape (P, n)
-    cage : Cage, or what `Cage` accepts
-    points : array_like, shape (P, d)
-        Inside the convex hull of the control points.
-
-    Returns
-    -------
-    ndarray or scipy.sparse.csr_matrix, shape (P, n)
-        As the given weights.
-    """
-    cage = as_cage(cage)
-    places = as_points(points, "points", cage.dim)
-    given = as_weights(weights, "weights", len(places), len(cage))
-    return from_core(_core.project_non_negative(cage.points, places, given))
 
 
 def transfer(

@@ -12,9 +12,7 @@
 #include "flbc/mean_value.h"
 #include "flbc/meshing.h"
 #include "flbc/names.h"
-#include "flbc/non_negative.h"
 #include "flbc/placement.h"
-#include "flbc/poses.h"
 #include "flbc/sparsify.h"
 #include "flbc/transfer_weights.h"
 #include "flbc/version.h"
@@ -224,26 +222,6 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
   });
 }
 
-py::object project_non_negative(const Doubles& control_points, const Doubles& points,
-                                const py::object& weights) {
-  return by_dimension(control_points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = points_of<kDim>(control_points);
-    const auto all = points_of<kDim>(points);
-    return with_weights(weights, [&](const auto& given) -> py::object {
-      return as_python(without_gil([&] {
-        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-          return flbc::project_non_negative<kDim>(cage, all, given);
-        } else {
-          WeightMatrix projected = given;
-          flbc::project_non_negative<kDim>(cage, all, projected);
-          return projected;
-        }
-      }));
-    });
-  });
-}
-
 py::tuple transfer(const Doubles& control_points, const Doubles& points, const Indices& corners,
                    const py::object& weights, const Doubles& places, double limit) {
   return by_dimension(control_points, [&](auto dim) {
@@ -334,17 +312,6 @@ py::dict measure(const Doubles& points, const Indices& facets, const Doubles& pl
   });
 }
 
-py::list random_poses(const Doubles& control_points, int count, bool smooth) {
-  return by_dimension(control_points, [&](auto dim) {
-    const auto rest = points_of<decltype(dim)::value>(control_points);
-    py::list list;
-    for (auto& pose : smooth ? smooth_poses(rest, count) : independent_poses(rest, count)) {
-      list.append(as_array(std::move(pose)));
-    }
-    return list;
-  });
-}
-
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
@@ -359,11 +326,9 @@ PYBIND11_MODULE(_core, module) {
   module.def("normalized_mesh", &normalized_mesh);
   module.def("weights_at", &weights_at);
   module.def("sparsify", &sparsify);
-  module.def("project_non_negative", &project_non_negative);
   module.def("transfer", &transfer);
   module.def("mean_value", &mean_value);
   module.def("measure", &measure);
-  module.def("random_poses", &random_poses);
   bind_solving(module);
   bind_files(module);
 }

@@ -13,7 +13,8 @@ from conftest import MESHES
 @pytest.mark.parametrize("ending", ["npy", "dmat", "txt", "mtx"])
 def test_weights(tmp_path, flat, ending):
     path = tmp_path / f"weights.{ending}"
-    for given in (flat.weights, np.asfortranarray(flat.weights), scipy.sparse.csr_matrix(flat.weights)):
+    weights = flat.weights
+    for given in (weights, np.asfortranarray(weights), scipy.sparse.csr_matrix(weights)):
         flbc.write_weights(path, given)
         found = flbc.read_weights(path)
         assert scipy.sparse.issparse(found) == (ending == "mtx")
@@ -54,7 +55,8 @@ def test_models(tmp_path, limb, ending):
 
 
 def test_models_keep_what_is_not_moved(tmp_path):
-    (tmp_path / "model.obj").write_text("# mine\nv 0 0 0\nv 1 0 0\nv 0 1 1\nvt 0 0\nf 1/1 2/1 3/1\n")
+    text = "# mine\nv 0 0 0\nv 1 0 0\nv 0 1 1\nvt 0 0\nf 1/1 2/1 3/1\n"
+    (tmp_path / "model.obj").write_text(text)
     vertices, _ = flbc.read_model(tmp_path / "model.obj")
     flbc.write_model(tmp_path / "moved.obj", vertices + 1, source=tmp_path / "model.obj")
     text = (tmp_path / "moved.obj").read_text()
@@ -64,7 +66,8 @@ def test_models_keep_what_is_not_moved(tmp_path):
 
 
 def test_faces_of_several_lengths(tmp_path):
-    (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nf 1 2 3 4\nf 2 5 3\n")
+    text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nf 1 2 3 4\nf 2 5 3\n"
+    (tmp_path / "model.obj").write_text(text)
     model = flbc.read_model(tmp_path / "model.obj")
     assert model.faces == [[0, 1, 2, 3], [1, 4, 2]] and model.vertices.shape == (5, 3)
     flbc.write_model(tmp_path / "same.off", *model)
@@ -104,7 +107,8 @@ def test_skins(tmp_path, limb, solid, moved):
 
 def test_pages(tmp_path, limb, solid, flat):
     cage, vertices, faces = limb
-    page = flbc.view(vertices, faces, solid.at(vertices), cage, poses=[cage.points], title="my limb")
+    weights = solid.at(vertices)
+    page = flbc.view(vertices, faces, weights, cage, poses=[cage.points], title="my limb")
     assert page.html.startswith("<!doctype html>") or "<html" in page.html[:200].lower()
     assert "my limb" in page.html
     shown = page._repr_html_()

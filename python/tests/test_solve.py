@@ -96,7 +96,7 @@ def test_embedded_points_are_vertices(limb):
         flbc.mesh(cage, vertices=10)
 
 
-# ---- callbacks -------------------------------------------------------------------------------------
+# ---- callbacks ----------------------------------------------------------------------------------
 def test_callbacks_follow_stop_and_raise(flat):
     seen = []
 
@@ -199,7 +199,7 @@ def test_other_processes_solve(solid, method):
         process.join()
 
 
-# ---- Solver ----------------------------------------------------------------------------------------
+# ---- Solver -------------------------------------------------------------------------------------
 def test_solver_continues(flat):
     solver = flbc.Solver(flat.cage, flat.mesh, penalty=1.0)
     first = solver.solve(iterations=3)
