@@ -12,7 +12,8 @@ import pytest
 RIGHT = """
 import flbc, numpy as np
 cage = flbc.Cage([[0, 0], [1, 0], [0, 1]])
-solution = flbc.solve(cage, flbc.mesh(cage, 100), tolerance=1e-5, callback=lambda p: p.iteration < 9)
+mesh = flbc.mesh(cage, 100)
+solution = flbc.solve(cage, mesh, tolerance=1e-5, callback=lambda p: p.iteration < 9)
 gap: float = solution.certificate.relative_gap if solution.certificate else 0
 moved = flbc.deform(solution.at(np.zeros((1, 2))), cage.points * 2)
 rows: int = moved.shape[0]

@@ -97,6 +97,36 @@ def test_defects_are_found_and_repaired(limb):
     assert far[0].kind == "outside" and far[0].places.shape == vertices.shape
 
 
+SQUARE = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
+TETRAHEDRON = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+BESIDE = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
+
+
+@pytest.mark.parametrize(
+    "kind, points, facets",
+    [
+        ("count", SQUARE[:2], [[0, 1]]),
+        ("non-finite", [*SQUARE, [0.5, np.nan]], None),
+        ("extent", np.multiply(SQUARE, 1e-40), None),
+        ("index", SQUARE, [[0, 0], [1, 2], [2, 3], [3, 0]]),
+        ("coincident", [*SQUARE, SQUARE[3]], None),
+        ("unreferenced", [*SQUARE, [0.5, 0.5]], [[0, 1, 2, 3]]),
+        ("flat", [[0, 0], [1, 1], [2, 2], [3, 3]], None),
+        ("degenerate", [*TETRAHEDRON, [0.5, 0, 0]], [*FACES[1:], [0, 2, 4], [4, 2, 1], [0, 4, 1]]),
+        ("duplicate", TETRAHEDRON, [*FACES, FACES[0]]),
+        ("open", TETRAHEDRON, FACES[1:]),
+        ("non-manifold", [*TETRAHEDRON, [0, -1, 0], [0, 0, -1]], [*FACES, *BESIDE]),
+        ("orientation", TETRAHEDRON, [FACES[0][::-1], *FACES[1:]]),
+        ("self-intersection", np.array(SQUARE)[[0, 2, 1, 3]], None),
+    ],
+)
+def test_kinds_of_defects(kind, points, facets):
+    defects = flbc.check(flbc.Cage(points, facets))
+    assert kind in {defect.kind for defect in defects}
+    assert all(defect.message for defect in defects)
+
+
 @pytest.mark.parametrize("name", ["2d/letter", "3d/limb"])
 def test_cages_around_models(name):
     vertices, faces = flbc.read_model(MESHES / f"{name}_model.obj")
