@@ -115,7 +115,7 @@ BESIDE = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
         ("flat", [[0, 0], [1, 1], [2, 2], [3, 3]], None),
         ("degenerate", [*TETRAHEDRON, [0.5, 0, 0]], [*FACES[1:], [0, 2, 4], [4, 2, 1], [0, 4, 1]]),
         ("duplicate", TETRAHEDRON, [*FACES, FACES[0]]),
-        ("open", TETRAHEDRON, FACES[1:]),
+        ("open", [*TETRAHEDRON, [0.3, 0.3, 0]], [*FACES[1:], [0, 2, 4], [2, 1, 4]]),
         ("non-manifold", [*TETRAHEDRON, [0, -1, 0], [0, 0, -1]], [*FACES, *BESIDE]),
         ("orientation", TETRAHEDRON, [FACES[0][::-1], *FACES[1:]]),
         ("self-intersection", np.array(SQUARE)[[0, 2, 1, 3]], None),
