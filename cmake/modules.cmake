@@ -22,10 +22,7 @@ function(flbc_add_module name)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINES})
   target_link_libraries(${target}
     PUBLIC Eigen3::Eigen ${arg_DEPENDS} PRIVATE OpenMP::OpenMP_CXX flbc_warnings ${arg_LINKS})
-  if(BUILD_SHARED_LIBS)
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
-  endif()
+  flbc_position_independent(${target})
 
   # Other modules find the headers of this module in a directory of links.
   set(view ${flbc_MODULES}/${id})

@@ -1,7 +1,7 @@
 # Debian packages, made by `cpack -G DEB` in the build directory. The program, the headers with
-# libraries, the meshers, and the bindings are separate packages, because their licenses differ.
-# With shared libraries (preset `package`), names of runtime packages contain the interface version,
-# so several versions can be installed in parallel.
+# libraries, the meshers, the Python module, and the bindings are separate packages, because their
+# licenses differ. With shared libraries (preset `package`), names of runtime packages contain the
+# interface version, so several versions can be installed in parallel.
 set(CPACK_PACKAGE_NAME flbc)
 set(CPACK_PACKAGE_CONTACT "libflbc <libflbc@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
@@ -39,7 +39,7 @@ function(flbc_package component name summary depends)
     set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION libs PARENT_SCOPE)
   endif()
   set(linked)
-  if(component MATCHES "^(program|meshers)")
+  if(component MATCHES "^(program|python|meshers)")
     foreach(mesher cgal tetgen netgen)
       if(TARGET flbc::${mesher})
         string(APPEND linked "; ${others_${mesher}}")
@@ -105,6 +105,18 @@ if(TARGET flbc_app)
   list(JOIN depends ", " depends)
   flbc_package(program flbc "local barycentric coordinates of cages in 2D and 3D" "${depends}")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnglib-6.2)
+endif()
+
+if(TARGET flbc_python)
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(python ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
+  set(depends "python3 (>= ${python})" "python3 (<< ${Python3_VERSION_MAJOR}.${next})" python3-numpy
+    ${needs_core} ${needs_meshers})
+  list(JOIN depends ", " depends)
+  flbc_package(python python3-flbc "local barycentric coordinates of cages: Python module"
+    "${depends}")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-scipy)
 endif()
 
 # Directories where dpkg-shlibdeps finds the libraries of the new packages.

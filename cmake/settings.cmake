@@ -13,3 +13,11 @@ option(FLBC_WITH_NETGEN "3D meshing with Netgen (LGPL-2.1) where TetGen fails" $
 set(CMAKE_CXX_EXTENSIONS OFF)
 include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
+
+# For code that becomes part of a shared library or of the Python module.
+function(flbc_position_independent target)
+  if(BUILD_SHARED_LIBS OR FLBC_BUILD_PYTHON)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
+endfunction()

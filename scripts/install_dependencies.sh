@@ -8,7 +8,9 @@ packages=(
   libpugixml-dev                          # file formats
   libopenmesh-dev libcgal-dev libtet1.5-dev libnglib-dev  # optional components
   libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev  # the program flbc
+  pybind11-dev python3-dev                # the Python module
   libgtest-dev poppler-utils librsvg2-bin python3-numpy  # tests; the last three read results
+  python3-scipy python3-pytest            # tests of the Python module
   mkdocs mkdocs-material libjs-katex codespell groff-base  # tests of pages
 )
 packages+=("$@")

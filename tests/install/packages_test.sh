@@ -61,6 +61,11 @@ use flbc solve meshes/2d/letter_cage.obj --model meshes/2d/letter_model.obj -o w
 use flbc solve meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --vertices 2000 -o v.npy
 use flbc check meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --weights v.npy
 use flbc run meshes/3d/limb_cage.obj meshes/3d/limb_model.obj --vertices 2000 -q -o out
+if [[ " ${runtime[*]} " == *python3-flbc* ]]; then
+  use python3 -c "import flbc
+cage = flbc.read_cage('meshes/3d/limb_cage.obj')
+assert flbc.solve(cage, flbc.mesh(cage, vertices=1000)).converged"
+fi
 for file in out/model.glb usr/share/man/man1/flbc-solve.1.gz \
   usr/share/bash-completion/completions/flbc; do
   [ -s "$work/user/$file" ] || [ -s "$work/user/${file%.gz}" ] || { echo "no $file"; exit 1; }

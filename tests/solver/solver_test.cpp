@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -216,6 +217,26 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.iterations, 30);
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
+}
+
+TYPED_TEST(SolverTest, PollIsCalledInEveryIterationAndMayCancel) {
+  constexpr int kDim = TypeParam::value;
+  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+  SolverOptions options;
+  options.tolerance = 1e-30;
+  options.max_iterations = 25;
+  int calls = 0;
+  Observer observer;
+  observer.poll = [&] { ++calls; };
+  const auto weights = solve(sample.cage, sample.mesh, options, {}, observer).weights;
+  EXPECT_EQ(calls, 25);
+  EXPECT_EQ(weights, solve(sample.cage, sample.mesh, options).weights);
+
+  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  observer.poll = [] { throw std::out_of_range("cancelled"); };
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options, {}, observer), std::out_of_range);
+  EXPECT_THROW(solver.solve({}, observer), std::out_of_range);
+  EXPECT_EQ(solver.solve().weights, weights);
 }
 
 TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {

@@ -23,11 +23,29 @@ struct Cage {
   Index size() const { return static_cast<Index>(points.cols()); }
 };
 
+//! Kinds of defects, for programs that handle some of them.
+enum class DefectKind {
+  kCount,             //!< too few control points or facets
+  kNonFinite,         //!< a coordinate is not finite
+  kExtent,            //!< size or distance from the origin out of range
+  kIndex,             //!< a facet with an invalid or repeated control point
+  kCoincident,        //!< two control points at the same place
+  kUnreferenced,      //!< a control point without facets
+  kFlat,              //!< all control points on one line or plane
+  kDegenerate,        //!< a facet without length or area
+  kDuplicate,         //!< two equal facets
+  kOpen,              //!< a boundary of the cage
+  kNonManifold,       //!< too many facets meet, or separate fans of them
+  kOrientation,       //!< neighbors of opposite orientation
+  kSelfIntersection,  //!< two facets intersect
+};
+
 //! One defect of a cage or mesh.
 struct Defect {
   std::string message;            //!< description with element numbers (from 0) and coordinates
   std::vector<Index> vertices{};  //!< affected vertices
   std::vector<Index> facets{};    //!< affected facets
+  DefectKind kind = DefectKind::kCount;
 };
 
 //! Looks for every defect that can be found without computing intersections:

@@ -28,7 +28,8 @@ class DefectList {
 
   bool empty() const { return defects_.empty(); }
   bool is_full() const { return defects_.size() >= limit_; }
-  void add(Defect defect) {
+  void add(DefectKind kind, Defect defect) {
+    defect.kind = kind;
     if (!is_full()) defects_.push_back(std::move(defect));
   }
   std::vector<Defect> take() { return std::move(defects_); }
@@ -57,12 +58,12 @@ template <int Dim>
 void check_counts(const Cage<Dim>& cage, DefectList& found) {
   const std::string least = std::to_string(Dim + 1);
   if (cage.size() < Dim + 1) {
-    found.add({"the cage has " + std::to_string(cage.size()) + " control points; at least " +
-               least + " are needed"});
+    found.add(DefectKind::kCount, {"the cage has " + std::to_string(cage.size()) +
+                                   " control points; at least " + least + " are needed"});
   }
   if (cage.facets.cols() < Dim + 1) {
-    found.add({"the cage has " + std::to_string(cage.facets.cols()) + " " + facet_name<Dim>() +
-               "s; at least " + least + " are needed"});
+    found.add(DefectKind::kCount, {"the cage has " + std::to_string(cage.facets.cols()) + " " +
+                                   facet_name<Dim>() + "s; at least " + least + " are needed"});
   }
 }
 
@@ -70,7 +71,8 @@ template <int Dim>
 void check_finiteness(const Cage<Dim>& cage, DefectList& found) {
   for (Index vertex = 0; vertex < cage.size() && !found.is_full(); ++vertex) {
     if (cage.points.col(vertex).allFinite()) continue;
-    found.add({describe_control_point<Dim>(cage.points, vertex) + " is not finite", {vertex}});
+    found.add(DefectKind::kNonFinite,
+              {describe_control_point<Dim>(cage.points, vertex) + " is not finite", {vertex}});
   }
 }
 
@@ -79,11 +81,13 @@ void check_extent(const Cage<Dim>& cage, DefectList& found) {
   if (cage.size() == 0 || !cage.points.allFinite()) return;
   const double size = bounding_box_diagonal<Dim>(cage.points);
   if (size > 0 && !(size >= kSmallestSize && size <= kLargestSize)) {
-    found.add({"the cage size of " + format_number(size) + " is out of range; it must be from " +
+    found.add(DefectKind::kExtent,
+              {"the cage size of " + format_number(size) + " is out of range; it must be from " +
                format_number(kSmallestSize) + " to " + format_number(kLargestSize) +
                "; use another unit of length"});
   } else if (cage.points.cwiseAbs().maxCoeff() > kFarthest * size && size > 0) {
-    found.add({"the cage is too far from the origin for its size of " + format_number(size) +
+    found.add(DefectKind::kExtent,
+              {"the cage is too far from the origin for its size of " + format_number(size) +
                ", with " + describe_control_point<Dim>(cage.points, 0) +
                ": its coordinates have too few digits; move it to the origin"});
   }
@@ -96,15 +100,16 @@ void check_indices(const Cage<Dim>& cage, DefectList& found) {
     for (int k = 0; k < Dim; ++k) {
       const Index vertex = cage.facets(k, facet);
       if (vertex < 0 || vertex >= cage.size()) {
-        found.add({name + " refers to control point " + std::to_string(vertex) +
-                       ", but control points are numbered from 0 to " +
-                       std::to_string(cage.size() - 1),
-                   {},
-                   {facet}});
+        found.add(DefectKind::kIndex, {name + " refers to control point " + std::to_string(vertex) +
+                                           ", but control points are numbered from 0 to " +
+                                           std::to_string(cage.size() - 1),
+                                       {},
+                                       {facet}});
         break;
       }
       if (vertex == cage.facets((k + 1) % Dim, facet)) {
-        found.add({name + " names " + describe_control_point<Dim>(cage.points, vertex) + " twice",
+        found.add(DefectKind::kIndex,
+                  {name + " names " + describe_control_point<Dim>(cage.points, vertex) + " twice",
                    {vertex},
                    {facet}});
         break;
@@ -118,7 +123,8 @@ void check_coincidence(const Cage<Dim>& cage, DefectList& found) {
   const double tolerance = kRelativeTolerance * bounding_box_diagonal<Dim>(cage.points);
   for (const auto& pair : find_close_pairs<Dim>(cage.points, tolerance, cage.size())) {
     if (found.is_full()) return;
-    found.add({"control points " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) +
+    found.add(DefectKind::kCoincident,
+              {"control points " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) +
                    " coincide at " + format_point(cage.points.col(pair[0])) +
                    ": the cage is not welded there; merge them into one",
                {pair[0], pair[1]}});
@@ -133,7 +139,8 @@ void check_references(const Cage<Dim>& cage, DefectList& found) {
   }
   for (Index vertex = 0; vertex < cage.size() && !found.is_full(); ++vertex) {
     if (is_used[vertex]) continue;
-    found.add({describe_control_point<Dim>(cage.points, vertex) + " belongs to no " +
+    found.add(DefectKind::kUnreferenced,
+              {describe_control_point<Dim>(cage.points, vertex) + " belongs to no " +
                    facet_name<Dim>() + "; remove it or connect it",
                {vertex}});
   }
@@ -145,8 +152,8 @@ void check_flatness(const Cage<Dim>& cage, DefectList& found) {
   const PointList<Dim> centred = cage.points.colwise() - cage.points.rowwise().mean().eval();
   const double thickness = dense::least_pivot(centred.transpose()) / std::sqrt(double(cage.size()));
   if (thickness > kRelativeTolerance * bounding_box_diagonal<Dim>(cage.points)) return;
-  found.add({std::string("all control points are in one ") + (Dim == 2 ? "line" : "plane") +
-             ", so the cage encloses nothing"});
+  found.add(DefectKind::kFlat, {std::string("all control points are in one ") +
+                                (Dim == 2 ? "line" : "plane") + ", so the cage encloses nothing"});
 }
 
 // The smallest altitude, which is the length of an edge in 2D.
@@ -176,7 +183,8 @@ void check_measures(const Cage<Dim>& cage, DefectList& found) {
       text += describe_control_point<Dim>(cage.points, corners(k));
     }
     if (Dim == 3) text += ", are on one line";
-    found.add({text, std::vector<Index>(corners.data(), corners.data() + Dim), {facet}});
+    found.add(DefectKind::kDegenerate,
+              {text, std::vector<Index>(corners.data(), corners.data() + Dim), {facet}});
   }
 }
 
@@ -189,7 +197,8 @@ void check_repetition(const Cage<Dim>& cage, DefectList& found) {
     std::sort(vertices.begin(), vertices.end());
     const auto [entry, is_new] = first_with.emplace(vertices, facet);
     if (is_new) continue;
-    found.add({facet_name<Dim>() + "s " + std::to_string(entry->second) + " and " +
+    found.add(DefectKind::kDuplicate,
+              {facet_name<Dim>() + "s " + std::to_string(entry->second) + " and " +
                    std::to_string(facet) + " are the same: both join control points " +
                    describe_list(vertices) + ", the first of them at " +
                    format_point(cage.points.col(vertices[0])),
@@ -228,10 +237,13 @@ void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
   const std::string place = describe_control_point<3>(cage.points, a) + " and " +
                             describe_control_point<3>(cage.points, b);
   std::string text;
+  auto kind = DefectKind::kOrientation;
   if (incidences.size() == 1) {
+    kind = DefectKind::kOpen;
     text = "the cage is open at the edge between " + place + ": triangle " +
            std::to_string(triangles[0]) + " has no neighbor there";
   } else if (incidences.size() > 2) {
+    kind = DefectKind::kNonManifold;
     text = "the edge between " + place + " is non-manifold: triangles " + describe_list(triangles) +
            " share it; exactly two must";
   } else {
@@ -239,7 +251,7 @@ void check_edge(const Cage<3>& cage, const std::pair<Index, Index>& ends,
            " are oriented inconsistently: both run in the same direction along the edge between " +
            place + "; reverse one of them";
   }
-  found.add({text, {a, b}, triangles});
+  found.add(kind, {text, {a, b}, triangles});
 }
 
 // Triangles that share an edge at a vertex belong to one fan; two cones that touch at their tips
@@ -270,7 +282,8 @@ void check_fans(const Cage<3>& cage, const EdgeMap& edges, DefectList& found) {
   for (Index vertex = 0; vertex < cage.size() && !found.is_full(); ++vertex) {
     const std::vector<Index>& triangles = triangles_of_fan[vertex];
     if (triangles.size() <= 1) continue;
-    found.add({"the cage is non-manifold at " + describe_control_point<3>(cage.points, vertex) +
+    found.add(DefectKind::kNonManifold,
+              {"the cage is non-manifold at " + describe_control_point<3>(cage.points, vertex) +
                    ": the triangles there form " + std::to_string(triangles.size()) +
                    " separate fans (around triangles " + describe_list(triangles) +
                    "); they must form one",
@@ -289,12 +302,14 @@ void check_connections(const Cage<2>& cage, DefectList& found) {
     const std::vector<Index>& edges = edges_at[vertex];
     const std::string place = describe_control_point<2>(cage.points, vertex);
     if (edges.size() == 1) {
-      found.add({"the cage is open at " + place + ": edge " + std::to_string(edges[0]) +
+      found.add(DefectKind::kOpen,
+                {"the cage is open at " + place + ": edge " + std::to_string(edges[0]) +
                      " ends there; two edges must meet",
                  {vertex},
                  edges});
     } else if (edges.size() > 2) {
-      found.add({"the cage branches at " + place + ": edges " + describe_list(edges) +
+      found.add(DefectKind::kNonManifold,
+                {"the cage branches at " + place + ": edges " + describe_list(edges) +
                      " meet there; exactly two must",
                  {vertex},
                  edges});

@@ -208,7 +208,7 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
   const auto count = static_cast<Index>(which.size());
 #pragma omp parallel for schedule(static)
   for (Index k = 0; k < count; ++k) {
-    HullPoint<Dim> place;
+    HullPoint<Dim> place{};
     const Index facet = nearest(points.col(which[k]), place);
     result[k] = {which[k], facet, Vector<Dim>::Zero(), place.distance};
     for (int c = 0; c < place.size; ++c) result[k].coordinates[place.support[c]] = place.weights[c];

@@ -91,7 +91,8 @@ Defect describe_pair(const Cage<2>& cage, const FacetPair& pair) {
     return {"edges " + std::to_string(e) + " and " + std::to_string(f) +
                 " of the cage cross near " + format_point(crossing(cage, e, f)),
             {},
-            {e, f}};
+            {e, f},
+            DefectKind::kSelfIntersection};
   }
   const bool is_of_e = vertex == cage.facets(0, e) || vertex == cage.facets(1, e);
   const std::string touched = std::to_string(is_of_e ? f : e),
@@ -99,7 +100,8 @@ Defect describe_pair(const Cage<2>& cage, const FacetPair& pair) {
   return {describe_control_point<2>(cage.points, vertex) + ", an end of edge " + own +
               ", is on edge " + touched + ": the cage touches itself there",
           {vertex},
-          {e, f}};
+          {e, f},
+          DefectKind::kSelfIntersection};
 }
 
 // ---------------------------------------------------------------------------------------------- 3D
@@ -164,7 +166,7 @@ Defect describe_pair(const Cage<3>& cage, const FacetPair& pair) {
     boost::apply_visitor([&](const auto& shape) { middle(shape); }, *common);
     text += " near " + format_point(middle.place());
   }
-  return {text, {}, {s, t}};
+  return {text, {}, {s, t}, DefectKind::kSelfIntersection};
 }
 
 }  // namespace

@@ -74,6 +74,13 @@ FLBC_NAMES(SolveStatus, {SolveStatus::kConverged, "converged"},
            {SolveStatus::kIterationLimit, "iteration limit"}, {SolveStatus::kStopped, "stopped"})
 FLBC_NAMES(Criterion, {Criterion::kNone, "none"}, {Criterion::kTolerance, "tolerance"},
            {Criterion::kGap, "gap"})
+FLBC_NAMES(DefectKind, {DefectKind::kCount, "count"}, {DefectKind::kNonFinite, "non-finite"},
+           {DefectKind::kExtent, "extent"}, {DefectKind::kIndex, "index"},
+           {DefectKind::kCoincident, "coincident"}, {DefectKind::kUnreferenced, "unreferenced"},
+           {DefectKind::kFlat, "flat"}, {DefectKind::kDegenerate, "degenerate"},
+           {DefectKind::kDuplicate, "duplicate"}, {DefectKind::kOpen, "open"},
+           {DefectKind::kNonManifold, "non-manifold"}, {DefectKind::kOrientation, "orientation"},
+           {DefectKind::kSelfIntersection, "self-intersection"})
 FLBC_NAMES(OutsidePoints, {OutsidePoints::kFail, "fail"}, {OutsidePoints::kNearest, "nearest"},
            {OutsidePoints::kExtend, "extend"})
 

@@ -34,6 +34,11 @@ class Reporter {
   }
   bool listens() const { return bool(observer_.progress); }
 
+  //! Lets the observer cancel the solve by an exception.
+  void poll() const {
+    if (observer_.poll) observer_.poll();
+  }
+
   //! The callback of a stage, for its loops (StageScope).
   TellPart stage(Stage stage) const {
     if (!observer_.stage) return {};

@@ -71,6 +71,7 @@ bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport&
   stop.begin(iteration);
   if (report.iterations > 0) adapt(false);
   while (report.iterations < pause) {
+    context.reporter.poll();
     const int count = stop.next(report.iterations);
     const Step step = iteration.iterate(count, stop.wants_residuals());
     report.iterations += count;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whether the README's lines for NumPy do what flbc deform does:
-#   readme_numpy_test.sh PROGRAM REPOSITORY WORK
+# Whether the lines for NumPy of docs/how-to/use_in_numpy_matlab_libigl.md do what flbc deform does:
+#   numpy_page_test.sh PROGRAM REPOSITORY WORK
 # PROGRAM: flbc. WORK: a folder for results, made anew.
 # Ends with 77, which CTest counts as skipped, if Python has no NumPy.
 set -euo pipefail
@@ -18,14 +18,13 @@ rm -rf "$work"
 mkdir -p "$work/limb"
 ln -s "$repository/meshes" "$work/meshes"
 cd "$work"
-# The README's cage, moved.
-cp meshes/3d/limb_cage_pose.obj limb/cage.obj
 "$flbc" solve meshes/3d/limb_cage.obj --method harmonic --vertices 800 -q -o limb/weights.npy \
   --model meshes/3d/limb_model.obj
 "$flbc" deform meshes/3d/limb_model.obj --weights limb/weights.npy -q -o deformed.obj \
   --pose meshes/3d/limb_cage_pose.obj
 {
-  awk '/^```python$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$repository/README.md"
+  awk '/^```python$/ { inside = 1; next } /^```$/ { inside = 0 } inside' \
+    "$repository/docs/how-to/use_in_numpy_matlab_libigl.md"
   echo 'rows = [line.split()[1:4] for line in open("deformed.obj") if line.startswith("v ")]'
   echo 'error = abs(moved - np.array(rows, dtype=float)).max()'
   echo 'assert error < 1e-12, error'

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fast local barycentric coordinates for cage-based deformation in 2D and 3D.
+
+Points are rows: control points (n, d), model vertices (P, d), weights (P, n). Arrays may have any
+layout and real or integer type; results are float64 in C order.
+
+>>> cage = flbc.read_cage("cage.obj")
+>>> solution = flbc.solve(cage, flbc.mesh(cage, vertices=6000))
+>>> weights = solution.at(vertices)
+>>> moved = flbc.deform(weights, moved_control_points)
+
+=================== =============================================================
+Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`
+Coordinates         `solve`, `Solver`, `Solution`, `mean_value`, `bind`
+Weights             `deform`, `sparsify`, `transfer`, `measure`
+Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
+                    `write_...` for each; `export` (glTF, USD), `view` (a page)
+Exceptions          `Error` and its subclasses; the warning `NotConverged`
+=================== =============================================================
+"""
+import os as _os
+
+from . import _core
+from ._core import Progress
+from ._errors import (
+    Error,
+    InputError,
+    IoError,
+    NotConverged,
+    OptionError,
+    SolverError,
+    TooFewVertices,
+)
+from ._files import (
+    read_cage,
+    read_mesh,
+    read_model,
+    read_weights,
+    write_cage,
+    write_mesh,
+    write_model,
+    write_weights,
+)
+from ._models import (
+    Binding,
+    Defect,
+    Page,
+    Repaired,
+    bind,
+    check,
+    export,
+    make_cage,
+    repair,
+    view,
+)
+from ._shapes import Cage, DomainMesh, Model
+from ._solve import Certificate, Solution, Solver, SolverOptions, mesh, solve
+from ._weights import deform, mean_value, measure, sparsify, transfer
+
+__version__: str = _core.version
+__all__ = [
+    "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
+    "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Solution", "Solver",
+    "SolverError", "SolverOptions", "TooFewVertices", "bind", "check", "deform", "export",
+    "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
+    "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
+]
+
+if hasattr(_os, "register_at_fork"):
+    # A forked process has no other threads, for which OpenMP would wait.
+    _os.register_at_fork(after_in_child=_core.has_forked)

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reading and writing cages, models, domain meshes, and weights."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._errors import InputError
+from ._shapes import (
+    Cage,
+    DomainMesh,
+    Model,
+    as_array,
+    as_cage,
+    as_floats,
+    as_lists,
+    as_points,
+    as_polygons,
+    mesh_from,
+)
+from ._weights import as_weights, from_core, is_sparse
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import ArrayLike
+
+    from ._shapes import CageLike, Faces
+    from ._weights import Weights
+
+    Path = Union[str, os.PathLike[str]]
+
+
+def read_cage(path: Path) -> Cage:
+    """Reads a cage: a surface in 3D, or polylines in a plane z = constant in 2D.
+
+    Parameters
+    ----------
+    path : str or path
+        .obj, .off, .ply, .stl, or .om.
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    return Cage(*_core.read_cage(str(path)))
+
+
+def write_cage(path: Path, cage: CageLike) -> None:
+    """Writes a cage.
+
+    Parameters
+    ----------
+    path : str or path
+        .obj, and in 3D also .off, .ply, .stl, or .om.
+    cage : Cage, or what `Cage` accepts
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    cage = as_cage(cage)
+    nothing = as_polygons(None, "", 0)
+    if cage.dim == 2:
+        lines = as_polygons([*_loops(cage)], "facets", len(cage))
+        _core.write_model(str(path), cage.points, nothing, lines)
+    else:
+        faces = as_polygons(cage.facets, "facets", len(cage))
+        _core.write_model(str(path), cage.points, faces, nothing)
+
+
+def _loops(cage: Cage) -> Any:
+    """Closed polylines of a cage in 2D; the first control point of each is repeated."""
+    around: Any = [[] for _ in range(len(cage))]
+    for a, b in cage.facets.tolist():
+        around[a].append(b)
+        around[b].append(a)
+    left = set(range(len(cage)))
+    while left:
+        loop = [min(left)]
+        left.discard(loop[0])
+        while True:
+            following = [v for v in around[loop[-1]] if v in left]
+            if not following:
+                break
+            loop.append(following[0])
+            left.discard(following[0])
+        yield loop + loop[:1]
+
+
+def read_model(path: Path, dim: Optional[int] = None) -> Model:
+    """Reads the vertices and faces of a model, exactly.
+
+    Parameters
+    ----------
+    path : str or path
+        .obj, .off, .ply, .stl, or .om.
+    dim : int, optional
+        Number of coordinates, 2 or 3. Default: 2 if all points have the same z.
+
+    Returns
+    -------
+    Model
+        ``vertices`` of shape (P, dim), and ``faces``: an (m, k) array, or lists if their
+        lengths differ.
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    points, polygons, _ = _core.read_model(str(path))
+    is_flat = len(points) > 0 and bool((points[:, 2] == points[0, 2]).all())
+    if dim == 2 and not is_flat:
+        raise InputError(f"{path}: the points are not in a plane z = constant")
+    if dim == 2 or (dim is None and is_flat):
+        points = np.ascontiguousarray(points[:, :2])
+    return Model(points, as_lists(polygons))
+
+
+def write_model(
+    path: Path,
+    vertices: ArrayLike,
+    faces: Optional[Faces] = None,
+    *,
+    source: Optional[Path] = None,
+) -> None:
+    """Writes a model: .obj, .off, .ply, .stl, or .om.
+
+    Parameters
+    ----------
+    path : str or path
+    vertices : array_like, shape (P, d)
+    faces : array_like of int, optional
+    source : str or path, optional
+        A model file, of which everything but positions and normals is kept, such as texture
+        coordinates and materials. Leave out `faces` then.
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    points = as_points(vertices, "vertices")
+    if source is not None:
+        if faces is not None:
+            raise TypeError("write_model() takes faces or source, not both")
+        _core.write_moved(str(path), points, str(source))
+        return
+    polygons = as_polygons(faces, "faces", len(points))
+    _core.write_model(str(path), points, polygons, as_polygons(None, "", 0))
+
+
+def read_mesh(path: Path, dim: Optional[int] = None) -> DomainMesh:
+    """Reads a domain mesh.
+
+    Parameters
+    ----------
+    path : str or path
+        2D: .obj, .off, .vtu. 3D: MEDIT .mesh, TetGen .node or .ele, Gmsh .msh, .vtu.
+    dim : int, optional
+        For .vtu; default: by its cells.
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    return mesh_from(_core.read_mesh(str(path), dim or 0))
+
+
+def write_mesh(
+    path: Path, mesh: DomainMesh, fields: Optional[Mapping[str, ArrayLike]] = None
+) -> None:
+    """Writes a domain mesh in the formats of `read_mesh`.
+
+    Parameters
+    ----------
+    path : str or path
+    mesh : DomainMesh
+    fields : mapping of str to array_like, shape (V,), optional
+        Values at vertices, such as ``{"hand": solution.weights[:, 3]}``, for .vtu and .mesh.
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    values = []
+    for name, given in (fields or {}).items():
+        array = as_array(given, f"fields[{name!r}]")
+        if array.shape != (len(mesh),):
+            raise InputError(
+                f"fields[{name!r}] has shape {array.shape}, but needs ({len(mesh)},)"
+            )
+        values.append((name, as_floats(array, f"fields[{name!r}]")))
+    _core.write_mesh(str(path), mesh.points, mesh.cells, values)
+
+
+def read_weights(path: Path) -> Weights:
+    """Reads weights, a row per point.
+
+    Parameters
+    ----------
+    path : str or path
+        .npy, .dmat, .txt (dense), or .mtx (sparse).
+
+    Returns
+    -------
+    ndarray or scipy.sparse.csr_matrix, shape (P, n)
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    return from_core(_core.read_weights(str(path)))
+
+
+def write_weights(path: Path, weights: Weights) -> None:
+    """Writes weights exactly.
+
+    Parameters
+    ----------
+    path : str or path
+        .npy, .dmat, .txt, or .mtx.
+    weights : array_like or sparse matrix, shape (P, n)
+
+    Raises
+    ------
+    IoError, InputError
+    """
+    array = weights if is_sparse(weights) else as_array(weights, "weights")
+    if len(array.shape) != 2:
+        raise InputError(f"weights has shape {array.shape}, but needs (P, n)")
+    _core.write_weights(str(path), as_weights(array, "weights", *array.shape))

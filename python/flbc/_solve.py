@@ -1,0 +1,456 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshing, solving, and solving on."""
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar
+
+import numpy as np
+
+from . import _core
+from ._errors import NotConverged, TooFewVertices
+from ._shapes import DomainMesh, as_cage, as_mesh, as_points, frozen, mesh_from
+from ._weights import as_weights, from_core
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
+
+    from ._shapes import Cage, CageLike, Floats, MeshLike
+    from ._weights import Weights
+
+    Callback = Optional[Callable[[_core.Progress], Optional[bool]]]
+
+
+Documented = TypeVar("Documented", bound=Callable[..., Any])
+
+
+class SolverOptions(TypedDict, total=False):
+    """Options of `solve`, `Solver`, and `bind`; see `help(flbc.solve)`."""
+
+    method: str
+    tolerance: Optional[float]
+    gap: Optional[float]
+    max_iterations: int
+    certify: bool
+    sparse: bool
+    threads: int
+    non_negative: str
+    phi: str
+    smoothness: float
+    distances: str
+    precision: str
+    linear_solver: str
+    active_set: str
+    coarse_to_fine: str
+    coarsest: Optional[int]
+    coarse_factor: Optional[float]
+    coarse_looseness: float
+    penalty: Optional[float]
+    relaxation: Optional[float]
+    check_interval: int
+    recovery: str
+
+
+OPTIONS = """\
+    method : str, default "auto"
+        "value" (the default method), "gradient", "paper", "lbc2014", and for comparison
+        "harmonic", "meanvalue".
+    tolerance : float, optional
+        Target for the estimated mean squared error of the weights. Default: 1e-7, for
+        "gradient" 1e-6.
+    gap : float, optional
+        Certified relative gap that also ends a solve; 0 for none. Default: 1e-3 if tolerance
+        is not given.
+    max_iterations : int, default 20000
+    certify : bool, default False
+        Whether to bound the distance of the weights from the optimum.
+    sparse : bool, default False
+        Whether weights are a sparse matrix, for many control points.
+    threads : int, default 0
+        Number of threads; 0 for all cores.
+    non_negative : str, default "auto"
+        How weights are kept non-negative: "constraint", "project", "off".
+    phi : str, default "square"
+        Growth of the variation weighting with distance: "square", "linear", "sqrt",
+        "constant".
+    smoothness : float, default 0
+        Removes kinks at the cost of more influences, as a fraction of the cage size. Useful
+        values are 0.001 to 0.03, for "value" and "gradient".
+    distances : str, default "auto"
+        "exact", or "interpolated" from a coarser mesh.
+    precision : str, default "auto"
+        Of the iteration: "single", "double".
+    linear_solver : str, default "auto"
+        "direct", "multigrid", or "none" for the gradient methods.
+    active_set : str, default "auto"
+        Whether to update only weights that may be positive: "on", "off".
+    coarse_to_fine : str, default "auto"
+        Whether to start from coarser meshes: "on", "off".
+    coarsest : int, optional
+        Minimum number of vertices of a coarser mesh.
+    coarse_factor : float, optional
+        Ratio of vertices between these meshes, at least 2.
+    coarse_looseness : float, default 4
+        Tolerance on these meshes, relative to the final one.
+    penalty : float, optional
+        Penalty parameter, in units of the cage size.
+    relaxation : float, optional
+        Over-relaxation factor in (0, 2).
+    check_interval : int, default 10
+        Iterations between two calls of the callback.
+    recovery : str, default "auto"
+        How the gradient methods recover weights: "breadth-first", "least-squares".
+"""
+
+
+def with_options(function: Documented) -> Documented:
+    """Completes a docstring with all options, which all solves share."""
+    if function.__doc__ is not None:  # None under python -OO
+        function.__doc__ = function.__doc__.replace("    {options}\n", OPTIONS)
+    return function
+
+
+def checked(options: Any, function: str) -> Dict[str, Any]:
+    for name in options:
+        if name not in SolverOptions.__annotations__:
+            raise TypeError(
+                f"{function}() has no option {name!r}; choose from "
+                + ", ".join(SolverOptions.__annotations__)
+            )
+    return dict(options)
+
+
+class Certificate(NamedTuple):
+    """A bound on the distance of weights from the optimum, in units of the objective."""
+
+    objective: float
+    lower_bound: float
+    relative_gap: float
+
+
+class Solution:
+    """Coordinates at the vertices of a domain mesh.
+
+    Attributes
+    ----------
+    weights : ndarray, shape (V, n), float64, read-only; or scipy.sparse.csr_matrix
+        Row v has the weight of every control point at vertex v. Nothing was copied from the
+        solver.
+    cage : Cage
+    mesh : DomainMesh
+    converged : bool
+        Whether the tolerance or the certified gap was met.
+    report : dict
+        Iterations, residuals, times in seconds, and quality, with the names of the report of
+        ``flbc solve``.
+    certificate : Certificate or None
+    """
+
+    __slots__ = ("weights", "cage", "mesh", "report")
+    weights: Weights
+    cage: Cage
+    mesh: DomainMesh
+    report: Dict[str, Any]
+
+    def __init__(
+        self, weights: Weights, cage: Cage, mesh: DomainMesh, report: Dict[str, Any]
+    ) -> None:
+        self.weights, self.cage, self.mesh, self.report = weights, cage, mesh, report
+
+    @property
+    def converged(self) -> bool:
+        return bool(self.report["converged"])
+
+    @property
+    def certificate(self) -> Optional[Certificate]:
+        if "relative_gap" not in self.report:
+            return None
+        names = "certified_objective", "lower_bound", "relative_gap"
+        return Certificate(*(self.report[name] for name in names))
+
+    def at(self, points: ArrayLike, outside: str = "fail") -> Weights:
+        """Evaluates the coordinates at points.
+
+        Parameters
+        ----------
+        points : array_like, shape (P, d)
+            In the units of the cage.
+        outside : str, default "fail"
+            For points outside the cage: "fail", "nearest" (the weights of the nearest point of
+            the cage), or "extend" (reproduce the point, with negative weights).
+
+        Returns
+        -------
+        ndarray, shape (P, n); or scipy.sparse.csr_matrix if the weights are sparse
+
+        Raises
+        ------
+        InputError
+            If points are outside and `outside` is "fail".
+        """
+        return evaluate(self, as_points(points, "points", self.cage.dim), outside)[0]
+
+    def __repr__(self) -> str:
+        shape = "x".join(str(size) for size in self.weights.shape)
+        return f"<flbc.Solution: {shape} weights, {self.report['status']}>"
+
+    def __reduce__(self) -> Any:
+        return Solution, (self.weights, self.cage, self.mesh, self.report)
+
+
+def evaluate(solution: Solution, points: Floats, outside: str) -> Any:
+    """Weights at points, the points that they reproduce, and which points are outside."""
+    cage, mesh = solution.cage, solution.mesh
+    weights = as_weights(solution.weights, "weights", len(mesh), len(cage))
+    found = _core.weights_at(
+        cage.points, cage.facets, mesh.points, mesh.cells, weights, points, outside
+    )
+    return (from_core(found[0]),) + found[1:]
+
+
+def mesh(
+    cage: CageLike,
+    vertices: Optional[int] = None,
+    points: Optional[ArrayLike] = None,
+    time_limit: float = 60,
+) -> DomainMesh:
+    """Meshes the interior of a cage, with CGAL in 2D and TetGen in 3D.
+
+    Parameters
+    ----------
+    cage : Cage, or what `Cage` accepts
+    vertices : int, optional
+        Target number of vertices, met within 5% in 2D and about 10% in 3D; 0 for the minimum
+        that element quality allows. Default: 10000, or that minimum if it is larger.
+    points : array_like, shape (P, d), optional
+        Points that become vertices of the mesh. They follow the control points, in this
+        order, without points on or outside the cage and without duplicates.
+    time_limit : float, default 60
+        Seconds that one run of a 3D mesher may take.
+
+    Returns
+    -------
+    DomainMesh
+        Its first n vertices are the control points.
+
+    Raises
+    ------
+    InputError
+        If the cage is defective or cannot be meshed.
+    TooFewVertices
+        If quality needs more vertices than requested.
+    """
+    shape = as_cage(cage)
+    inside = None if points is None else as_points(points, "points", shape.dim)
+
+    def fill(count: int) -> DomainMesh:
+        return mesh_from(_core.mesh(shape.points, shape.facets, count, inside, time_limit))
+
+    if vertices is not None:
+        return fill(vertices)
+    try:
+        return fill(10000)
+    except TooFewVertices:
+        return fill(0)
+
+
+def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
+    weights, report = from_core(found[0]), found[1]
+    if isinstance(weights, np.ndarray):
+        frozen(weights)
+    solution = Solution(weights, cage, domain, report)
+    if warn and report["status"] == "iteration limit":
+        warnings.warn(
+            f"not converged within {report['iterations']} iterations; increase max_iterations or "
+            "tolerance",
+            NotConverged,
+            stacklevel=3,
+        )
+    return solution
+
+
+@with_options
+def solve(
+    cage: CageLike,
+    mesh: Optional[MeshLike] = None,
+    *,
+    callback: Callback = None,
+    **options: Unpack[SolverOptions],
+) -> Solution:
+    """Computes local barycentric coordinates.
+
+    Other Python threads run meanwhile, and Ctrl-C stops the solve.
+
+    Parameters
+    ----------
+    cage : Cage, or what `Cage` accepts
+        With n control points.
+    mesh : DomainMesh or tuple of arrays, optional
+        Domain mesh of the cage with V vertices. Default: ``flbc.mesh(cage)``.
+    callback : callable, optional
+        Called as ``callback(progress)`` every `check_interval` iterations with a `Progress`.
+        Return False to stop with the weights so far. An exception ends the solve and reaches
+        the caller.
+
+    Other Parameters
+    ----------------
+    {options}
+
+    Returns
+    -------
+    Solution
+        With V x n weights.
+
+    Raises
+    ------
+    InputError
+        If the mesh does not match the cage, naming the element.
+    OptionError
+        If an option is out of range.
+    SolverError
+        If the computation breaks down.
+
+    Warns
+    -----
+    NotConverged
+        If `max_iterations` was reached. The weights are usable.
+
+    Examples
+    --------
+    >>> cage = flbc.Cage([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> solution = flbc.solve(cage, flbc.mesh(cage, vertices=500))
+    >>> solution.at([[0.5, 0.5]]).round(2)
+    array([[0.25, 0.25, 0.25, 0.25]])
+    """
+    given = checked(options, "solve")
+    cage = as_cage(cage)
+    domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
+    found = _core.solve(
+        cage.points, cage.facets, domain.points, domain.cells, given, callback
+    )
+    return _solution(found, cage, domain, True)
+
+
+mesh_of = mesh  # where an argument has this name
+
+
+@with_options
+class Solver:
+    """Solves a problem in several steps: solving on, and moving the rest cage.
+
+    The first solve equals `solve`; later ones continue from the last state. One thread at a time
+    may use a Solver.
+
+    Parameters
+    ----------
+    cage : Cage, or what `Cage` accepts
+        With a connected interior.
+    mesh : DomainMesh or tuple of arrays, optional
+        Default: ``flbc.mesh(cage)``.
+
+    Other Parameters
+    ----------------
+    {options}
+
+    Raises
+    ------
+    InputError
+        If the mesh does not match the cage.
+    OptionError
+        If an option is out of range.
+    """
+
+    def __init__(
+        self, cage: CageLike, mesh: Optional[MeshLike] = None, **options: Unpack[SolverOptions]
+    ) -> None:
+        given = self._checked(options)
+        cage = as_cage(cage)
+        domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
+        self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
+
+    @staticmethod
+    def _checked(options: Any) -> Dict[str, Any]:
+        given = checked(options, "Solver")
+        if given.get("sparse"):
+            raise TypeError("a Solver has dense weights; leave out sparse")
+        return given
+
+    def solve(
+        self, *, iterations: int = 0, seconds: float = 0, callback: Callback = None
+    ) -> Solution:
+        """Solves, or continues from the last solve.
+
+        Parameters
+        ----------
+        iterations : int, default 0
+            Maximum number of iterations of this call; 0 for `max_iterations`.
+        seconds : float, default 0
+            Time limit of this call; 0 for none.
+        callback : callable, optional
+            As for `solve`.
+
+        Returns
+        -------
+        Solution
+            With its own copy of the weights. Its report covers only this call.
+        """
+        found = self._core.solve(iterations, seconds, callback)
+        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
+
+    def move(
+        self,
+        control_points: ArrayLike,
+        *,
+        iterations: int = 0,
+        seconds: float = 0,
+        callback: Callback = None,
+    ) -> Solution:
+        """Moves the rest cage and its mesh, and solves.
+
+        Parameters
+        ----------
+        control_points : array_like, shape (n, d)
+        iterations, seconds, callback
+            As for `Solver.solve`.
+
+        Returns
+        -------
+        Solution
+
+        Raises
+        ------
+        InputError
+            If a cell of the mesh would be inverted. The Solver is then unchanged.
+        """
+        cage = self.cage
+        moved = as_points(control_points, "control_points", cage.dim, len(cage))
+        found = self._core.move(moved, iterations, seconds, callback)
+        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
+
+    def anchor(self) -> None:
+        """Makes the mesh follow later moves by the current coordinates of the current cage."""
+        self._core.anchor()
+
+    def set_options(self, **options: Unpack[SolverOptions]) -> None:
+        """Changes options of the following solves; `phi` cannot change."""
+        self._core.set_options({**self._core.options(), **self._checked(options)})
+
+    def restart(self) -> None:
+        """Makes the next solve start over."""
+        self._core.restart()
+
+    @property
+    def options(self) -> Dict[str, Any]:
+        """dict: all options."""
+        return self._core.options()
+
+    @property
+    def cage(self) -> Cage:
+        """Cage: the current rest cage."""
+        return as_cage(self._core.cage())
+
+    @property
+    def mesh(self) -> DomainMesh:
+        """DomainMesh: the current mesh."""
+        return mesh_from(self._core.mesh())

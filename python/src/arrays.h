@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! NumPy arrays as matrices of the library, and back. A C-contiguous (P, n) array has the memory
+//! layout of an n x P matrix, so results cross without a copy. The Python files have checked types
+//! and shapes of all arguments.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
+
+namespace flbc::python {
+
+namespace py = pybind11;
+
+using Doubles = py::array_t<double, py::array::c_style>;
+using Indices = py::array_t<Index, py::array::c_style>;
+
+//! Polygons: all corners, and P + 1 offsets into them.
+using Polygons = std::pair<Indices, py::array_t<std::int64_t, py::array::c_style>>;
+
+//! Calls `action` with the number of columns of points, 2 or 3, as a constant.
+template <class Action>
+auto by_dimension(const Doubles& points, const Action& action) {
+  if (points.shape(1) == 2) return action(std::integral_constant<int, 2>());
+  return action(std::integral_constant<int, 3>());
+}
+
+template <int Dim>
+PointList<Dim> points_of(const Doubles& array) {
+  return Eigen::Map<const PointList<Dim>>(array.data(), Dim, array.shape(0));
+}
+
+template <int Dim>
+std::vector<PointList<Dim>> poses_of(const std::vector<Doubles>& arrays) {
+  std::vector<PointList<Dim>> poses;
+  poses.reserve(arrays.size());
+  for (const auto& array : arrays) poses.push_back(points_of<Dim>(array));
+  return poses;
+}
+
+template <int Dim>
+Cage<Dim> cage_of(const Doubles& points, const Indices& facets) {
+  return {points_of<Dim>(points),
+          Eigen::Map<const FacetList<Dim>>(facets.data(), Dim, facets.shape(0))};
+}
+
+template <int Dim>
+DomainMesh<Dim> mesh_of(const Doubles& points, const Indices& cells) {
+  return {points_of<Dim>(points),
+          Eigen::Map<const CellList<Dim>>(cells.data(), Dim + 1, cells.shape(0))};
+}
+
+inline std::vector<std::vector<Index>> lists_of(const Polygons& polygons) {
+  const auto& [corners, starts] = polygons;
+  std::vector<std::vector<Index>> lists;
+  for (py::ssize_t k = 0; k + 1 < starts.shape(0); ++k) {
+    lists.emplace_back(corners.data() + starts.at(k), corners.data() + starts.at(k + 1));
+  }
+  return lists;
+}
+
+inline Polygons polygons_of(const std::vector<std::vector<Index>>& lists) {
+  std::vector<Index> corners;
+  std::vector<std::int64_t> starts{0};
+  for (const auto& list : lists) {
+    corners.insert(corners.end(), list.begin(), list.end());
+    starts.push_back(static_cast<std::int64_t>(corners.size()));
+  }
+  return {Indices(static_cast<py::ssize_t>(corners.size()), corners.data()),
+          Polygons::second_type(static_cast<py::ssize_t>(starts.size()), starts.data())};
+}
+
+// Names the capsules that own dense weights.
+constexpr const char* kWeights = "flbc.WeightMatrix";
+
+//! An array with a row per column of a matrix, which it owns.
+template <class Matrix>
+py::array as_array(Matrix matrix) {
+  auto kept = std::make_unique<Matrix>(std::move(matrix));
+  const auto* data = kept->data();
+  const std::vector<py::ssize_t> shape{kept->cols(), kept->rows()};
+  constexpr const char* kName = std::is_same_v<Matrix, WeightMatrix> ? kWeights : nullptr;
+  py::capsule owner(kept.release(), kName, [](PyObject* capsule) {
+    delete static_cast<Matrix*>(PyCapsule_GetPointer(capsule, kName));
+  });
+  return py::array_t<typename Matrix::Scalar>(shape, data, owner);
+}
+
+inline py::object as_python(WeightMatrix weights) {
+  return as_array(std::move(weights));
+}
+
+//! The arrays of scipy.sparse.csr_matrix, and the number of columns.
+inline py::object as_python(SparseWeights weights) {
+  auto kept = std::make_unique<SparseWeights>(std::move(weights));
+  const auto& sparse = *kept;
+  py::capsule owner(kept.release(), [](void* p) { delete static_cast<SparseWeights*>(p); });
+  const auto count = static_cast<py::ssize_t>(sparse.values().size());
+  return py::make_tuple(
+      py::array_t<double>(count, sparse.values().data(), owner),
+      // Below 2^31: SciPy takes signed numbers without a copy.
+      py::array_t<std::int32_t>(
+          count, reinterpret_cast<const std::int32_t*>(sparse.control_points().data()), owner),
+      py::array_t<std::int64_t>(static_cast<py::ssize_t>(sparse.starts().size()),
+                                sparse.starts().data(), owner),
+      sparse.num_control_points());
+}
+
+//! The matrix of which an array from as_array() shows all, or null.
+inline const WeightMatrix* matrix_behind(const Doubles& array) {
+  py::object base = array.base();
+  while (base && py::isinstance<py::array>(base)) base = base.cast<py::array>().base();
+  if (!base || PyCapsule_IsValid(base.ptr(), kWeights) == 0) return nullptr;
+  const auto* matrix = static_cast<const WeightMatrix*>(PyCapsule_GetPointer(base.ptr(), kWeights));
+  const bool is_whole = matrix->data() == array.data() && matrix->rows() == array.shape(1) &&
+                        matrix->cols() == array.shape(0);
+  return is_whole ? matrix : nullptr;
+}
+
+//! Calls `action` with dense weights, without a copy if they came from the library, or with sparse
+//! ones. \param weights  an array, or a tuple as from as_python()
+template <class Action>
+auto with_weights(const py::object& weights, const Action& action) {
+  if (!py::isinstance<py::tuple>(weights)) {
+    const auto array = weights.cast<Doubles>();
+    if (const auto* kept = matrix_behind(array)) return action(*kept);
+    return action(
+        WeightMatrix(Eigen::Map<const WeightMatrix>(array.data(), array.shape(1), array.shape(0))));
+  }
+  using Values = std::tuple<Doubles, Indices, py::array_t<std::int64_t, py::array::c_style>, Index>;
+  const auto [values, columns, starts, count] = weights.cast<Values>();
+  return action(SparseWeights(count, {starts.data(), starts.data() + starts.size()},
+                              {columns.data(), columns.data() + columns.size()},
+                              {values.data(), values.data() + values.size()}));
+}
+
+template <int Dim>
+py::tuple as_python(const Cage<Dim>& cage) {
+  return py::make_tuple(as_array(cage.points), as_array(cage.facets));
+}
+
+template <int Dim>
+py::tuple as_python(DomainMesh<Dim> mesh) {
+  return py::make_tuple(as_array(std::move(mesh.points)), as_array(std::move(mesh.cells)));
+}
+
+//! In a process forked from one that has used OpenMP, more than one thread would wait for threads
+//! that do not exist.
+void use_threads_of_this_process();
+
+//! Does work while other Python threads run.
+template <class Work>
+auto without_gil(const Work& work) {
+  const py::gil_scoped_release release;
+  use_threads_of_this_process();
+  return work();
+}
+
+void bind_solving(py::module_& module);
+void bind_files(py::module_& module);
+
+}  // namespace flbc::python

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The compiled part of the Python module: one function per function of the library, for arrays that
+// the Python files have checked. Those files have the documentation.
+#include <optional>
+#include <string>
+
+#include "arrays.h"
+#include "flbc/cage_facts.h"
+#include "flbc/check.h"
+#include "flbc/errors.h"
+#include "flbc/io/cut_polygon.h"
+#include "flbc/mean_value.h"
+#include "flbc/meshing.h"
+#include "flbc/names.h"
+#include "flbc/placement.h"
+#include "flbc/sparsify.h"
+#include "flbc/transfer_weights.h"
+#include "flbc/version.h"
+#include "options.h"
+#ifdef FLBC_WITH_CAGING
+#include "flbc/cage_from_model.h"
+#include "flbc/repair_cage.h"
+#endif
+
+namespace flbc::python {
+namespace {
+
+using namespace py::literals;
+
+void set_error(const char* type, const char* message) {
+  // A signal may be the reason: Ctrl-C also ends the process of a mesher.
+  if (PyErr_CheckSignals() != 0) return;
+  PyErr_SetString(py::module_::import("flbc._errors").attr(type).ptr(), message);
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const TooFewVertices& error) {
+    set_error("TooFewVertices", error.what());
+  } catch (const OptionError& error) {
+    set_error("OptionError", error.what());
+  } catch (const InputError& error) {
+    set_error("InputError", error.what());
+  } catch (const IoError& error) {
+    set_error("IoError", error.what());
+  } catch (const SolverError& error) {
+    set_error("SolverError", error.what());
+  } catch (const Error& error) {
+    set_error("Error", error.what());
+  }
+}
+
+// ------------------------------------------------------------------------------------------ cages
+
+Vector<3> lifted(const Doubles& points, Index vertex) {
+  Vector<3> place = Vector<3>::Zero();
+  for (py::ssize_t d = 0; d < points.shape(1); ++d) place[d] = points.at(vertex, d);
+  return place;
+}
+
+// Triangles of polygons; segments are triangles that repeat a corner.
+py::array triangles(const Doubles& points, const Polygons& polygons) {
+  std::vector<Index> corners;
+  std::vector<Vector<3>> places;
+  for (const auto& polygon : lists_of(polygons)) {
+    if (polygon.size() < 3) {
+      corners.insert(corners.end(), {polygon.front(), polygon.back(), polygon.back()});
+      continue;
+    }
+    places.clear();
+    for (const Index vertex : polygon) places.push_back(lifted(points, vertex));
+    const auto parts = io::cut_polygon(places);
+    for (const Index corner : parts.reshaped()) {
+      corners.push_back(polygon[corner]);
+    }
+  }
+  return as_array(
+      FacetList<3>(Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.size() / 3)));
+}
+
+py::list check_cage(const Doubles& points, const Indices& facets) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto defects = without_gil([&] {
+      auto found = find_defects(cage);
+#ifdef FLBC_WITH_CGAL
+      if (found.empty()) found = find_self_intersections(cage);
+#endif
+      return found;
+    });
+    py::list list;
+    for (const auto& defect : defects) {
+      list.append(
+          py::make_tuple(name_of(defect.kind), defect.vertices, defect.facets, defect.message));
+    }
+    return list;
+  });
+}
+
+// The indices and distances of points outside.
+py::tuple outside(const Doubles& points, const Indices& facets, const Doubles& places) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto all = points_of<kDim>(places);
+    const auto found =
+        without_gil([&] { return nearest_on_cage(cage, all, points_outside(cage, all)); });
+    std::vector<Index> which;
+    std::vector<double> distances;
+    for (const auto& point : found) {
+      which.push_back(point.point);
+      distances.push_back(point.distance);
+    }
+    return py::make_tuple(which, distances);
+  });
+}
+
+#ifdef FLBC_WITH_CAGING
+CageSymmetry symmetry_named(const std::string& name) {
+  const std::pair<const char*, CageSymmetry> known[] = {{"auto", CageSymmetry::kAuto},
+                                                        {"none", CageSymmetry::kNone},
+                                                        {"x", CageSymmetry::kX},
+                                                        {"y", CageSymmetry::kY},
+                                                        {"z", CageSymmetry::kZ}};
+  for (const auto& [of, symmetry] : known) {
+    if (name == of) return symmetry;
+  }
+  throw OptionError("symmetry must be one of auto, none, x, y, z, not " + name);
+}
+#endif
+
+py::tuple make_cage([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets,
+                    [[maybe_unused]] Index control_points, [[maybe_unused]] double offset,
+                    [[maybe_unused]] const std::string& symmetry) {
+#ifdef FLBC_WITH_CAGING
+  const CagingOptions options{control_points, offset, symmetry_named(symmetry)};
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto model = cage_of<kDim>(points, facets);
+    return as_python(without_gil(
+        [&] { return cage_from_model<kDim>(model.points, model.facets, options).cage; }));
+  });
+#else
+  throw OptionError("this flbc was built without CGAL and cannot make cages");
+#endif
+}
+
+py::tuple repair([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets) {
+#ifdef FLBC_WITH_CAGING
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto repaired = without_gil([&] { return repair_cage(cage); });
+    return py::make_tuple(as_python(repaired.cage), repaired.changes, repaired.new_numbers);
+  });
+#else
+  throw OptionError("this flbc was built without CGAL and cannot repair cages");
+#endif
+}
+
+py::tuple normalized_mesh(const Doubles& vertices, const Indices& cells) {
+  return by_dimension(vertices, [&](auto dim) {
+    auto mesh = mesh_of<decltype(dim)::value>(vertices, cells);
+    without_gil([&] { normalize_and_validate(mesh); });
+    return as_python(std::move(mesh));
+  });
+}
+
+// ---------------------------------------------------------------------------------------- weights
+
+// Weights at points, the points that they reproduce, and the points outside.
+py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
+                     const Indices& cells, const py::object& weights, const Doubles& places,
+                     const std::string& outside) {
+  const auto policy = named<OutsidePoints>("outside", outside);
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto mesh = mesh_of<kDim>(vertices, cells);
+    const auto all = points_of<kDim>(places);
+    Placement<kDim> placement;
+    auto found = with_weights(weights, [&](const auto& known) -> py::object {
+      return as_python(without_gil([&] {
+        placement = place_points(cage, mesh, all, policy);
+        return flbc::weights_at(cage, mesh, known, placement);
+      }));
+    });
+    std::vector<Index> beside;
+    for (const auto& point : placement.outside) beside.push_back(point.point);
+    return py::make_tuple(found, as_array(std::move(placement.points)), beside);
+  });
+}
+
+py::object sparsify(const Doubles& control_points, const Doubles& points, const py::object& weights,
+                    Index max_influences, double threshold, const std::optional<Polygons>& polygons,
+                    const std::vector<Doubles>& poses) {
+  SparsifyOptions options;
+  options.max_influences = max_influences;
+  options.threshold = threshold;
+  return by_dimension(control_points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = points_of<kDim>(control_points);
+    const auto all = points_of<kDim>(points);
+    const auto moved = poses_of<kDim>(poses);
+    const auto lists = polygons ? lists_of(*polygons) : std::vector<std::vector<Index>>();
+    return with_weights(weights, [&](const auto& given) -> py::object {
+      return as_python(without_gil([&] {
+        validate<kDim>(options);
+        // Without neighbors there are no seams.
+        if (lists.empty()) return SparseWeights(flbc::sparsify<kDim>(cage, all, given, options));
+        const auto edges = edges_of_polygons(all, lists);
+        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
+          return SparseWeights(
+              reduce_by_poisson<kDim>(cage, all, edges, given.dense(), moved, options));
+        } else {
+          return SparseWeights(reduce_by_poisson<kDim>(cage, all, edges, given, moved, options));
+        }
+      }));
+    });
+  });
+}
+
+py::tuple transfer(const Doubles& control_points, const Doubles& points, const Indices& corners,
+                   const py::object& weights, const Doubles& places, double limit) {
+  return by_dimension(control_points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = points_of<kDim>(control_points);
+    const ModelElements<kDim> model{
+        points_of<kDim>(points),
+        Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.shape(0))};
+    const auto to = points_of<kDim>(places);
+    Eigen::VectorXd distances;
+    auto found = with_weights(weights, [&](const auto& given) -> py::object {
+      return as_python(without_gil([&] {
+        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
+          return transfer_weights<kDim>(cage, model, given.dense(), to, limit, &distances);
+        } else {
+          return transfer_weights<kDim>(cage, model, given, to, limit, &distances);
+        }
+      }));
+    });
+    return py::make_tuple(found, py::array_t<double>(distances.size(), distances.data()));
+  });
+}
+
+py::array mean_value(const Doubles& points, const Indices& facets, const Doubles& places) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto all = points_of<kDim>(places);
+    return as_array(without_gil([&] {
+      validate(cage);
+      return mean_value_coordinates<kDim>(cage, all);
+    }));
+  });
+}
+
+template <int Dim>
+py::object as_python(const Extreme<Dim>& extreme) {
+  if (extreme.point < 0) return py::none();
+  py::dict dict("value"_a = extreme.value, "point"_a = extreme.point);
+  if (extreme.control_point >= 0) dict["control_point"] = extreme.control_point;
+  return dict;
+}
+
+template <int Dim>
+py::dict as_python(const WeightCheck<Dim>& check) {
+  py::dict dict(
+      "points"_a = check.points, "control_points"_a = check.control_points,
+      "non_finite"_a = check.non_finite, "negative"_a = check.negative,
+      "mean_influences"_a = check.quality.mean_influences,
+      "min_weight"_a = as_python(check.min_weight), "max_weight"_a = as_python(check.max_weight),
+      "partition"_a = as_python(check.partition), "reproduction"_a = as_python(check.reproduction),
+      "influences"_a = as_python(check.influences), "lagrange"_a = as_python(check.lagrange),
+      "linearity"_a = as_python(check.linearity), "violations"_a = find_violations(check));
+  if (!check.mesh) return dict;
+  dict["local_minima"] = check.mesh->local_minima;
+  dict["local_maxima"] = check.mesh->local_maxima;
+  dict["deepest_minimum"] = as_python(check.mesh->deepest_minimum);
+  dict["highest_maximum"] = as_python(check.mesh->highest_maximum);
+  dict["total_variation"] = check.mesh->total_variation;
+  dict["weighted_variation"] = check.mesh->weighted_variation;
+  dict["gradient_jump"] = check.mesh->gradient_jump;
+  return dict;
+}
+
+// \param cells  of the mesh whose vertices are the points; none for other points
+py::dict measure(const Doubles& points, const Indices& facets, const Doubles& places,
+                 const std::optional<Indices>& cells, const py::object& weights) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    DomainMesh<kDim> mesh;
+    mesh.points = points_of<kDim>(places);
+    if (cells) mesh = mesh_of<kDim>(places, *cells);
+    return with_weights(weights, [&](const auto& given) {
+      return as_python(without_gil([&] {
+        validate(cage);
+        WeightMatrix copy;
+        const WeightMatrix* dense = nullptr;
+        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
+          copy = given.dense();
+          dense = &copy;
+        } else {
+          dense = &given;
+        }
+        return cells ? check_weights(cage, mesh, *dense) : check_weights(cage, mesh.points, *dense);
+      }));
+    });
+  });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "Compiled part of flbc. Use the functions of the module flbc.";
+  py::register_exception_translator(&translate);
+  module.attr("version") = FLBC_VERSION;
+  module.def("triangles", &triangles);
+  module.def("check_cage", &check_cage);
+  module.def("outside", &outside);
+  module.def("make_cage", &make_cage);
+  module.def("repair", &repair);
+  module.def("normalized_mesh", &normalized_mesh);
+  module.def("weights_at", &weights_at);
+  module.def("sparsify", &sparsify);
+  module.def("transfer", &transfer);
+  module.def("mean_value", &mean_value);
+  module.def("measure", &measure);
+  bind_solving(module);
+  bind_files(module);
+}
+
+}  // namespace flbc::python

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files in every format, skins for engines, and pages.
+#include <ostream>
+#include <string>
+
+#include "arrays.h"
+#include "flbc/errors.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/files.h"
+#include "flbc/io/formats.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/io/weights_triplets.h"
+#include "gltf/skin.h"
+#include "view/page.h"
+#ifdef FLBC_WITH_OPENMESH
+#include "flbc/openmesh/om_file.h"
+#endif
+
+namespace flbc::python {
+namespace {
+
+// Missing coordinates are 0.
+std::vector<Vector<3>> places_of(const Doubles& points) {
+  std::vector<Vector<3>> places(static_cast<std::size_t>(points.shape(0)), Vector<3>::Zero());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (py::ssize_t d = 0; d < points.shape(1); ++d) {
+      places[k][d] = points.at(static_cast<py::ssize_t>(k), d);
+    }
+  }
+  return places;
+}
+
+py::tuple read_cage(const std::string& path) {
+  const auto cage = without_gil([&] { return io::to_cage(io::read_polygons(path), path); });
+  return std::visit([](const auto& any) { return as_python(any); }, cage);
+}
+
+// Points (always with three coordinates), polygons, polylines.
+py::tuple read_model(const std::string& path) {
+  const auto soup = without_gil([&] { return io::read_polygons(path); });
+  PointList<3> points(3, soup.points.size());
+  for (std::size_t k = 0; k < soup.points.size(); ++k) points.col(k) = soup.points[k];
+  return py::make_tuple(as_array(std::move(points)), polygons_of(soup.polygons),
+                        polygons_of(soup.polylines));
+}
+
+void save(const std::string& path, const io::Model& model) {
+  if (io::extension_of(path) != "om") return io::write_model(path, model);
+#ifdef FLBC_WITH_OPENMESH
+  openmesh::write_om(path, model);
+#else
+  throw OptionError(path + ": this flbc was built without OpenMesh");
+#endif
+}
+
+void write_model(const std::string& path, const Doubles& points, const Polygons& polygons,
+                 const Polygons& polylines) {
+  io::Model model;
+  model.soup = {places_of(points), lists_of(polygons), lists_of(polylines)};
+  without_gil([&] { save(path, model); });
+}
+
+// Writes a file again with its vertices moved.
+void write_moved(const std::string& path, const Doubles& points, const std::string& source) {
+  by_dimension(points, [&](auto dim) {
+    const auto moved = points_of<decltype(dim)::value>(points);
+    without_gil([&] {
+      const io::ModelFile file(source);
+      if (io::extension_of(path) != io::extension_of(source)) return save(path, file.moved(moved));
+      io::write_file(path, [&](std::ostream& out) { file.write(out, moved); });
+    });
+  });
+}
+
+bool holds(const std::string& path, io::Content content) {
+  return io::holds(path, {content});
+}
+
+py::tuple read_mesh(const std::string& path, int dim) {
+  const bool is_2d = dim == 2 || (dim == 0 && !holds(path, io::Content::kMesh3D));
+  if (is_2d) return as_python(without_gil([&] { return io::read_domain<2>(path); }));
+  const bool is_either = dim == 0 && holds(path, io::Content::kMesh2D);
+  if (!is_either) return as_python(without_gil([&] { return io::read_domain<3>(path); }));
+  try {
+    return as_python(without_gil([&] { return io::read_domain<3>(path); }));
+  } catch (const InputError&) {
+    return as_python(without_gil([&] { return io::read_domain<2>(path); }));
+  }
+}
+
+void write_mesh(const std::string& path, const Doubles& vertices, const Indices& cells,
+                const std::vector<std::pair<std::string, Doubles>>& fields) {
+  by_dimension(vertices, [&](auto dim) {
+    const auto mesh = mesh_of<decltype(dim)::value>(vertices, cells);
+    std::vector<io::VertexField> all;
+    for (const auto& [name, values] : fields) {
+      all.push_back({name, Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())});
+    }
+    without_gil([&] { io::write_domain(path, mesh, all); });
+  });
+}
+
+py::object read_weights(const std::string& path) {
+  if (io::extension_of(path) == "mtx") {
+    return as_python(without_gil([&] { return io::read_sparse_weights(path); }));
+  }
+  return as_python(without_gil([&] {
+    return holds(path, io::Content::kTriplets) ? io::read_weight_triplets(path)
+                                               : io::read_weights(path);
+  }));
+}
+
+void write_weights(const std::string& path, const py::object& weights) {
+  with_weights(weights, [&](const auto& given) {
+    without_gil([&] {
+      if (!holds(path, io::Content::kTriplets)) return io::write_weights(path, given);
+      if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
+        io::write_weight_triplets(path, given.dense());
+      } else {
+        io::write_weight_triplets(path, given);
+      }
+    });
+  });
+}
+
+// ------------------------------------------------------------------------------- engines and pages
+
+template <int Dim>
+gltf::Surface surface_of(const Doubles& points, const Polygons& polygons) {
+  io::Model model;
+  model.soup = {places_of(points), lists_of(polygons), {}};
+  if (model.soup.polygons.empty()) return {};
+  return gltf::surface_of_model<Dim>(model);
+}
+
+template <int Dim>
+std::vector<std::array<Index, 2>> edges_of(const Cage<Dim>& cage) {
+  return view::edges_of_cage<Dim>({}, cage.facets);
+}
+
+void export_skin(const std::string& path, const Doubles& cage_points, const Indices& facets,
+                 const Doubles& points, const Polygons& polygons, const py::object& weights,
+                 const std::vector<double>& times, const std::vector<Doubles>& poses,
+                 Index max_influences, const std::string& name) {
+  const auto extension = io::extension_of(path);
+  if (extension != "glb" && extension != "usda") {
+    throw OptionError(path + ": unknown file format; the file must end in .glb or .usda");
+  }
+  gltf::SkinOptions options;
+  options.max_influences = max_influences;
+  options.name = name;
+  if (extension == "usda") options.format = gltf::SkinFormat::kUsda;
+  by_dimension(cage_points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(cage_points, facets);
+    options.cage_edges = view::as_facets(edges_of(cage));
+    const gltf::Animation<kDim> animation{times, poses_of<kDim>(poses)};
+    const auto places = points_of<kDim>(points);
+    with_weights(weights, [&](const auto& given) {
+      without_gil([&] {
+        const auto surface = surface_of<kDim>(points, polygons);
+        const auto skin = gltf::export_skin<kDim>(cage.points, places, SparseWeights(given),
+                                                  surface, options, animation);
+        io::write_file(path, [&](std::ostream& out) { out << skin.content; });
+      });
+    });
+  });
+}
+
+std::string make_page(const Doubles& cage_points, const Indices& facets, const Doubles& points,
+                      const Polygons& polygons, const py::object& weights,
+                      const std::vector<Doubles>& poses, const std::string& title) {
+  return by_dimension(cage_points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(cage_points, facets);
+    const auto moved = poses_of<kDim>(poses);
+    view::PageContent<kDim> content;
+    content.title = title;
+    content.model_file = "model.obj";
+    content.weights_file = "weights.mtx";
+    content.cage_file = "cage.obj";
+    content.cage.points = cage.points;
+    content.cage.facets = cage.facets;
+    content.cage.edges = edges_of(cage);
+    content.points = points_of<kDim>(points);
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      content.poses.push_back(
+          {"pose " + std::to_string(k + 1), static_cast<double>(k + 1), moved[k]});
+    }
+    return with_weights(weights, [&](const auto& given) {
+      return without_gil([&] {
+        content.surface = surface_of<kDim>(points, polygons);
+        const auto limit = [&](const WeightMatrix& dense) {
+          content.weights = view::limit_influences<kDim>(cage.points, content.points, dense,
+                                                         view::kMostInfluences);
+        };
+        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
+          limit(given.dense());
+        } else {
+          limit(given);
+        }
+        return view::make_page(content);
+      });
+    });
+  });
+}
+
+}  // namespace
+
+void bind_files(py::module_& module) {
+  module.def("read_cage", &read_cage);
+  module.def("read_model", &read_model);
+  module.def("write_model", &write_model);
+  module.def("write_moved", &write_moved);
+  module.def("read_mesh", &read_mesh);
+  module.def("write_mesh", &write_mesh);
+  module.def("read_weights", &read_weights);
+  module.def("write_weights", &write_weights);
+  module.def("export_skin", &export_skin);
+  module.def("make_page", &make_page);
+}
+
+}  // namespace flbc::python

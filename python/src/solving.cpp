@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of cages, solves, and solves that continue.
+#include <omp.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "arrays.h"
+#include "flbc/errors.h"
+#include "flbc/meshing.h"
+#include "flbc/solver.h"
+#include "options.h"
+
+namespace flbc::python {
+namespace {
+
+std::atomic<bool> is_forked{false};
+
+// For code that runs without the GIL.
+void throw_if_interrupted() {
+  const py::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+// ---------------------------------------------------------------------------------------- meshing
+
+DomainMesh<2> fill([[maybe_unused]] const Cage<2>& cage,
+                   [[maybe_unused]] const MeshingOptions<2>& options) {
+#ifdef FLBC_WITH_CGAL
+  return triangulate(cage, options);
+#else
+  throw OptionError("this flbc was built without CGAL and cannot mesh 2D cages; give a DomainMesh");
+#endif
+}
+
+DomainMesh<3> fill([[maybe_unused]] const Cage<3>& cage,
+                   [[maybe_unused]] const MeshingOptions<3>& options) {
+#ifdef FLBC_WITH_TETGEN
+  return tetrahedralize(cage, options);
+#else
+  throw OptionError(
+      "this flbc was built without TetGen and cannot mesh 3D cages; give a DomainMesh");
+#endif
+}
+
+// Netgen can mesh some cages on which TetGen fails.
+template <int Dim>
+DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
+#ifdef FLBC_WITH_NETGEN
+  if constexpr (Dim == 3) {
+    try {
+      return fill(cage, options);
+    } catch (const InputError& first) {
+      throw_if_interrupted();  // Ctrl-C also ends the process of TetGen
+      try {
+        return tetrahedralize_by_netgen(cage, options);
+      } catch (const Error&) {
+        throw InputError(first.what());
+      }
+    }
+  }
+#endif
+  return fill(cage, options);
+}
+
+template <int Dim>
+void require_sound(const Cage<Dim>& cage) {
+  validate(cage);
+#ifdef FLBC_WITH_CGAL
+  const auto defects = find_self_intersections(cage, 1);
+  if (!defects.empty()) throw InputError(defects.front().message);
+#endif
+}
+
+template <int Dim>
+constexpr bool kHasMesher = false;
+#ifdef FLBC_WITH_CGAL
+template <>
+constexpr bool kHasMesher<2> = true;
+#endif
+#ifdef FLBC_WITH_TETGEN
+template <>
+constexpr bool kHasMesher<3> = true;
+#endif
+
+// As for the program flbc, so that weights are bit-identical.
+template <int Dim>
+CoarseMesher<Dim> coarse_mesher() {
+  if (!kHasMesher<Dim>) return {};
+  return [](const Cage<Dim>& cage, Index vertices) {
+    MeshingOptions<Dim> options;
+    options.vertices = vertices;
+    options.roughly = true;
+    return fill(cage, options);
+  };
+}
+
+py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
+               const std::optional<Doubles>& embedded, double time_limit) {
+  return by_dimension(points, [&](auto dim) -> py::tuple {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    MeshingOptions<kDim> options;
+    options.vertices = vertices;
+    options.time_limit = time_limit;
+    if (embedded) options.embedded_points = points_of<kDim>(*embedded);
+    return as_python(without_gil([&] {
+      require_sound(cage);
+      options.embedded_points = embeddable_points(cage, options.embedded_points).points;
+      return mesh_in_parts<kDim>(cage, options, fill_by_any<kDim>);
+    }));
+  });
+}
+
+// --------------------------------------------------------------------------------------- solving
+
+// Watches a solve that runs without the GIL.
+class Watch {
+ public:
+  //! \param callback  a Python function or None; outlives the solve
+  explicit Watch(const py::object& callback) {
+    observer_.poll = [this] { poll(); };
+    if (callback.is_none()) return;
+    observer_.progress = [handle = py::handle(callback)](const Progress& progress) {
+      const py::gil_scoped_acquire gil;
+      const auto object = py::cast(progress);
+      const auto result = handle(object);
+      object.cast<Progress&>().objective = {};  // refers to the running solve
+      const int goes_on = result.is_none() ? 1 : PyObject_IsTrue(result.ptr());
+      if (goes_on < 0) throw py::error_already_set();
+      return goes_on != 0;
+    };
+  }
+
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  const Observer& observer() const { return observer_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Waiting for the GIL takes up to 5 ms while other Python threads compute.
+  void poll() {
+    constexpr std::chrono::milliseconds kInterval(100);
+    const auto now = Clock::now();
+    if (now - last_ < kInterval) return;
+    last_ = now;
+    throw_if_interrupted();
+  }
+
+  Observer observer_;
+  Clock::time_point last_ = Clock::now();
+};
+
+SolverOptions options_here(const py::dict& keywords) {
+  auto options = options_of(keywords);
+  if (is_forked) options.threads = 1;
+  return options;
+}
+
+py::tuple solved(Solution solution, bool sparse) {
+  auto report = as_dict(solution.report);
+  if (sparse) return py::make_tuple(as_python(std::move(solution.sparse_weights)), report);
+  return py::make_tuple(as_python(std::move(solution.weights)), report);
+}
+
+py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& vertices,
+                const Indices& cells, const py::dict& keywords, const py::object& callback) {
+  return by_dimension(points, [&](auto dim) -> py::tuple {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto domain = mesh_of<kDim>(vertices, cells);
+    const auto options = options_here(keywords);
+    const Watch watch(callback);
+    auto solution = without_gil([&] {
+      return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), watch.observer());
+    });
+    return solved(std::move(solution), options.sparse);
+  });
+}
+
+template <class Solver>
+struct DimensionOf;
+template <int Dim>
+struct DimensionOf<Solver<Dim>> : std::integral_constant<int, Dim> {};
+
+// A Solver of either dimension, for one thread at a time.
+class AnySolver {
+  struct Release {
+    void operator()(std::atomic<bool>* flag) const { *flag = false; }
+  };
+
+  template <class Action>
+  auto use(const Action& action) {
+    if (is_used_.exchange(true)) {
+      throw Error("this Solver is in use, by another thread or by the caller of this callback");
+    }
+    const std::unique_ptr<std::atomic<bool>, Release> lock(&is_used_);
+    return std::visit([&](auto& solver) { return action(*solver); }, solver_);
+  }
+
+  template <class Action>
+  py::tuple run(const py::object& callback, const Action& action) {
+    return use([&](auto& solver) {
+      const Watch watch(callback);
+      // A copy, because the Solver needs its weights for the next move.
+      return solved(without_gil([&] { return Solution(action(solver, watch.observer())); }), false);
+    });
+  }
+
+ public:
+  AnySolver(const Doubles& points, const Indices& facets, const Doubles& vertices,
+            const Indices& cells, const py::dict& keywords) {
+    by_dimension(points, [&](auto dim) {
+      constexpr int kDim = decltype(dim)::value;
+      auto cage = cage_of<kDim>(points, facets);
+      auto domain = mesh_of<kDim>(vertices, cells);
+      const auto options = options_here(keywords);
+      solver_ = without_gil([&] {
+        return std::make_unique<Solver<kDim>>(std::move(cage), std::move(domain), options,
+                                              coarse_mesher<kDim>());
+      });
+    });
+  }
+
+  py::tuple solve(int iterations, double seconds, const py::object& callback) {
+    return run(callback, [&](auto& solver, const Observer& observer) {
+      return solver.solve({iterations, seconds}, observer);
+    });
+  }
+
+  py::tuple move(const Doubles& control_points, int iterations, double seconds,
+                 const py::object& callback) {
+    return run(callback, [&](auto& solver, const Observer& observer) {
+      constexpr int kDim = DimensionOf<std::decay_t<decltype(solver)>>::value;
+      return solver.move(points_of<kDim>(control_points), {iterations, seconds}, observer);
+    });
+  }
+
+  void anchor() {
+    use([](auto& solver) { without_gil([&] { solver.anchor(); }); });
+  }
+  void set_options(const py::dict& keywords) {
+    use([&](auto& solver) { solver.set_options(options_here(keywords)); });
+  }
+  void restart() {
+    use([](auto& solver) { solver.restart(); });
+  }
+  py::dict options() {
+    return use([](auto& solver) { return as_dict(solver.options()); });
+  }
+  py::tuple cage() {
+    return use([](auto& solver) { return as_python(solver.cage()); });
+  }
+  py::tuple mesh() {
+    return use([](auto& solver) { return as_python(solver.mesh()); });
+  }
+
+ private:
+  std::variant<std::unique_ptr<Solver<2>>, std::unique_ptr<Solver<3>>> solver_;
+  std::atomic<bool> is_used_{false};
+};
+
+}  // namespace
+
+void use_threads_of_this_process() {
+  // Also in CHOLMOD, which has its own number of threads.
+  if (is_forked) omp_set_max_active_levels(0);
+}
+
+void bind_solving(py::module_& module) {
+  module.def("has_forked", [] { is_forked = true; });
+  module.def("option_names", &option_names);
+  module.def("mesh", &mesh);
+  module.def("solve", &solve);
+
+  py::class_<Progress>(module, "Progress", "Progress of a solve, for callbacks.")
+      .def_readonly("iteration", &Progress::iteration, "int: counted from 1")
+      .def_readonly("primal_residual", &Progress::primal_residual,
+                    "float: residual or estimated error, divided by its threshold")
+      .def_readonly("dual_residual", &Progress::dual_residual,
+                    "float: divided by its threshold; 0 if the method has none")
+      .def_readonly("finer_levels", &Progress::finer_levels,
+                    "int: meshes or parts that follow this one")
+      .def(
+          "objective",
+          [](const Progress& progress) {
+            if (!progress.objective) throw Error("objective() works only during the callback");
+            return progress.objective();
+          },
+          "Computes the objective of the current weights, in about the time of two iterations.");
+
+  py::class_<AnySolver>(module, "Solver")
+      .def(py::init<const Doubles&, const Indices&, const Doubles&, const Indices&,
+                    const py::dict&>())
+      .def("solve", &AnySolver::solve)
+      .def("move", &AnySolver::move)
+      .def("anchor", &AnySolver::anchor)
+      .def("set_options", &AnySolver::set_options)
+      .def("restart", &AnySolver::restart)
+      .def("options", &AnySolver::options)
+      .def("cage", &AnySolver::cage)
+      .def("mesh", &AnySolver::mesh);
+}
+
+}  // namespace flbc::python

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solves: equal to those of the program, without copies, interrupted, in threads and processes."""
+import gc
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import flbc
+import numpy as np
+import pytest
+from conftest import MESHES
+
+
+@pytest.mark.parametrize("name, vertices", [("2d/figure", 3000), ("3d/limb", 2000)])
+@pytest.mark.parametrize(
+    "options", [{}, {"active_set": "on"}, {"smoothness": 0.01}, {"method": "gradient"}]
+)
+def test_weights_equal_those_of_the_program(program, tmp_path, name, vertices, options):
+    cage_file, model_file = MESHES / f"{name}_cage.obj", MESHES / f"{name}_model.obj"
+    cage = flbc.read_cage(cage_file)
+    mesh = flbc.mesh(cage, vertices=vertices)
+    flags = []
+    for option, value in options.items():
+        flags += [f"--{option.replace('_set', '')}", value]
+    common = [cage_file, "--vertices", vertices, "-q", *flags]
+    program("solve", *common, "-o", tmp_path / "mesh.npy")
+    program("solve", *common, "--model", model_file, "-o", tmp_path / "model.npy")
+    solution = flbc.solve(cage, mesh, **options)
+    assert np.array_equal(solution.weights, np.load(tmp_path / "mesh.npy"))
+    vertices, _ = flbc.read_model(model_file, dim=cage.dim)
+    assert np.array_equal(solution.at(vertices), np.load(tmp_path / "model.npy"))
+    assert solution.converged and solution.report["status"] == "converged"
+    sparse = flbc.solve(cage, mesh, sparse=True, **options)
+    assert np.array_equal(sparse.weights.toarray(), solution.weights)
+    assert np.array_equal(sparse.at(vertices).toarray(), solution.at(vertices))
+
+
+def test_weights_are_not_copied(square, flat):
+    weights = flat.weights
+    assert weights.ctypes.data == flat.weights.ctypes.data
+    assert not weights.flags.owndata and weights.flags.c_contiguous
+    # The memory belongs to the solver's matrix, and the view keeps it.
+    assert type(weights.base).__name__ == "PyCapsule"
+    solution = flbc.solve(square, flat.mesh)
+    address, column = solution.weights.ctypes.data, solution.weights[:, 1]
+    expected = column.copy()
+    del solution
+    gc.collect()
+    assert column.ctypes.data == address + column.itemsize
+    assert np.array_equal(column, expected)
+
+
+def test_results_are_coordinates(flat, solid):
+    for solution in (flat, solid):
+        weights, mesh, cage = solution.weights, solution.mesh, solution.cage
+        assert weights.shape == (len(mesh), len(cage)) and weights.dtype == np.float64
+        assert weights.min() >= 0 and abs(weights.sum(axis=1) - 1).max() < 1e-13
+        assert abs(flbc.deform(weights, cage.points) - mesh.points).max() < 1e-12
+        assert flbc.measure(weights, cage, mesh)["violations"] == []
+
+
+@pytest.mark.parametrize(
+    "method", ["value", "gradient", "paper", "lbc2014", "harmonic", "meanvalue"]
+)
+def test_every_method(flat, method):
+    solution = flbc.solve(flat.cage, flat.mesh, method=method, tolerance=1e-4)
+    assert solution.report["method"] == method
+    assert abs(flbc.deform(solution.weights, flat.cage.points) - flat.mesh.points).max() < 1e-6
+
+
+def test_certificate(flat):
+    assert flat.certificate is None or flat.report["criterion"] == "gap"
+    certificate = flbc.solve(flat.cage, flat.mesh, certify=True).certificate
+    assert 0 <= certificate.relative_gap < 1e-2
+    assert certificate.lower_bound <= certificate.objective
+
+
+def test_not_converged_is_a_warning(flat):
+    with pytest.warns(flbc.NotConverged, match="3 iterations") as caught:
+        solution = flbc.solve(flat.cage, flat.mesh, max_iterations=3)
+    assert caught[0].filename == __file__
+    assert not solution.converged and solution.report["iterations"] == 3
+
+
+def test_embedded_points_are_vertices(limb):
+    cage, vertices = limb[0], limb[1][::20]
+    mesh = flbc.mesh(cage, vertices=4000, points=vertices)
+    assert np.array_equal(mesh.points[: len(cage)], cage.points)
+    assert np.array_equal(mesh.points[len(cage) :][: len(vertices)], vertices)
+    with pytest.raises(flbc.TooFewVertices, match="[0-9]"):
+        flbc.mesh(cage, vertices=10)
+
+
+# ---- callbacks ----------------------------------------------------------------------------------
+def test_callbacks_follow_stop_and_raise(flat):
+    seen = []
+
+    def follow(progress):
+        seen.append((progress.iteration, progress.primal_residual, progress.objective()))
+
+    solution = flbc.solve(flat.cage, flat.mesh, callback=follow, check_interval=5)
+    assert np.array_equal(solution.weights, flbc.solve(flat.cage, flat.mesh).weights)
+    assert seen[0][0] == 5 and all(objective > 0 for _, _, objective in seen)
+
+    stopped = flbc.solve(flat.cage, flat.mesh, callback=lambda p: p.iteration < 20)
+    assert stopped.report["status"] == "stopped" and stopped.report["iterations"] == 20
+
+    def fail(progress):
+        raise LookupError(f"iteration {progress.iteration}")
+
+    with pytest.raises(LookupError, match="iteration 10"):
+        flbc.solve(flat.cage, flat.mesh, callback=fail)
+    kept = []
+    flbc.solve(flat.cage, flat.mesh, callback=kept.append)
+    with pytest.raises(flbc.Error, match="during the callback"):
+        kept[0].objective()
+
+
+SLOW = """
+import flbc, time
+cage = flbc.read_cage({cage!r})
+mesh = flbc.mesh(cage, vertices=8000)
+print("ready", flush=True)
+flbc.solve(cage, mesh, tolerance=1e-30, gap=0, max_iterations=10**6, coarse_to_fine="off")
+"""
+
+
+def test_ctrl_c_stops_a_solve():
+    code = SLOW.format(cage=str(MESHES / "3d/limb_cage.obj"))
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(2)
+    process.send_signal(signal.SIGINT)
+    start = time.perf_counter()
+    _, errors = process.communicate(timeout=60)
+    assert "KeyboardInterrupt" in errors and process.returncode == -signal.SIGINT
+    assert time.perf_counter() - start < 5  # with other tests at the same time
+
+
+def test_other_threads_run_meanwhile(solid):
+    ticks, done = [], threading.Event()
+
+    def count():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begin = time.perf_counter()
+    flbc.solve(solid.cage, solid.mesh, threads=1)
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    assert sum(begin < tick < end for tick in ticks) > 20
+
+
+def test_two_threads_solve_at_once(flat, solid):
+    found = {}
+
+    def solve(key, solution):
+        found[key] = flbc.solve(solution.cage, solution.mesh)
+
+    threads = [
+        threading.Thread(target=solve, args=(k, solution))
+        for k, solution in enumerate([solid, solid, flat, flat])
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for k, solution in enumerate([solid, solid, flat, flat]):
+        assert np.array_equal(found[k].weights, solution.weights)
+
+
+def _solve_again(pipe, solution):
+    pipe.send(flbc.solve(solution.cage, solution.mesh, threads=2).weights)
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_other_processes_solve(solid, method):
+    flbc.solve(solid.cage, solid.mesh, threads=2)  # starts threads, which a fork does not copy
+    context = multiprocessing.get_context(method)
+    here, there = context.Pipe()
+    process = context.Process(target=_solve_again, args=(there, solid))
+    process.start()
+    try:
+        assert here.poll(120), "the process hangs"
+        assert np.array_equal(here.recv(), solid.weights)
+    finally:
+        process.kill()
+        process.join()
+
+
+# ---- Solver -------------------------------------------------------------------------------------
+def test_solver_continues(flat):
+    solver = flbc.Solver(flat.cage, flat.mesh, penalty=1.0)
+    first = solver.solve(iterations=3)
+    assert not first.converged and first.report["iterations"] == 3
+    kept = first.weights.copy()
+    last = solver.solve()
+    assert last.converged and np.array_equal(first.weights, kept)
+    whole = flbc.Solver(flat.cage, flat.mesh, penalty=1.0).solve()
+    assert np.array_equal(last.weights, whole.weights)
+    solver.set_options(tolerance=1e-9)
+    assert solver.options["tolerance"] == 1e-9 and solver.options["penalty"] == 1.0
+    assert solver.solve().converged
+    solver.restart()
+    assert solver.solve(seconds=1e-9).report["iterations"] >= 1
+
+
+@pytest.mark.parametrize("which", ["flat", "solid"])
+def test_solver_moves_the_rest_cage(which, request):
+    solution = request.getfixturevalue(which)
+    solver = flbc.Solver(solution.cage, solution.mesh)
+    moved = solution.cage.points * ([1.1] + [1.0] * (solution.cage.dim - 1))
+    after = solver.move(moved)
+    assert np.array_equal(solver.cage.points, moved)
+    assert np.array_equal(after.mesh.points, solver.mesh.points)
+    assert abs(flbc.deform(after.weights, moved) - after.mesh.points).max() < 1e-12
+    solver.anchor()
+    with pytest.raises(flbc.InputError, match="control_points"):
+        solver.move(moved[1:])
+
+
+def test_solver_is_for_one_thread_at_a_time(flat):
+    solver = flbc.Solver(flat.cage, flat.mesh)
+    with pytest.raises(flbc.Error, match="in use"):
+        solver.solve(callback=lambda progress: solver.restart())
+    assert solver.solve().converged
+
+
+def test_results_can_be_pickled(flat, limb):
+    copy = pickle.loads(pickle.dumps(flat))
+    assert np.array_equal(copy.weights, flat.weights) and copy.report == flat.report
+    assert np.array_equal(copy.mesh.cells, flat.mesh.cells)
+    assert np.array_equal(copy.cage.facets, flat.cage.facets)
+
+
+def test_import_is_fast():
+    """Little more than NumPy, and nothing else."""
+    code = "import sys, time; import numpy; t = time.perf_counter(); import flbc; " \
+        "print(time.perf_counter() - t, 'scipy' in sys.modules)"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    seconds, has_scipy = found.stdout.split()
+    assert float(seconds) < 0.2 and has_scipy == "False"
+    assert os.environ["FLBC_BUILD_DIR"] in flbc.__file__

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is done with weights: few influences, deformation, transfer, checks, binding."""
+import flbc
+import numpy as np
+import pytest
+import scipy.sparse
+from conftest import MESHES
+
+
+@pytest.fixture(scope="module")
+def model(limb, solid):
+    cage, vertices, faces = limb
+    return cage, vertices, faces, solid.at(vertices)
+
+
+def reproduces(weights, cage, points):
+    return abs(flbc.deform(weights, cage.points) - points).max() < 1e-10
+
+
+def test_sparsify_without_and_with_faces(model):
+    cage, vertices, faces, weights = model
+    for options in ({}, {"faces": faces}, {"faces": faces, "poses": [cage.points * 1.1]}):
+        few = flbc.sparsify(weights, cage, vertices, k=5, **options)
+        assert isinstance(few, scipy.sparse.csr_matrix) and few.shape == weights.shape
+        assert few.getnnz(axis=1).max() <= 5 and few.data.min() >= 0
+        assert reproduces(few, cage, vertices)
+        # The same from sparse weights, with entries in any order.
+        mixed = scipy.sparse.coo_matrix(weights)
+        assert abs(flbc.sparsify(mixed, cage, vertices, k=5, **options) - few).max() == 0
+    kept = flbc.sparsify(weights, cage, vertices, k=None, threshold=1e-3)
+    assert kept.nnz < np.count_nonzero(weights)
+    with pytest.raises(flbc.OptionError):
+        flbc.sparsify(weights, cage, vertices, threshold=2)
+
+
+def test_deform_dense_and_sparse(model, moved):
+    cage, vertices, _, weights = model
+    sparse = scipy.sparse.csr_matrix(weights)
+    assert np.allclose(flbc.deform(weights, moved), flbc.deform(sparse, moved), atol=1e-13)
+    assert np.array_equal(flbc.deform(weights, moved), weights @ moved)
+
+
+def test_outside_points(flat):
+    beside = [[1.5, 0.5]]
+    assert np.allclose(flbc.deform(flat.at(beside, outside="nearest"), flat.cage.points), [1, 0.5])
+    extended = flat.at(beside, outside="extend")
+    assert extended.min() < 0
+    assert np.allclose(flbc.deform(extended, flat.cage.points), beside)
+
+
+def test_transfer(model):
+    cage, vertices, faces, weights = model
+    centers = vertices[faces].mean(axis=1)
+    found = flbc.transfer(weights, cage, vertices, faces, centers)
+    assert reproduces(found, cage, centers) and found.min() >= 0
+    same = flbc.transfer(scipy.sparse.csr_matrix(weights), cage, vertices, faces, centers)
+    assert np.array_equal(same, found)
+    with pytest.raises(flbc.InputError, match="away|limit|far"):
+        flbc.transfer(weights, cage, vertices, faces, centers + [0, 0.2, 0], limit=1e-3)
+
+
+def test_mean_value_coordinates(square):
+    points = [[0.5, 0.5], [2, 0.5]]
+    weights = flbc.mean_value(square, points)
+    assert np.allclose(weights[0], 0.25) and np.allclose(weights @ square.points, points)
+
+
+def test_measures(model):
+    cage, vertices, _, weights = model
+    found = flbc.measure(weights, cage, vertices)
+    assert found["violations"] == [] and found["min_weight"]["value"] >= 0
+    wrong = weights.copy()
+    wrong[7] *= 2
+    found = flbc.measure(wrong, cage, vertices)
+    assert found["partition"]["point"] == 7 and found["violations"]
+
+
+# ---- cages --------------------------------------------------------------------------------------
+def test_defects_are_found_and_repaired(limb):
+    cage, vertices, _ = limb
+    assert flbc.check(cage, vertices) == []
+    opened = flbc.Cage(cage.points, cage.facets[1:])
+    defects = flbc.check(opened)
+    assert [defect.kind for defect in defects] == ["open"] * 3
+    hole = set(cage.facets[0].tolist())
+    for defect in defects:
+        assert set(defect.elements["vertices"]) < hole and defect.places.shape == (3, 3)
+        assert np.array_equal(defect.places[0], cage.points[defect.elements["vertices"][0]])
+    with pytest.raises(flbc.InputError, match="open"):
+        flbc.mesh(opened)
+    repaired = flbc.repair(opened)
+    assert flbc.check(repaired.cage) == [] and repaired.changes
+    assert np.array_equal(repaired.new_numbers, np.arange(len(cage)))
+    crossed = flbc.Cage([[0, 0], [1, 1], [1, 0], [0, 1]])
+    assert [defect.kind for defect in flbc.check(crossed)] == ["self-intersection"]
+    far = flbc.check(cage, vertices + [100, 0, 0])
+    assert far[0].kind == "outside" and far[0].places.shape == vertices.shape
+
+
+SQUARE = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
+TETRAHEDRON = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+BESIDE = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
+
+
+@pytest.mark.parametrize(
+    "kind, points, facets",
+    [
+        ("count", SQUARE[:2], [[0, 1]]),
+        ("non-finite", [*SQUARE, [0.5, np.nan]], None),
+        ("extent", np.multiply(SQUARE, 1e-40), None),
+        ("index", SQUARE, [[0, 0], [1, 2], [2, 3], [3, 0]]),
+        ("coincident", [*SQUARE, SQUARE[3]], None),
+        ("unreferenced", [*SQUARE, [0.5, 0.5]], [[0, 1, 2, 3]]),
+        ("flat", [[0, 0], [1, 1], [2, 2], [3, 3]], None),
+        ("degenerate", [*TETRAHEDRON, [0.5, 0, 0]], [*FACES[1:], [0, 2, 4], [4, 2, 1], [0, 4, 1]]),
+        ("duplicate", TETRAHEDRON, [*FACES, FACES[0]]),
+        ("open", [*TETRAHEDRON, [0.3, 0.3, 0]], [*FACES[1:], [0, 2, 4], [2, 1, 4]]),
+        ("non-manifold", [*TETRAHEDRON, [0, -1, 0], [0, 0, -1]], [*FACES, *BESIDE]),
+        ("orientation", TETRAHEDRON, [FACES[0][::-1], *FACES[1:]]),
+        ("self-intersection", np.array(SQUARE)[[0, 2, 1, 3]], None),
+    ],
+)
+def test_kinds_of_defects(kind, points, facets):
+    defects = flbc.check(flbc.Cage(points, facets))
+    assert kind in {defect.kind for defect in defects}
+    assert all(defect.message for defect in defects)
+
+
+@pytest.mark.parametrize("name", ["2d/letter", "3d/limb"])
+def test_cages_around_models(name):
+    vertices, faces = flbc.read_model(MESHES / f"{name}_model.obj")
+    cage = flbc.make_cage(vertices, faces, control_points=40)
+    assert len(cage) <= 40 and flbc.check(cage, vertices) == []
+
+
+# ---- in one call --------------------------------------------------------------------------------
+def test_bind_equals_its_steps(limb, moved):
+    cage, vertices, faces = limb
+    binding = flbc.bind(vertices, faces, cage.points, cage.facets, mesh_vertices=2000)
+    solution = flbc.solve(cage, flbc.mesh(cage, vertices=2000), sparse=True)
+    few = flbc.sparsify(solution.at(vertices), cage, vertices, 8, faces=faces)
+    assert abs(binding.weights - few).max() == 0 and binding.offsets is None
+    assert np.array_equal(binding.deform(moved), flbc.deform(few, moved))
+    assert binding.report["converged"]
+    every = flbc.bind(vertices, faces, cage, domain=solution.mesh, max_influences=0)
+    assert abs(every.weights - solution.at(vertices)).max() == 0
+
+
+def test_bind_keeps_vertices_outside_at_an_offset(square):
+    points = [[0.5, 0.5], [1.25, 0.5]]
+    with pytest.raises(flbc.InputError, match="outside"):
+        flbc.bind(points, None, square, mesh_vertices=200)
+    binding = flbc.bind(points, None, square, mesh_vertices=200, outside="nearest")
+    assert binding.outside.tolist() == [1]
+    assert np.allclose(binding.deform(square.points), points)
+    assert np.allclose(binding.deform(square.points + [0, 3]), np.add(points, [0, 3]))
