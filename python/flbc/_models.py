@@ -216,6 +216,7 @@ def bind(
     Other Parameters
     ----------------
     {options}
+        Unlike in `solve`, the default of ``smoothness`` is 0.003.
 
     Returns
     -------
@@ -229,6 +230,8 @@ def bind(
         If an option is out of range.
     """
     given = checked(options, "bind")
+    if given.get("method", "auto") in ("auto", "value", "gradient"):
+        given.setdefault("smoothness", 0.003)  # as flbc run and openmesh::bind()
     given["sparse"] = True
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
     points = as_points(vertices, "vertices", cage.dim)
