@@ -209,6 +209,8 @@ def bind(
         A given mesh of the cage interior.
     max_influences : int, default 8
         Per vertex; 0 to keep all weights.
+    smoothness : float, default 0.003
+        As in `solve`, but with another default.
     outside : str, default "fail"
         For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
         cage at a constant offset; or "extend", which needs ``max_influences=0``.
@@ -216,7 +218,6 @@ def bind(
     Other Parameters
     ----------------
     {options}
-        Unlike in `solve`, the default of ``smoothness`` is 0.003.
 
     Returns
     -------

@@ -11,7 +11,7 @@ from common import flbc, write
 CAGE = common.MESHES / "2d" / "figure_cage.obj"
 CONTROL_POINT = 32
 VALUES = ("0", "0.003", "0.01", "0.03", "harmonic")
-PANEL, WIDTH, TOP = 420, 340, 44  # of a picture, of the part with the cage, above it
+PANEL, WIDTH, TOP = 420, 372, 44  # of a picture, of the part with the cage, above it
 
 
 def main(path, work):
@@ -35,8 +35,7 @@ def main(path, work):
         title = "harmonic" if value == "harmonic" else f"smoothness {value}"
         write(draw, (middle, 28), title, 26, weight="Bold")
         bottom = TOP + picture.height + 14
-        write(draw, (middle, bottom), f"{found['mean_influences']:.1f} influences", 22)
-        write(draw, (middle, bottom + 30), f"jump of gradients {found['mesh']['gradient_jump']:.2f}", 22)
+        write(draw, (middle, bottom), f"{found['mean_influences']:.1f} influences per vertex", 22)
     common.save(page, path)
 
 
