@@ -11,7 +11,7 @@ from common import flbc, write
 CAGE = common.MESHES / "2d" / "figure_cage.obj"
 CONTROL_POINT = 32
 VALUES = ("0", "0.003", "0.01", "0.03", "harmonic")
-PANEL, WIDTH, TOP = 420, 372, 44  # of a picture, of the part with the cage, above it
+PANEL, WIDTH, TOP = 420, 364, 44  # of a picture, of the part with the cage, above it
 
 
 def main(path, work):
@@ -27,7 +27,7 @@ def main(path, work):
              "--width", PANEL, "-o", picture)
         found = common.check(CAGE, "--domain", domain, "--weights", weights)["weights"]
         panels.append((value, common.Image.open(picture).convert("RGB"), found))
-    height = TOP + panels[0][1].height + 76
+    height = TOP + panels[0][1].height + 44
     page, draw = common.page(WIDTH * len(panels), height)
     for k, (value, picture, found) in enumerate(panels):
         middle = k * WIDTH + WIDTH / 2
