@@ -68,7 +68,8 @@ enum class Recovery {
 //! (docs/explanation/smooth_weights.md).
 constexpr double kDeformationSmoothness = 0.003;
 
-//! Options of the gradient methods, kGradient and kPaper.struct GradientOptions {
+//! Options of the gradient methods, kGradient and kPaper.
+struct GradientOptions {
   //! Method of recovering weights from gradients.
   Recovery recovery = Recovery::kAuto;
 };
