@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/QR>
+
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/stage_progress.h"
