@@ -72,9 +72,9 @@ class RunCommand : public CommandLineTest {
     const auto cage = sample(name + "_cage.obj");
     const auto model = sample(name + "_model.obj");
     const auto pose = sample(name + "_cage_pose.obj");
-    const std::string solver = " --tolerance 1e-4";
+    const std::string solver = " --tolerance 1e-4 --smoothness 0.003";
     const auto result = run_into(
-        "out", cage + " " + model + " --pose " + pose + " -k 6" + solver + " --vertices 1500");
+        "out", cage + " " + model + " --pose " + pose + " -k 6" + " --tolerance 1e-4 --vertices 1500");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{

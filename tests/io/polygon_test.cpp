@@ -115,7 +115,7 @@ TEST_F(PolygonFile, MalformedObj) {
       {
           {"", ":1: ", "without a vertex"},
           {"# nothing\n\n", ":2: ", "without a vertex"},
-          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ":", "without a vertex"},
+          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ", "it looks like a binary file"},
           {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
           {"v 0 0 0\nv 1\n", ":2: ", "expected a number, found the end of the line"},
           {"v", ":1: ", "expected a number, found the end of the file"},
@@ -179,7 +179,7 @@ TEST_F(PolygonFile, MalformedOff) {
       "soup.off", read_polygons,
       {
           {"", ":1: ", "it is empty"},
-          {std::string("\0\xff\xfe\x01 garbage\n", 13), ":1: ", "expected OFF, found \"????\""},
+          {std::string("\0\xff\xfe\x01 garbage\n", 13), ": ", "it looks like a binary file"},
           {"3 1 0\n0 0 0\n", ":1: ", "expected OFF, found \"3\""},
           {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},
           {"nOFF\n", ":1: ", "\"nOFF\" is not supported"},

@@ -78,7 +78,7 @@ TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
   hasty.time_limit = 0.2;
   EXPECT_NE(message_of<InputError>([&] {
               tetrahedralize_by_netgen(cage, hasty);
-            }).find("time limit of 0.2 s (--mesh-timeout)"),
+            }).find("time limit of 0.2 s (time_limit)"),
             std::string::npos);
   // One limit for all that is tried where a run fails.
   hasty.time_limit = 2;

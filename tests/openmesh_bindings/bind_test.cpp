@@ -104,7 +104,9 @@ TYPED_TEST_SUITE(Bind, Cases);
 TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   constexpr int kDimension = TypeParam::kDim;
   const auto& [cage, domain, name] = this->sample_;
-  const auto solution = solve(cage, domain);
+  SolverOptions solver;
+  make_smooth(solver);
+  const auto solution = solve(cage, domain, solver);
   auto valid = domain;
   normalize_and_validate(valid);
   const auto all =
