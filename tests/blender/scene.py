@@ -94,3 +94,14 @@ def set_key(item, name, points):
     item.data.update()
     item.update_tag()
     return key
+
+
+def show_panel():
+    """Opens the sidebar. Its first tab becomes that of the add-on, because no other is left."""
+    for panel in bpy.types.Panel.__subclasses__():
+        if (getattr(panel, 'bl_space_type', '') == 'VIEW_3D' and panel.is_registered
+                and getattr(panel, 'bl_region_type', '') == 'UI' and panel.bl_category != 'Cage'):
+            bpy.utils.unregister_class(panel)
+    for area in bpy.context.window_manager.windows[0].screen.areas:
+        if area.type == 'VIEW_3D':
+            area.spaces.active.show_region_ui = True

@@ -43,17 +43,6 @@ def model():
     return bpy.data.objects['limb_model']
 
 
-def show_panel():
-    """Opens the sidebar. Its first tab becomes that of the add-on, because no other is left."""
-    for panel in bpy.types.Panel.__subclasses__():
-        if (getattr(panel, 'bl_space_type', '') == 'VIEW_3D' and panel.is_registered
-                and getattr(panel, 'bl_region_type', '') == 'UI' and panel.bl_category != 'Cage'):
-            bpy.utils.unregister_class(panel)
-    for area in bpy.context.window_manager.windows[0].screen.areas:
-        if area.type == 'VIEW_3D':
-            area.spaces.active.show_region_ui = True
-
-
 def steps():
     from local_barycentric_cage import operators, panel
     scene.load(f'{MESHES}/3d/limb_model.obj')
@@ -63,7 +52,7 @@ def steps():
     draws = []
     draw = panel.FLBC_PT_cage._draw_state
     panel.FLBC_PT_cage._draw_state = lambda self, item: (draw(self, item), draws.append(item.name))
-    show_panel()
+    scene.show_panel()
     scene.select(model())
     bpy.ops.ed.undo_push(message='before')
     yield
