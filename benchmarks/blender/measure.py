@@ -17,7 +17,7 @@ import scene  # noqa: E402
 
 PROGRAM, ADDON, MODEL, CAGE = scene.arguments()
 sys.path.insert(0, str(Path(ADDON).parent))
-FRAMES, BINDS = 30, 5
+FRAMES = 30
 
 
 def new_scene():
@@ -48,12 +48,12 @@ def measure(model, cage):
     return 1e3 * statistics.median(frames), affine
 
 
-def bound_by_addon(quality, influences):
+def bound_by_addon(quality, influences, binds):
     model, cage = new_scene()
     bpy.context.scene.flbc.quality = quality
     bpy.context.scene.flbc.influences = influences
     seconds = []
-    for _ in range(BINDS):
+    for _ in range(binds):
         start = time.perf_counter()
         bpy.ops.flbc.bind()
         seconds.append(time.perf_counter() - start)
@@ -85,7 +85,8 @@ def bound_by_mesh_deform(precision):
 
 
 print(f'{Path(MODEL).name}, Blender {bpy.app.version_string}')
-for quality, influences in (('DRAFT', '8'), ('GOOD', '8'), ('GOOD', '4'), ('EXACT', '8')):
-    bound_by_addon(quality, influences)
+for quality, influences, binds in (('DRAFT', '8', 5), ('GOOD', '8', 5), ('GOOD', '4', 5),
+                                   ('EXACT', '8', 1)):
+    bound_by_addon(quality, influences, binds)
 for precision in (5, 6):
     bound_by_mesh_deform(precision)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cage deformation by local barycentric coordinates, computed by the program flbc."""
+import atexit
+
 import bpy
 
 from . import binding, operators, panel, preferences
@@ -19,14 +21,14 @@ _CLASSES = (*preferences.CLASSES, binding.Binding, *operators.CLASSES, *panel.CL
 def register():
     for item in _CLASSES:
         bpy.utils.register_class(item)
+    atexit.register(operators.stop)
     bpy.types.Scene.flbc = bpy.props.PointerProperty(type=preferences.SceneSettings)
     bpy.types.Object.flbc = bpy.props.PointerProperty(type=binding.Binding)
 
 
 def unregister():
-    if operators.running:
-        operators.running.cancel()
-        operators.running = None
+    operators.stop()
+    atexit.unregister(operators.stop)
     del bpy.types.Object.flbc
     del bpy.types.Scene.flbc
     for item in reversed(_CLASSES):

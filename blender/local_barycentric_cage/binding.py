@@ -11,10 +11,18 @@ import numpy as np
 from . import files, mesh, nodes
 from .program import Command, Refusal
 
-QUALITIES = {  # options of flbc solve
-    'DRAFT': ['--vertices', 2000, '--tolerance', 1e-5, '--outside', 'nearest'],
-    'GOOD': ['--outside', 'nearest'],
-    'EXACT': ['--embed'],
+
+class _Quality(NamedTuple):
+    solve: list     # options of flbc solve
+    reduction: str  # method of flbc sparsify; empty: the largest weights are kept as they are
+
+
+QUALITIES = {
+    # One thread: so small a problem gains nothing from more, and Blender uses the others.
+    'DRAFT': _Quality(['--vertices', 1000, '--tolerance', 1e-4, '--outside', 'nearest',
+                       '--threads', 1], ''),
+    'GOOD': _Quality(['--outside', 'nearest'], 'quadratic'),
+    'EXACT': _Quality(['--embed'], 'poisson'),
 }
 POSE = 'Pose'
 # Modifiers that change the number of vertices.
@@ -126,36 +134,30 @@ class _Task:
 
     def _solve(self, settings):
         """Returns indices and weights of all vertices, and a note for the user."""
-        folder, solved = self._folder, self._folder / 'solved.mtx'
-        options = list(QUALITIES[settings.quality])
-        if settings.smoothness > 0:
-            options += ['--smoothness', settings.smoothness]
+        folder = self._folder
+        solved, reduced = folder / 'solved.npy', folder / 'reduced.npy'
+        quality, k = QUALITIES[settings.quality], settings.influences
+        smoothness = ['--smoothness', settings.smoothness] if settings.smoothness > 0 else []
         note = yield self._command(
             settings, 'solve', folder / 'cage.ply', '--model', folder / 'model.ply', '-o', solved,
-            '--report', folder / 'report.json', *options)
+            '--report', folder / 'report.json', *smoothness, *quality.solve)
         outside = json.loads((folder / 'report.json').read_text())['outside']
         count = outside['outside']['count']
         if count == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
         if count:
             note += f'{count} vertices are outside the cage and follow its nearest point'
-        if settings.quality != 'DRAFT':
-            points = folder / 'model.ply'
-            if count + outside['on_cage']['count']:
-                points = folder / 'inside.ply'
-                self._write_where_weights_put_it(solved, points)
-            yield self._command(
-                settings, 'sparsify', solved, '--cage', folder / 'cage.ply', '--points', points,
-                '--method', 'poisson' if len(self._model.starts) else 'quadratic',
-                '-k', settings.influences, '-o', folder / 'reduced.mtx')
-            solved = folder / 'reduced.mtx'
-        return *files.largest(*files.read_mtx(solved), settings.influences), note
-
-    def _write_where_weights_put_it(self, solved, path):
-        (count, _), row, column, weight = files.read_mtx(solved)
-        points = np.stack([np.bincount(row, weight * x[column], count)
-                           for x in self._cage.points.T], axis=1)
-        files.write_ply(path, *self._model._replace(points=points))
+        if not quality.reduction:
+            return *files.largest_weights(solved, k), note
+        points = folder / 'model.ply'
+        if count + outside['on_cage']['count']:
+            points = folder / 'inside.ply'
+            places = files.weighted_points(solved, self._cage.points)
+            files.write_ply(points, *self._model._replace(points=places))
+        method = quality.reduction if len(self._model.starts) else 'quadratic'
+        yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
+                            '--points', points, '--method', method, '-k', k, '-o', reduced)
+        return *files.largest_weights(reduced, k), note
 
     def _items(self):
         return [bpy.data.objects.get(name)

@@ -33,32 +33,32 @@ def read_obj(path):
     return np.array(points), faces
 
 
-def read_mtx(path):
-    """Reads a sparse matrix in Matrix Market format.
+_ROWS = 1 << 16  # at a time, so that a large file is never in memory as a whole
 
-    Returns its shape, and the row, column, and value of each entry.
+
+def _slices(count):
+    return (slice(begin, min(begin + _ROWS, count)) for begin in range(0, count, _ROWS))
+
+
+def largest_weights(path, k):
+    """Reads a weight matrix (.npy) and keeps the k largest weights of each row, with sum 1.
+
+    Returns columns (V, k), int32, and weights (V, k), float32. Unused places have weight 0.
     """
-    with open(path, 'rb') as file:
-        line = file.readline()
-        while line.startswith(b'%'):
-            line = file.readline()
-        rows, columns, _ = map(int, line.split())
-        entries = np.fromfile(file, sep=' ').reshape(-1, 3)
-    return ((rows, columns), entries[:, 0].astype(np.int64) - 1, entries[:, 1].astype(np.int64) - 1,
-            entries[:, 2])
+    matrix = np.load(path, mmap_mode='r')
+    k_there = min(k, matrix.shape[1])
+    columns = np.zeros((len(matrix), k), np.int32)
+    weights = np.zeros((len(matrix), k), np.float32)
+    for rows in _slices(len(matrix)):
+        part = matrix[rows]
+        places = np.argpartition(part, -k_there, axis=1)[:, -k_there:]
+        kept = np.take_along_axis(part, places, axis=1)
+        columns[rows, :k_there] = np.where(kept > 0, places, 0)
+        weights[rows, :k_there] = kept / kept.sum(1, keepdims=True)
+    return columns, weights
 
 
-def largest(shape, row, column, value, k):
-    """Keeps the k largest entries of each row, scaled so that they sum to 1.
-
-    Returns columns (rows, k), int32, and values (rows, k), float32. Unused places are 0 in both.
-    """
-    order = np.lexsort((-value, row))
-    row, column, value = row[order], column[order], value[order]
-    place = np.arange(len(row)) - np.searchsorted(row, row)
-    kept = place < k
-    columns = np.zeros((shape[0], k), np.int32)
-    values = np.zeros((shape[0], k))
-    columns[row[kept], place[kept]] = column[kept]
-    values[row[kept], place[kept]] = value[kept]
-    return columns, (values / values.sum(1, keepdims=True)).astype(np.float32)
+def weighted_points(path, points):
+    """The product of a weight matrix (.npy) and the points of its columns."""
+    matrix = np.load(path, mmap_mode='r')
+    return np.concatenate([matrix[rows] @ points for rows in _slices(len(matrix))])

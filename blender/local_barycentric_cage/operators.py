@@ -8,6 +8,14 @@ from .program import Refusal
 running = None  # the Job in the background
 
 
+def stop():
+    """Stops the Job in the background."""
+    global running
+    if running:
+        running.cancel()
+        running = None
+
+
 def selected_models(context):
     """Selected meshes except for the cage."""
     cage = context.scene.flbc.cage
@@ -186,9 +194,7 @@ class FLBC_OT_cancel(bpy.types.Operator):
         return running is not None
 
     def execute(self, _context):
-        global running
-        running.cancel()
-        running = None
+        stop()
         return {'FINISHED'}
 
 

@@ -28,7 +28,7 @@ class SceneSettings(bpy.types.PropertyGroup):
         items=(('4', '4', 'At most 4 control points move a vertex'),
                ('8', '8', 'At most 8 control points move a vertex')))
     smoothness: bpy.props.FloatProperty(
-        name='Smoothness', min=0, max=1, soft_max=0.03, precision=4, step=0.1,
+        name='Smoothness', min=0, max=0.03, precision=4, step=0.1,
         description='Avoids creases. Larger values reach farther. 0: as local as possible')
     quality: bpy.props.EnumProperty(
         name='Quality', default='GOOD',

@@ -57,7 +57,9 @@ class _Process:
         try:
             self._process = subprocess.Popen(
                 command.arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                stderr=theirs, start_new_session=True)
+                stderr=theirs, start_new_session=True,
+                # Threads that wait actively would slow down Blender, and be slowed down by it.
+                env={**os.environ, 'OMP_WAIT_POLICY': 'passive'})
         except OSError as error:
             os.close(self._terminal)
             raise Refusal(f'{command.arguments[0]}: {error.strerror}') from error
@@ -89,6 +91,8 @@ class _Process:
         text = '\n'.join(line for line in self._lines() if line.startswith('flbc'))
         for path, name in self._names.items():
             text = text.replace(str(path), name)
+        # Advice about the command line does not help in Blender.
+        text = re.sub(r'; [^;\n]*(--|flbc )[^;\n]*', '', text)
         return re.sub(r'^flbc[^:]*: ', '', text, flags=re.M)
 
     def stop(self):

@@ -297,12 +297,23 @@ class AddonTest(unittest.TestCase):
         self.cage = bpy.context.scene.flbc.cage
         self.assertEqual(self.cage.name, 'limb_model Cage')
         self.assertLessEqual(len(self.cage.data.vertices), 40)
-        self.assertEqual(self.cage.matrix_world, self.model.matrix_world)
+        np.testing.assert_allclose(self.cage.matrix_world, self.model.matrix_world, atol=1e-6)
         self.bind()
         self.assertEqual(self.model.flbc.note, '')  # all vertices are inside
         pose = self.noise(0.01)
         set_key(self.cage, 'Pose', pose)
         self.require_follows(pose)
+
+    def test_a_cage_with_fewer_points_than_influences(self):
+        self.cage = scene.add('tetrahedron', [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)],
+                              [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+        self.model = scene.add('points', 1 + self.random.random((20, 3)), [])  # has no faces
+        bpy.context.scene.flbc.cage = self.cage
+        for quality in ('DRAFT', 'GOOD', 'EXACT'):
+            self.bind(quality=quality)
+            pose = self.noise()
+            set_key(self.cage, 'Pose', pose)
+            self.require_follows(pose)
 
     # ---- refusals --------------------------------------------------------------------------------
     def test_a_missing_program(self):

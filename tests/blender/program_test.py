@@ -41,7 +41,7 @@ class ProgramTest(unittest.TestCase):
 
     def test_a_failure_is_a_refusal_that_names_objects(self):
         with self.assertRaises(Refusal) as caught:
-            self.run_one('echo "flbc: /tmp/cage.ply: has a hole" >&2; exit 2',
+            self.run_one('echo "flbc: /tmp/cage.ply: has a hole; try flbc cage --repair" >&2; exit 2',
                          {'/tmp/cage.ply': 'Horse Cage'})
         self.assertEqual(str(caught.exception), 'Horse Cage: has a hole')
 
