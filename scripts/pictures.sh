@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents, or those that are named, in docs/images:
 #   scripts/pictures.sh [--models FOLDER] [NAME...]
-# NAME: hero locality view figure before_after function deformation smoothness charts automatic_cages
+# NAME: hero locality view figure before_after function deformation smoothness charts automatic_cages blender
 # FOLDER: the papers' models, for automatic_cages. Working files go to out/pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,6 +15,7 @@ names=("$@")
 if [ $# -eq 0 ]; then
   names=(hero locality view figure before_after function deformation smoothness charts)
   [ -z "$models" ] || names+=(automatic_cages)
+  ! command -v blender >/dev/null || names+=(blender)
 fi
 
 packages=(python3-pil python3-matplotlib fonts-lato gifsicle chromium)
@@ -39,6 +40,7 @@ for name in "${names[@]}"; do
     locality) scripts/pictures/locality.py "$images/locality.gif" "$work/locality" ;;
     automatic_cages) scripts/pictures/automatic_cages.py "$images/automatic_cages.png" "$work/cages" "$models" ;;
     smoothness) scripts/pictures/smoothness.py "$images/smoothness.png" "$work/smoothness" ;;
+    blender) scripts/pictures/blender.sh "$PWD/$flbc" "$PWD/$images" "$PWD/$work/blender" ;;
     charts) scripts/pictures/charts.py "$images" ;;
     view)
       run 3d limb 20

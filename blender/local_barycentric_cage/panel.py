@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The panel in the sidebar of the 3D viewport."""
+import textwrap
+import time
+
+import bpy
+
+from . import binding, compat, nodes, operators, preferences, program
+from .program import Refusal
+
+_COLUMNS = 38
+_SECONDS = 1.0  # for which the state of a model counts as known
+_known = {}  # model: time, problems
+
+
+def _problems(model):
+    """As binding.problems(), which is too slow for every redraw of a large model."""
+    when, found = _known.get(model.name, (0, []))
+    if time.monotonic() - when > _SECONDS:
+        found = binding.problems(model)
+        _known.clear()
+        _known[model.name] = time.monotonic(), found
+    return found
+
+
+def _text(layout, text, icon):
+    column = layout.column(align=True)
+    for line in textwrap.wrap(text, _COLUMNS):
+        column.label(text=line, icon=icon)
+        icon = 'BLANK1'
+
+
+class FLBC_PT_cage(bpy.types.Panel):
+    bl_label = 'Local Barycentric Cage'
+    bl_space_type = 'VIEW_3D'
+    bl_region_type = 'UI'
+    bl_category = 'Cage'
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        try:
+            path = preferences.program(context)
+        except Refusal as refusal:
+            _text(layout, str(refusal), 'ERROR')
+            button = layout.operator('preferences.addon_show', text='Open Preferences')
+            button.module = __package__
+            return
+        self._draw_making(context)
+        self._draw_binding(context, path)
+        if operators.running:
+            part_text = operators.running.progress()
+            compat.show_progress(layout, part_text[1], part_text[0])
+            layout.operator('flbc.cancel', icon='CANCEL')
+        for model in operators.bound_models(context)[:1]:
+            self._draw_state(model)
+
+    def _draw_making(self, context):
+        column = self.layout.column()
+        column.prop(context.scene.flbc, 'control_points')
+        column.operator('flbc.make_cage', icon='MESH_ICOSPHERE')
+        column.separator()
+        column.prop(context.scene.flbc, 'cage')
+
+    def _draw_binding(self, context, path):
+        scene = context.scene.flbc
+        column = self.layout.column()
+        row = column.row()
+        row.prop(scene, 'influences', expand=True)
+        row = column.row()
+        row.enabled = program.has_option(path, 'solve', '--smoothness')
+        row.prop(scene, 'smoothness')
+        row = column.row()
+        row.prop(scene, 'quality', expand=True)
+        models = operators.selected_models(context)
+        text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'
+        column.operator('flbc.bind', text=text if models else 'Bind to Cage', icon='MOD_MESHDEFORM')
+
+    def _draw_state(self, model):
+        box = self.layout.box()
+        cage = nodes.cage_of(model)
+        if cage:
+            quality = model.flbc.quality.capitalize()
+            _text(box, f'{model.name} follows {cage.name} ({quality})', 'CHECKMARK')
+        for text in [*_problems(model), *filter(None, [model.flbc.note])]:
+            _text(box, text, 'ERROR')
+        row = box.row(align=True)
+        row.operator('flbc.rebind')
+        row.operator('flbc.unbind')
+        row.operator('flbc.apply')
+
+
+CLASSES = (FLBC_PT_cage,)

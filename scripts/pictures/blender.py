@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of the Blender add-on with the sample limb:
+  blender --python blender.py -- FLBC MESHES panel PICTURE.png              (in a window)
+  blender --background --python blender.py -- FLBC MESHES pose PICTURE.png
+The add-on must be in a script folder of Blender.
+"""
+import os
+import sys
+from pathlib import Path
+
+import bpy
+from mathutils import Euler, Matrix, Vector
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'tests' / 'blender'))
+import scene  # noqa: E402
+
+PROGRAM, MESHES, KIND, PICTURE = scene.arguments()
+SKIN, WIRE = (0.75, 0.36, 0.16, 1), (0.02, 0.12, 0.4, 1)
+
+
+def bound_limb():
+    from local_barycentric_cage import files
+    model = scene.load(f'{MESHES}/3d/limb_model.obj')
+    cage = scene.load(f'{MESHES}/3d/limb_cage.obj')
+    cage.display_type = 'WIRE'
+    for face in model.data.polygons:
+        face.use_smooth = True
+    bpy.context.scene.flbc.cage = cage
+    scene.select(model)
+    bpy.ops.flbc.bind()
+    scene.set_key(cage, 'Pose', files.read_obj(f'{MESHES}/3d/limb_cage_pose.obj')[0])
+    model.color = SKIN
+    return model, cage
+
+
+def material(color, roughness):
+    made = bpy.data.materials.new('material')
+    made.use_nodes = True
+    surface = made.node_tree.nodes['Principled BSDF']
+    surface.inputs['Base Color'].default_value = color
+    surface.inputs['Roughness'].default_value = roughness
+    return made
+
+
+def as_tubes(cage):
+    """The edges of a cage as a mesh that is rendered."""
+    wire = cage.copy()
+    bpy.context.collection.objects.link(wire)
+    wire.display_type = 'SOLID'
+    modifier = wire.modifiers.new('wire', 'WIREFRAME')
+    modifier.thickness = 0.008 * scene.size(scene.base(cage))
+    wire.data.materials.append(material(WIRE, 0.4))
+    cage.hide_render = True
+    return wire
+
+
+def center(items):
+    corners = [item.matrix_world @ Vector(corner) for item in items for corner in item.bound_box]
+    low, high = (Vector(map(pick, zip(*corners))) for pick in (min, max))
+    return (low + high) / 2, (high - low).length
+
+
+def take_pose():
+    model, cage = bound_limb()
+    model.data.materials.append(material(SKIN, 0.5))
+    wire = as_tubes(cage)
+    at_rest = model.copy(), wire.copy()
+    for item in at_rest:
+        bpy.context.collection.objects.link(item)
+    at_rest[0].data = model.data.copy()
+    at_rest[0].modifiers.clear()
+    at_rest[1].data = wire.data.copy()
+    at_rest[1].data.shape_keys.key_blocks['Pose'].value = 0
+    _, size = center([model])
+    for item in at_rest:
+        item.location.x -= 0.9 * size
+    middle, size = center([model, wire, *at_rest])
+    turn = Euler((1.25, 0, 0.25)).to_matrix()
+    camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
+    camera.data.type = 'ORTHO'
+    camera.data.ortho_scale = size
+    camera.matrix_world = Matrix.Translation(middle + turn @ Vector((0, 0, 2 * size))) @ turn.to_4x4()
+    sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
+    sun.data.energy = 3
+    sun.matrix_world = (turn @ Euler((-0.6, 0.5, 0)).to_matrix()).to_4x4()
+    for item in (camera, sun):
+        bpy.context.collection.objects.link(item)
+    view = bpy.context.scene
+    view.camera = camera
+    view.world = bpy.data.worlds.new('world')
+    view.world.use_nodes = True
+    view.world.node_tree.nodes['Background'].inputs['Color'].default_value = (1, 1, 1, 1)
+    view.world.node_tree.nodes['Background'].inputs['Strength'].default_value = 0.6
+    view.render.engine = 'CYCLES'
+    view.cycles.samples = 64
+    view.view_settings.view_transform = 'Standard'
+    view.render.film_transparent = False
+    view.render.resolution_x, view.render.resolution_y = 1000, 560
+    view.render.resolution_percentage = 100
+    view.render.filepath = PICTURE
+    bpy.ops.render.render(write_still=True)
+
+
+def viewport():
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
+    region = next(region for region in area.regions if region.type == 'WINDOW')
+    return {'window': window, 'area': area, 'region': region}
+
+
+def take_panel():
+    bound_limb()
+    scene.show_panel()
+    yield
+    where = viewport()
+    where['area'].spaces.active.shading.color_type = 'OBJECT'
+    with bpy.context.temp_override(**where):
+        bpy.ops.screen.screen_full_area()
+    yield
+    with bpy.context.temp_override(**viewport()):
+        bpy.ops.view3d.view_all(center=True)
+    for _ in range(5):
+        yield
+    with bpy.context.temp_override(**viewport()):
+        bpy.ops.screen.screenshot(filepath=PICTURE)
+    os._exit(0)
+
+
+scene.enable(PROGRAM)
+if KIND == 'pose':
+    take_pose()
+else:
+    steps = take_panel()
+    bpy.app.timers.register(lambda: next(steps) or 0.3, first_interval=0.5)

@@ -1,0 +1,390 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The add-on in Blender, without a window:
+  blender ... --python addon_test.py -- PROGRAM MESHES WORK
+"""
+import os
+import sys
+import unittest
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Euler, Matrix
+
+sys.path.insert(0, str(Path(__file__).parent))
+import scene  # noqa: E402
+from scene import base, follow, relative, select, set_key, shown, size  # noqa: E402
+
+PROGRAM, MESHES, WORK = scene.arguments()
+TOLERANCE = 1e-6  # of the size of the cage
+
+
+class AddonTest(unittest.TestCase):
+    def setUp(self):
+        scene.enable(PROGRAM)
+        self.random = np.random.default_rng(1)
+        self.model = scene.load(f'{MESHES}/3d/limb_model.obj')
+        self.cage = scene.load(f'{MESHES}/3d/limb_cage.obj')
+        for item in (self.model, self.cage):
+            item.matrix_world = Matrix.LocRotScale((1, -2, 0.5), Euler((0.4, 0.2, -1)), (2, 2, 3))
+        bpy.context.scene.flbc.cage = self.cage
+        bpy.context.scene.flbc.quality = 'DRAFT'
+
+    def bind(self, *models, **settings):
+        for name, value in settings.items():
+            setattr(bpy.context.scene.flbc, name, value)
+        select(*(models or [self.model]))
+        self.assertEqual(bpy.ops.flbc.bind(), {'FINISHED'})
+
+    def refused(self, operator, words):
+        """Whether an operator stops with these words."""
+        with self.assertRaisesRegex(RuntimeError, words):
+            operator()
+
+    def problems(self, model=None):
+        from local_barycentric_cage import binding
+        bpy.context.view_layer.update()
+        return ' '.join(binding.problems(model or self.model))
+
+    def noise(self, amount=0.05):
+        points = base(self.cage)
+        return points + amount * size(points) * self.random.normal(size=points.shape)
+
+    def require_equal(self, found, expected):
+        self.assertLess(np.abs(found - expected).max() / size(base(self.cage)), TOLERANCE)
+
+    def require_follows(self, cage_points, start=None, model=None):
+        model = model or self.model
+        found = shown(model)
+        self.require_equal(found, follow(model, cage_points, relative(model, self.cage), start))
+        return found
+
+    # ---- positions -------------------------------------------------------------------------------
+    def test_at_rest_nothing_moves(self):
+        self.bind()
+        self.require_equal(shown(self.model), base(self.model))
+
+    def test_a_random_pose_moves_the_model(self):
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        found = self.require_follows(pose)
+        self.assertGreater(np.abs(found - base(self.model)).max(), 0.01 * size(base(self.cage)))
+
+    def test_affine_maps_of_the_cage_are_those_of_the_model(self):
+        for quality, influences in (('GOOD', '8'), ('GOOD', '4'), ('EXACT', '8')):
+            with self.subTest(quality=quality, influences=influences):
+                self.bind(quality=quality, influences=influences)
+                linear = np.array([[1, 0.3, 0], [0, 0.7, 0.2], [-0.4, 0, 1.5]])
+                set_key(self.cage, 'Pose', base(self.cage) @ linear + 0.1)
+                self.require_equal(shown(self.model), base(self.model) @ linear + 0.1)
+
+    def test_weights_are_coordinates(self):
+        for influences in (4, 8):
+            self.bind(influences=str(influences), quality='GOOD')
+            index, weight = scene.influences(self.model)
+            self.assertEqual(index.shape, (len(self.model.data.vertices), influences))
+            self.assertGreaterEqual(weight.min(), 0)
+            self.assertLess(np.abs(weight.sum(1) - 1).max(), 1e-6)
+            self.assertTrue(0 <= index.min() and index.max() < len(self.cage.data.vertices))
+            self.assertLess((weight > 1e-4).sum(1).mean(), 8)
+
+    def test_shape_keys_of_the_cage(self):
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Own', pose).value = 0.5
+        self.require_follows((base(self.cage) + pose) / 2)
+
+    def test_an_armature_on_the_cage(self):
+        self.bind()
+        data = bpy.data.armatures.new('rig')
+        rig = bpy.data.objects.new('rig', data)
+        bpy.context.collection.objects.link(rig)
+        select(rig)
+        bpy.ops.object.mode_set(mode='EDIT')
+        data.edit_bones.new('bone').tail = (0, 0, 1)
+        bpy.ops.object.mode_set(mode='OBJECT')
+        half = range(len(self.cage.data.vertices) // 2)
+        self.cage.vertex_groups.new(name='bone').add(list(half), 1, 'REPLACE')
+        self.cage.modifiers.new('rig', 'ARMATURE').object = rig
+        rig.pose.bones['bone'].matrix_basis = Matrix.Rotation(0.5, 4, 'X')
+        moved = shown(self.cage)
+        self.assertGreater(np.abs(moved - base(self.cage)).max(), 0.01)
+        self.require_follows(moved)
+
+    def test_objects_that_move(self):
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        self.cage.matrix_world = Matrix.Translation((0.3, 0, 0)) @ self.cage.matrix_world
+        followed = self.require_follows(pose)
+        turn = Matrix.LocRotScale((5, 1, 2), Euler((1, 2, 3)), (1, 1, 1))
+        for item in (self.cage, self.model):
+            item.matrix_world = turn @ item.matrix_world
+        self.require_equal(self.require_follows(pose), followed)
+        self.model.parent = self.cage
+        self.require_follows(pose)
+
+    def test_edit_mode_is_live(self):
+        self.bind()
+        select(self.cage)
+        bpy.ops.object.mode_set(mode='EDIT')
+        edited = bmesh.from_edit_mesh(self.cage.data)
+        pose = self.noise()
+        for vertex, point in zip(edited.verts, pose):
+            vertex.co = point
+        bmesh.update_edit_mesh(self.cage.data)
+        self.require_follows(pose)
+        self.assertEqual(self.problems(), '')
+        bpy.ops.object.mode_set(mode='OBJECT')
+        self.require_follows(pose)
+        self.assertEqual(self.problems(), '', 'an edit of the pose is no edit of the rest shape')
+
+    def test_shape_keys_of_the_model_are_added(self):
+        self.model.shape_key_add(name='Basis')
+        smile = base(self.model) + 0.01 * self.random.normal(size=base(self.model).shape)
+        set_key(self.model, 'Smile', smile).value = 1
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        self.require_follows(pose, start=smile)
+
+    def test_models_in_one_cage_get_the_same_field(self):
+        other = self.model.copy()
+        other.data = self.model.data.copy()
+        bpy.context.collection.objects.link(other)
+        other.data.transform(Matrix.Scale(2, 4))
+        other.matrix_world = self.model.matrix_world @ Matrix.Scale(0.5, 4)
+        self.bind(self.model, other)
+        for one, two in zip(scene.influences(self.model), scene.influences(other)):
+            np.testing.assert_allclose(one, two, atol=1e-5)
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        self.require_follows(pose)
+        self.require_follows(pose, model=other)
+
+    # ---- the life of a binding -------------------------------------------------------------------
+    def test_the_node_group_is_made_once(self):
+        for influences, count in (('8', 1), ('8', 1), ('4', 2), ('8', 2)):
+            self.bind(influences=influences)
+            self.assertEqual(len(bpy.data.node_groups), count)
+            self.assertEqual(len(self.model.modifiers), 1)
+
+    def test_two_selected_meshes_are_a_model_and_its_cage(self):
+        bpy.context.scene.flbc.cage = None
+        select(self.cage, self.model)
+        self.assertEqual(bpy.ops.flbc.bind(), {'FINISHED'})
+        self.assertEqual(bpy.context.scene.flbc.cage, self.cage)
+        self.require_equal(shown(self.model), base(self.model))
+
+    def test_the_modifier_comes_first(self):
+        self.model.modifiers.new('smooth', 'SUBSURF')
+        self.bind()
+        self.assertEqual([m.type for m in self.model.modifiers], ['NODES', 'SUBSURF'])
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        self.model.modifiers['smooth'].show_viewport = False
+        expected = self.model.copy()
+        expected.data = self.model.data.copy()
+        expected.data.vertices.foreach_set('co', shown(self.model).astype(np.float32).ravel())
+        expected.modifiers.remove(expected.modifiers[0])
+        bpy.context.collection.objects.link(expected)
+        for item in (self.model, expected):
+            item.modifiers['smooth'].show_viewport = True
+        self.assertEqual(self.problems(), '')
+        self.require_equal(shown(self.model), shown(expected))
+        with bpy.context.temp_override(object=self.model):
+            bpy.ops.object.modifier_move_to_index(modifier='smooth', index=0)
+        self.assertIn('smooth comes before the cage', self.problems())
+        select(self.model)
+        bpy.ops.flbc.rebind()
+        self.assertEqual(self.problems(), '')
+
+    def test_rebinding_after_edits_of_the_model(self):
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        self.cage.matrix_world = Matrix.Translation((0.3, 0, 0)) @ self.cage.matrix_world
+        before = shown(self.model)
+        edited = bmesh.new()
+        edited.from_mesh(self.model.data)
+        edited.verts.ensure_lookup_table()
+        bmesh.ops.delete(edited, geom=edited.verts[-100:], context='VERTS')
+        edited.to_mesh(self.model.data)
+        self.assertIn('limb_model were added or removed', self.problems())
+        select(self.model)
+        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
+        self.assertEqual(self.problems(), '')
+        self.require_follows(pose)
+        self.require_equal(shown(self.model), before[:-100])
+
+    def test_rebinding_after_edits_of_the_cage(self):
+        self.bind()
+        set_key(self.cage, 'Basis', 1.05 * base(self.cage))
+        self.assertIn('rest shape of limb_cage has changed', self.problems())
+        select(self.cage)
+        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
+        self.assertEqual(self.problems(), '')
+        edited = bmesh.new()
+        edited.from_mesh(self.cage.data)
+        bmesh.ops.poke(edited, faces=edited.faces[:1])
+        edited.to_mesh(self.cage.data)
+        edited.free()
+        self.assertIn('limb_cage were added or removed', self.problems())
+        self.require_equal(shown(self.model), base(self.model))  # rather than torn
+        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
+        pose = self.noise(0.01)
+        set_key(self.cage, 'Pose', pose)
+        self.require_follows(pose)
+
+    def test_a_deleted_cage(self):
+        self.bind()
+        bpy.data.objects.remove(self.cage)
+        self.assertIn('cage was deleted', self.problems())
+        self.assertLess(np.abs(shown(self.model) - base(self.model)).max(), 1e-6)
+
+    def test_unbinding_leaves_nothing(self):
+        names = {a.name for a in self.model.data.attributes}
+        self.bind()
+        set_key(self.cage, 'Pose', self.noise())
+        select(self.model)
+        self.assertEqual(bpy.ops.flbc.unbind(), {'FINISHED'})
+        self.assertFalse(self.model.modifiers)
+        self.assertEqual({a.name for a in self.model.data.attributes}, names)
+        self.assertFalse(self.model.get('flbc'))
+        self.require_equal(shown(self.model), base(self.model))
+
+    def test_applying_keeps_the_shape(self):
+        self.bind()
+        set_key(self.cage, 'Pose', self.noise())
+        before = shown(self.model)
+        select(self.model)
+        self.assertEqual(bpy.ops.flbc.apply(), {'FINISHED'})
+        self.assertFalse(self.model.modifiers)
+        self.require_equal(base(self.model), before)
+        self.assertFalse([a for a in self.model.data.attributes if a.name.startswith('flbc')])
+
+    def test_undo_and_redo(self):
+        bpy.ops.ed.undo_push(message='before')
+        self.bind()
+        set_key(self.cage, 'Pose', self.noise())
+        before = shown(self.model)
+        bpy.ops.ed.undo_push(message='after')
+        bpy.ops.ed.undo()
+        self.assertFalse(bpy.data.objects['limb_model'].modifiers)
+        bpy.ops.ed.redo()
+        self.cage = bpy.data.objects['limb_cage']
+        self.require_equal(shown(bpy.data.objects['limb_model']), before)
+
+    def test_saving_and_loading(self):
+        self.bind()
+        pose = self.noise()
+        set_key(self.cage, 'Pose', pose)
+        np.save(os.path.join(WORK, 'bound.npy'), shown(self.model))  # for without_addon.py
+        path = os.path.join(WORK, 'bound.blend')
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        self.model, self.cage = (bpy.data.objects[name] for name in ('limb_model', 'limb_cage'))
+        self.require_follows(pose)
+        self.assertEqual(self.problems(), '')
+
+    # ---- making cages ----------------------------------------------------------------------------
+    def test_making_a_cage_and_binding_to_it(self):
+        select(self.model)
+        bpy.context.scene.flbc.control_points = 40
+        self.assertEqual(bpy.ops.flbc.make_cage(), {'FINISHED'})
+        self.cage = bpy.context.scene.flbc.cage
+        self.assertEqual(self.cage.name, 'limb_model Cage')
+        self.assertLessEqual(len(self.cage.data.vertices), 40)
+        np.testing.assert_allclose(self.cage.matrix_world, self.model.matrix_world, atol=1e-6)
+        self.bind()
+        self.assertEqual(self.model.flbc.note, '')  # all vertices are inside
+        pose = self.noise(0.01)
+        set_key(self.cage, 'Pose', pose)
+        self.require_follows(pose)
+
+    def test_a_cage_with_fewer_points_than_influences(self):
+        self.cage = scene.add('tetrahedron', [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)],
+                              [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+        self.model = scene.add('points', 1 + self.random.random((20, 3)), [])  # has no faces
+        bpy.context.scene.flbc.cage = self.cage
+        for quality in ('DRAFT', 'GOOD', 'EXACT'):
+            self.bind(quality=quality)
+            pose = self.noise()
+            set_key(self.cage, 'Pose', pose)
+            self.require_follows(pose)
+
+    # ---- refusals --------------------------------------------------------------------------------
+    def test_a_missing_program(self):
+        bpy.context.preferences.addons[scene.ADDON].preferences.path = '/nowhere/flbc'
+        select(self.model)
+        for operator in (bpy.ops.flbc.bind, bpy.ops.flbc.make_cage):
+            self.refused(operator, '/nowhere/flbc is not a program')
+        self.assertFalse(self.model.modifiers)
+
+    def test_no_cage(self):
+        bpy.context.scene.flbc.cage = None
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'Choose a cage')
+
+    def test_a_cage_with_modifiers_that_add_vertices(self):
+        self.cage.modifiers.new('smooth', 'SUBSURF')
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'number of vertices of the cage limb_cage')
+        self.cage.modifiers.clear()
+        self.bind()
+        self.cage.modifiers.new('smooth', 'SUBSURF')
+        self.assertIn('The model stays at rest', self.problems())
+        self.require_equal(shown(self.model), base(self.model))
+
+    def test_a_cage_with_a_hole(self):
+        edited = bmesh.new()
+        edited.from_mesh(self.cage.data)
+        edited.faces.ensure_lookup_table()
+        edited.faces.remove(edited.faces[0])
+        edited.to_mesh(self.cage.data)
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'limb_cage: ')
+        self.assertFalse(self.model.modifiers)
+
+    def test_vertices_outside(self):
+        set_outside = base(self.model)
+        set_outside[:5] += 3
+        self.model.data.vertices.foreach_set('co', set_outside.astype(np.float32).ravel())
+        for quality in ('DRAFT', 'GOOD'):
+            self.bind(quality=quality)
+            self.assertIn('5 vertices are outside the cage', self.model.flbc.note)
+            self.require_equal(shown(self.model), base(self.model))
+        bpy.context.scene.flbc.quality = 'EXACT'
+        self.refused(bpy.ops.flbc.bind, 'limb_model')
+        bpy.context.scene.flbc.quality = 'DRAFT'
+        self.cage.location.x += 100
+        bpy.ops.flbc.unbind()
+        self.refused(bpy.ops.flbc.bind, 'All vertices are outside the cage limb_cage')
+
+    def test_objects_without_volume_or_vertices(self):
+        empty = scene.add('empty', [], [])
+        select(empty)
+        self.refused(bpy.ops.flbc.bind, 'empty has no vertices')
+        self.model.scale = (0, 1, 1)
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'limb_model has a scale of 0')
+
+    def test_applying_with_shape_keys(self):
+        self.model.shape_key_add(name='Basis')
+        self.bind()
+        select(self.model)
+        self.refused(bpy.ops.flbc.apply, 'limb_model has shape keys')
+        self.assertEqual(len(self.model.modifiers), 1)
+
+    def test_registering_twice(self):
+        for _ in range(2):
+            bpy.ops.preferences.addon_disable(module=scene.ADDON)
+            self.assertFalse(hasattr(bpy.types.Scene, 'flbc'))
+            bpy.ops.preferences.addon_enable(module=scene.ADDON)
+            self.assertTrue(hasattr(bpy.types.Scene, 'flbc'))
+
+
+result = unittest.main(argv=['addon_test'], exit=False, verbosity=1).result
+sys.exit(not result.wasSuccessful())
