@@ -8,7 +8,6 @@ import bpy
 from . import binding, compat, nodes, operators, preferences, program
 from .program import Refusal
 
-_COLUMNS = 38
 _SECONDS = 1.0  # for which the state of a model counts as known
 _known = {}  # model: time, problems
 
@@ -24,8 +23,11 @@ def _problems(model):
 
 
 def _text(layout, text, icon):
+    """Draws lines as long as the sidebar is wide."""
+    letter = 8.5 * bpy.context.preferences.system.ui_scale
+    columns = max(16, int(bpy.context.region.width / letter))
     column = layout.column(align=True)
-    for line in textwrap.wrap(text, _COLUMNS):
+    for line in textwrap.wrap(text, columns):
         column.label(text=line, icon=icon)
         icon = 'BLANK1'
 
@@ -38,8 +40,6 @@ class FLBC_PT_cage(bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
         try:
             path = preferences.program(context)
         except Refusal as refusal:
@@ -50,8 +50,8 @@ class FLBC_PT_cage(bpy.types.Panel):
         self._draw_making(context)
         self._draw_binding(context, path)
         if operators.running:
-            part_text = operators.running.progress()
-            compat.show_progress(layout, part_text[1], part_text[0])
+            text, part = operators.running.progress()
+            compat.show_progress(layout, part, text)
             layout.operator('flbc.cancel', icon='CANCEL')
         for model in operators.bound_models(context)[:1]:
             self._draw_state(model)
@@ -61,18 +61,19 @@ class FLBC_PT_cage(bpy.types.Panel):
         column.prop(context.scene.flbc, 'control_points')
         column.operator('flbc.make_cage', icon='MESH_ICOSPHERE')
         column.separator()
-        column.prop(context.scene.flbc, 'cage')
+        column.label(text='Cage')
+        column.prop(context.scene.flbc, 'cage', text='')
 
     def _draw_binding(self, context, path):
         scene = context.scene.flbc
         column = self.layout.column()
-        row = column.row()
+        row = column.row(align=True)
+        row.label(text='Influences')
         row.prop(scene, 'influences', expand=True)
         row = column.row()
         row.enabled = program.has_option(path, 'solve', '--smoothness')
         row.prop(scene, 'smoothness')
-        row = column.row()
-        row.prop(scene, 'quality', expand=True)
+        column.row(align=True).prop(scene, 'quality', expand=True)
         models = operators.selected_models(context)
         text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'
         column.operator('flbc.bind', text=text if models else 'Bind to Cage', icon='MOD_MESHDEFORM')

@@ -48,13 +48,14 @@ def as_tubes(cage):
     bpy.context.collection.objects.link(wire)
     wire.display_type = 'SOLID'
     modifier = wire.modifiers.new('wire', 'WIREFRAME')
-    modifier.thickness = 0.008 * scene.size(scene.base(cage))
+    modifier.thickness = 0.005 * scene.size(scene.base(cage))
     wire.data.materials.append(material(WIRE, 0.4))
     cage.hide_render = True
     return wire
 
 
 def center(items):
+    bpy.context.view_layer.update()
     corners = [item.matrix_world @ Vector(corner) for item in items for corner in item.bound_box]
     low, high = (Vector(map(pick, zip(*corners))) for pick in (min, max))
     return (low + high) / 2, (high - low).length
@@ -73,12 +74,13 @@ def take_pose():
     at_rest[1].data.shape_keys.key_blocks['Pose'].value = 0
     _, size = center([model])
     for item in at_rest:
-        item.location.x -= 0.9 * size
+        item.location.x -= 1.05 * size
     middle, size = center([model, wire, *at_rest])
-    turn = Euler((1.25, 0, 0.25)).to_matrix()
+    turn = Euler((0.9, 0, 0.2)).to_matrix()
     camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
     camera.data.type = 'ORTHO'
-    camera.data.ortho_scale = size
+    camera.data.ortho_scale = 0.98 * size
+    camera.data.shift_y = -0.06
     camera.matrix_world = Matrix.Translation(middle + turn @ Vector((0, 0, 2 * size))) @ turn.to_4x4()
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
     sun.data.energy = 3
@@ -93,35 +95,29 @@ def take_pose():
     view.world.node_tree.nodes['Background'].inputs['Strength'].default_value = 0.6
     view.render.engine = 'CYCLES'
     view.cycles.samples = 64
+    view.cycles.use_denoising = False  # Debian's Blender cannot
     view.view_settings.view_transform = 'Standard'
     view.render.film_transparent = False
-    view.render.resolution_x, view.render.resolution_y = 1000, 560
+    view.render.resolution_x, view.render.resolution_y = 1000, 430
     view.render.resolution_percentage = 100
     view.render.filepath = PICTURE
     bpy.ops.render.render(write_still=True)
 
 
-def viewport():
-    window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
-    region = next(region for region in area.regions if region.type == 'WINDOW')
-    return {'window': window, 'area': area, 'region': region}
-
-
 def take_panel():
     bound_limb()
-    scene.show_panel()
+    there = scene.viewport()
+    event = there['window'].event_simulate
+    place = {'x': there['area'].x + there['area'].width // 2,
+             'y': there['area'].y + there['area'].height // 2}
+    event(type='MOUSEMOVE', value='NOTHING', **place)
+    event(type='SPACE', value='PRESS', ctrl=True, **place)
     yield
-    where = viewport()
-    where['area'].spaces.active.shading.color_type = 'OBJECT'
-    with bpy.context.temp_override(**where):
-        bpy.ops.screen.screen_full_area()
-    yield
-    with bpy.context.temp_override(**viewport()):
+    scene.viewport()['area'].spaces.active.shading.color_type = 'OBJECT'
+    with bpy.context.temp_override(**scene.viewport()):
         bpy.ops.view3d.view_all(center=True)
-    for _ in range(5):
-        yield
-    with bpy.context.temp_override(**viewport()):
+    yield from scene.show_panel()
+    with bpy.context.temp_override(**scene.viewport()):
         bpy.ops.screen.screenshot(filepath=PICTURE)
     os._exit(0)
 

@@ -9,11 +9,13 @@ rm -rf "$work"
 mkdir -p "$work/scripts/addons"
 ln -s "$here/../../blender/local_barycentric_cage" "$work/scripts/addons/"
 export BLENDER_USER_CONFIG=$work/config BLENDER_USER_SCRIPTS=$work/scripts PYTHONDONTWRITEBYTECODE=1
-take() { # PICTURE [OPTIONS OF BLENDER]
-  blender --factory-startup --python-exit-code 1 "${@:2}" --python "$here/blender.py" -- \
-    "$flbc" "$here/../../meshes" "$1" "$images/blender_$1.png"
+take() { # PICTURE COMMAND [OPTIONS]
+  "${@:2}" --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
+    "$flbc" "$here/../../meshes" "$1" "$work/$1.png"
+  /usr/bin/python3 -c 'import sys; from PIL import Image
+Image.open(sys.argv[1]).convert("RGB").quantize(128).save(sys.argv[2], optimize=True)' \
+    "$work/$1.png" "$images/blender_$1.png"
 }
-take pose --background
-export -f take
-export here flbc images
-xvfb-run -a -s "-screen 0 1200x760x24" bash -c 'take panel --window-geometry 0 0 1200 760'
+take pose blender --background
+take panel xvfb-run -a -s "-screen 0 1200x760x24" \
+  blender --enable-event-simulate --window-geometry 0 0 1200 760

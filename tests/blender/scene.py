@@ -17,6 +17,7 @@ def enable(program):
     """Enables the add-on that is installed, in an empty file."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.ops.preferences.addon_enable(module=ADDON)
+    bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.addons[ADDON].preferences.path = program
 
 
@@ -96,12 +97,35 @@ def set_key(item, name, points):
     return key
 
 
+def viewport(kind='WINDOW'):
+    """The 3D viewport and one of its regions, for temp_override."""
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
+    region = next(region for region in area.regions if region.type == kind)
+    return {'window': window, 'area': area, 'region': region}
+
+
 def show_panel():
-    """Opens the sidebar. Its first tab becomes that of the add-on, because no other is left."""
-    for panel in bpy.types.Panel.__subclasses__():
-        if (getattr(panel, 'bl_space_type', '') == 'VIEW_3D' and panel.is_registered
-                and getattr(panel, 'bl_region_type', '') == 'UI' and panel.bl_category != 'Cage'):
-            bpy.utils.unregister_class(panel)
-    for area in bpy.context.window_manager.windows[0].screen.areas:
-        if area.type == 'VIEW_3D':
-            area.spaces.active.show_region_ui = True
+    """Steps that open the tab of the add-on in the sidebar: clicks on its tabs until it is drawn.
+
+    Blender must run with --enable-event-simulate.
+    """
+    from local_barycentric_cage import panel
+    drawn, draw = [], panel.FLBC_PT_cage.draw
+
+    def noted(self, context):
+        drawn.append(True)
+        draw(self, context)
+    panel.FLBC_PT_cage.draw = noted
+    viewport()['area'].spaces.active.show_region_ui = True
+    yield
+    region, event = viewport('UI')['region'], viewport()['window'].event_simulate
+    x, top = region.x + region.width - 10, region.y + region.height
+    for y in range(top - 10, region.y, -15):
+        event(type='MOUSEMOVE', value='NOTHING', x=x, y=y)
+        event(type='LEFTMOUSE', value='PRESS', x=x, y=y)
+        event(type='LEFTMOUSE', value='RELEASE', x=x, y=y)
+        yield
+        if drawn:
+            return
+    raise AssertionError('the tab of the add-on was not found')
