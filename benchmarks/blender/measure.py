@@ -37,7 +37,7 @@ def posed(cage, points):
 
 
 def measure(model, cage):
-    """Milliseconds per frame; the largest error of an affine map of the cage, relative to its size."""
+    """Milliseconds per frame, and the largest error of an affine map, relative to the cage size."""
     rest = scene.base(cage)
     random = np.random.default_rng(1)
     frames = [posed(cage, rest + 0.02 * scene.size(rest) * random.normal(size=rest.shape))

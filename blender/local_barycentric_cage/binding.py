@@ -14,7 +14,7 @@ from .program import Command, Refusal
 
 class _Quality(NamedTuple):
     solve: list     # options of flbc solve
-    reduction: str  # method of flbc sparsify; empty: the largest weights are kept as they are
+    reduction: str  # option of flbc sparsify; empty: the largest weights are kept as they are
 
 
 QUALITIES = {
@@ -22,7 +22,7 @@ QUALITIES = {
     'DRAFT': _Quality(['--vertices', 1000, '--tolerance', 1e-4, '--outside', 'nearest',
                        '--threads', 1], ''),
     'GOOD': _Quality(['--outside', 'nearest'], 'quadratic'),
-    'EXACT': _Quality(['--embed'], 'poisson'),
+    'EXACT': _Quality(['--embed'], 'auto'),
 }
 POSE = 'Pose'
 # Modifiers that change the number of vertices.
@@ -33,9 +33,9 @@ GENERATORS = {'ARRAY', 'BEVEL', 'BOOLEAN', 'BUILD', 'DECIMATE', 'EDGE_SPLIT', 'M
 
 class Settings(NamedTuple):
     program: str
-    influences: int = 8
-    smoothness: float = 0.0
-    quality: str = 'GOOD'  # one of QUALITIES
+    influences: int
+    smoothness: float  # 0 to 0.03
+    quality: str       # one of QUALITIES
 
 
 class Binding(bpy.types.PropertyGroup):
@@ -137,16 +137,16 @@ class _Task:
         folder = self._folder
         solved, reduced = folder / 'solved.npy', folder / 'reduced.npy'
         quality, k = QUALITIES[settings.quality], settings.influences
-        smoothness = ['--smoothness', settings.smoothness] if settings.smoothness > 0 else []
         note = yield self._command(
             settings, 'solve', folder / 'cage.ply', '--model', folder / 'model.ply', '-o', solved,
-            '--report', folder / 'report.json', *smoothness, *quality.solve)
+            '--report', folder / 'report.json', '--smoothness', settings.smoothness,
+            *quality.solve)
         outside = json.loads((folder / 'report.json').read_text())['outside']
         count = outside['outside']['count']
         if count == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
         if count:
-            note += f'{count} vertices are outside the cage and follow its nearest point'
+            note += f'{count} vertices are outside the cage and follow its nearest point. '
         if not quality.reduction:
             return *files.largest_weights(solved, k), note
         points = folder / 'model.ply'
@@ -154,9 +154,9 @@ class _Task:
             points = folder / 'inside.ply'
             places = files.weighted_points(solved, self._cage.points)
             files.write_ply(points, *self._model._replace(points=places))
-        method = quality.reduction if len(self._model.starts) else 'quadratic'
         yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
-                            '--points', points, '--method', method, '-k', k, '-o', reduced)
+                            '--points', points, '--reduction', quality.reduction, '-k', k,
+                            '-o', reduced)
         return *files.largest_weights(reduced, k), note
 
     def _items(self):

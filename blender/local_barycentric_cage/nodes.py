@@ -5,7 +5,7 @@
 
 It reads the attributes of mesh.py and needs nothing else, so files work without the add-on. Rest is
 where the weights put the vertex at rest, so the model is unchanged there, and changes by shape keys
-or later edits of the model are added. If the cage has lost or got vertices, the model stays at rest.
+or later edits of the model are added. If the cage has other vertices, the model stays at rest.
 """
 import bpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Buttons of the panel. From the user interface they work in the background, from scripts at once."""
+"""Buttons of the panel. From the user interface they work in the background, from scripts not."""
 import bpy
 
 from . import binding, nodes, preferences, program
@@ -113,10 +113,8 @@ class _InBackground:
 
 def _settings(context):
     scene = context.scene.flbc
-    path = preferences.program(context)
-    smooth = program.has_option(path, 'solve', '--smoothness')
-    return binding.Settings(path, int(scene.influences), scene.smoothness if smooth else 0.0,
-                            scene.quality)
+    return binding.Settings(preferences.program(context), int(scene.influences),
+                            scene.smoothness, scene.quality)
 
 
 class FLBC_OT_make_cage(_InBackground, bpy.types.Operator):

@@ -5,7 +5,7 @@ import time
 
 import bpy
 
-from . import binding, compat, nodes, operators, preferences, program
+from . import binding, compat, nodes, operators, preferences
 from .program import Refusal
 
 _SECONDS = 1.0  # for which the state of a model counts as known
@@ -41,14 +41,14 @@ class FLBC_PT_cage(bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         try:
-            path = preferences.program(context)
+            preferences.program(context)
         except Refusal as refusal:
             _text(layout, str(refusal), 'ERROR')
             button = layout.operator('preferences.addon_show', text='Open Preferences')
             button.module = __package__
             return
         self._draw_making(context)
-        self._draw_binding(context, path)
+        self._draw_binding(context)
         if operators.running:
             text, part = operators.running.progress()
             compat.show_progress(layout, part, text)
@@ -64,15 +64,13 @@ class FLBC_PT_cage(bpy.types.Panel):
         column.label(text='Cage')
         column.prop(context.scene.flbc, 'cage', text='')
 
-    def _draw_binding(self, context, path):
+    def _draw_binding(self, context):
         scene = context.scene.flbc
         column = self.layout.column()
         row = column.row(align=True)
         row.label(text='Influences')
         row.prop(scene, 'influences', expand=True)
-        row = column.row()
-        row.enabled = program.has_option(path, 'solve', '--smoothness')
-        row.prop(scene, 'smoothness')
+        column.prop(scene, 'smoothness')
         column.row(align=True).prop(scene, 'quality', expand=True)
         models = operators.selected_models(context)
         text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'

@@ -28,8 +28,8 @@ class SceneSettings(bpy.types.PropertyGroup):
         items=(('4', '4', 'At most 4 control points move a vertex'),
                ('8', '8', 'At most 8 control points move a vertex')))
     smoothness: bpy.props.FloatProperty(
-        name='Smoothness', min=0, max=0.03, precision=4, step=0.1,
-        description='Avoids creases. Larger values reach farther. 0: as local as possible')
+        name='Smoothness', default=0.003, min=0, max=0.03, precision=4, step=0.1,
+        description='Removes creases, but control points reach farther. 0: as local as possible')
     quality: bpy.props.EnumProperty(
         name='Quality', default='GOOD',
         items=(('DRAFT', 'Draft', 'Bind at once, and refine in the background'),

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the program flbc in the background."""
-import functools
 import os
 import re
 import shutil
@@ -26,17 +25,6 @@ def find(path):
     if path:
         raise Refusal(f'{path} is not a program. Set the path of flbc in the preferences')
     raise Refusal('The program flbc is missing. Install it, or set its path in the preferences')
-
-
-@functools.lru_cache
-def has_option(program, command, option):
-    """Whether a command of the program has an option."""
-    try:
-        shown = subprocess.run([program, command, '--help-all'], capture_output=True, text=True,
-                               stdin=subprocess.DEVNULL, timeout=10)
-    except (OSError, subprocess.TimeoutExpired):
-        return False
-    return re.search(rf'{re.escape(option)}\b', shown.stdout) is not None
 
 
 class Command:
@@ -105,8 +93,8 @@ class _Process:
 class Job:
     """Runs the commands that a generator yields, one after another.
 
-    The generator gets the messages of each command back, or a Refusal if the command failed. It may
-    yield None to be called again later. Call poll() until it returns True, or run().
+    The generator gets back what the user should know about each result, or a Refusal if the command
+    failed. It may yield None to be called again later. Call poll() until it returns True, or run().
     """
 
     def __init__(self, steps):
@@ -129,8 +117,10 @@ class Job:
                 process, self._process = self._process, None
                 process.stop()
                 messages = process.messages()
-                if status in (DONE, NOT_CONVERGED):
-                    command = self._steps.send(messages)
+                if status == DONE:
+                    command = self._steps.send('')
+                elif status == NOT_CONVERGED:
+                    command = self._steps.send(messages + '. ')
                 else:
                     command = self._steps.throw(
                         Refusal(messages or f'flbc ended with status {status}'))

@@ -81,7 +81,8 @@ def take_pose():
     camera.data.type = 'ORTHO'
     camera.data.ortho_scale = 0.98 * size
     camera.data.shift_y = -0.06
-    camera.matrix_world = Matrix.Translation(middle + turn @ Vector((0, 0, 2 * size))) @ turn.to_4x4()
+    place = middle + turn @ Vector((0, 0, 2 * size))
+    camera.matrix_world = Matrix.Translation(place) @ turn.to_4x4()
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
     sun.data.energy = 3
     sun.matrix_world = (turn @ Euler((-0.6, 0.5, 0)).to_matrix()).to_4x4()

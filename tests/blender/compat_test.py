@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The add-on uses each Blender version as that version wants it. Stubs take the place of Blender."""
+"""The add-on uses the interface that each Blender version has. Stubs take the place of Blender."""
 import sys
 import types
 import unittest
