@@ -41,7 +41,7 @@ void check_control_point(const Cage<Dim>& cage, Index control_point) {
 template <class Action>
 void naming_step(const std::string& step, const Action& action) {
   const auto text = [&](const std::exception& error) {
-    return "step " + step + ": " + in_words_of_program(error.what());
+    return "step " + step + ": " + error.what();
   };
   try {
     action();
@@ -136,7 +136,7 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   try {
     take_steps(run);
   } catch (const Error& error) {
-    leave_report(run, error.what());
+    leave_report(run, in_words_of_program(error.what()));
     throw;
   } catch (const std::bad_alloc&) {
     leave_report(run, "out of memory");

@@ -50,9 +50,11 @@ void name_vertices(std::string& message) {
 
 std::string in_words_of_program(std::string message) {
   for (const auto& [library, program] : kWordings) {
-    const auto at = message.find(library);
-    if (at == std::string::npos) continue;
-    message.replace(at, std::string(library).size(), program);
+    const std::string words = program;
+    for (auto at = message.find(library); at != std::string::npos;
+         at = message.find(library, at + words.size())) {
+      message.replace(at, std::string(library).size(), words);
+    }
   }
   name_vertices(message);
   return message;

@@ -7,7 +7,8 @@
 
 namespace flbc::app {
 
-//! The message with options of the program in place of the names of the library.
+//! The message with options of the program in place of the names of the library. For the end of its
+//! way, to the terminal or into a report: a second time would find options in place of names.
 std::string in_words_of_program(std::string message);
 
 }  // namespace flbc::app

@@ -121,9 +121,8 @@ DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, Mesher asked_for,
       if (asked_for == Mesher::kTetgen && is_built_in(Mesher::kNetgen)) {
         throw InputError(error.what() + std::string("; or try --mesher netgen"));
       }
-      const auto failure = in_words_of_program(error.what());
-      if (is_last && (failures.empty() || failures == failure)) throw;
-      add_sentence(failures, failure);
+      if (is_last && (failures.empty() || failures == error.what())) throw;
+      add_sentence(failures, error.what());
       if (is_last) throw InputError(failures);
     } catch (const OptionError&) {
       if (failures.empty()) throw;  // else this mesher cannot do what the one before could not
@@ -140,7 +139,7 @@ MadeDomain<Dim> fill_parts(const DomainRequest<Dim>& request, const MeshingOptio
       request.cage, options, [&](const Cage<Dim>& cage, const MeshingOptions<Dim>& of_part) {
         return fill_by_any(cage, request.meshing.mesher, of_part, making);
       });
-  auto note = making.failures;
+  auto note = in_words_of_program(making.failures);
   const auto on_count = note_on_count(request.vertices, mesh.num_vertices());
   if (!on_count.empty()) add_sentence(note, on_count);
   return {std::move(mesh), making.mesher, std::move(note)};

@@ -73,8 +73,8 @@ class RunCommand : public CommandLineTest {
     const auto model = sample(name + "_model.obj");
     const auto pose = sample(name + "_cage_pose.obj");
     const std::string solver = " --tolerance 1e-4 --smoothness 0.003";
-    const auto result = run_into(
-        "out", cage + " " + model + " --pose " + pose + " -k 6" + " --tolerance 1e-4 --vertices 1500");
+    const auto result = run_into("out", cage + " " + model + " --pose " + pose + " -k 6" +
+                                            " --tolerance 1e-4 --vertices 1500");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{
@@ -285,6 +285,11 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
              "flbc: step mesh: " + sample("2d/ring_model.obj") + ": ");
   EXPECT_EQ(names_in("out"), Names{"report.json"});
   EXPECT_EQ(report("out")["failed"].get<std::string>().substr(0, 10), "step mesh:");
+  // Messages of the library name options of the program, on the terminal and in the report.
+  const auto too_many = "step mesh: --vertices: 999999999 are too many";
+  expect_run("many", sample("2d/figure_cage.obj") + " --vertices 999999999", 1,
+             std::string("flbc: ") + too_many);
+  EXPECT_EQ(report("many")["failed"].get<std::string>().rfind(too_many, 0), 0U);
   // A folder where a file should go.
   fs::create_directories(path("busy/model.glb/x"));
   const auto common = sample("2d/letter_cage.obj") + " " + sample("2d/letter_model.obj") +
