@@ -35,13 +35,12 @@ void check_arguments(const CheckArguments& arguments) {
     throw OptionError("--weights needs --model or --domain, whose vertices have these weights");
   }
   if (!arguments.pose.empty() && (arguments.model.empty() || !arguments.domain.empty())) {
-    throw OptionError(
-        "--pose needs --model and --weights of its vertices; leave out --domain");
+    throw OptionError("--pose needs --model and --weights of its vertices; leave out --domain");
   }
   if (arguments.json != "-") require_writable(arguments.json, "json");
-  require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain,
-                    arguments.pose},
-                   {arguments.json});
+  require_distinct(
+      {arguments.cage, arguments.model, arguments.weights, arguments.domain, arguments.pose},
+      {arguments.json});
 }
 
 template <int Dim>
@@ -56,8 +55,7 @@ void check_model(CheckReport<Dim>& report) {
 }
 
 template <int Dim>
-void check_weight_file(CheckReport<Dim>& report) {
-  const auto weights = io::read_weights(report.weights_file);
+void check_weight_file(CheckReport<Dim>& report, const WeightMatrix& weights) {
   // Said here as well, because here the files have names.
   const auto check_sizes_with = [&](const std::string& points_file, Eigen::Index num_points) {
     check_sizes(weights, report.cage.size(), num_points,
@@ -74,17 +72,15 @@ void check_weight_file(CheckReport<Dim>& report) {
   }
 }
 
-void check_pose(CheckReport<2>&, const std::string& pose) {
+void check_pose(CheckReport<2>&, const WeightMatrix&, const std::string& pose) {
   throw OptionError(pose + ": --pose looks for creases of a surface, and the cage is 2D");
 }
 
-void check_pose(CheckReport<3>& report, const std::string& pose) {
+void check_pose(CheckReport<3>& report, const WeightMatrix& weights, const std::string& pose) {
   const auto posed = load_control_points<3>(pose);
   require_control_points(pose, posed.cols(), report.cage.size(), report.cage_file);
   const auto elements = load_model_elements<3>(report.model_file);
-  const auto weights = io::read_weights(report.weights_file);
-  report.creases =
-      check_creases(report.model->points, deform<3>(weights, posed), elements.corners);
+  report.creases = check_creases(report.model->points, deform<3>(weights, posed), elements.corners);
 }
 
 // The table, unless the standard output is wanted for JSON.
@@ -103,8 +99,11 @@ int check(const Cage<Dim>& cage, const io::PolygonSoup& soup, const CheckArgumen
   report.weights_file = arguments.weights;
   if (report.defects.empty()) {
     if (!arguments.model.empty()) check_model(report);
-    if (!arguments.weights.empty()) check_weight_file(report);
-    if (!arguments.pose.empty()) check_pose(report, arguments.pose);
+    if (!arguments.weights.empty()) {
+      const auto weights = io::read_weights(arguments.weights);
+      check_weight_file(report, weights);
+      if (!arguments.pose.empty()) check_pose(report, weights, arguments.pose);
+    }
   }
   deliver(report, arguments.json);
   if (!report.defects.empty()) {
@@ -132,8 +131,7 @@ void add_check_command(CLI::App& app, int& exit_status) {
       "--weights", a.weights, "weights at the vertices of --domain if given, else of --model");
   command->add_option("--domain", a.domain, "mesh of the cage interior")->needs(weights);
   command
-      ->add_option("--pose", a.pose,
-                   "posed cage; measure the creases that it makes in the model")
+      ->add_option("--pose", a.pose, "posed cage; measure the creases that it makes in the model")
       ->needs(weights);
   command->add_option("--json", a.json,
                       "write the findings to this .json file, or to standard output (-)");

@@ -205,11 +205,7 @@ void add_deform_command(CLI::App& app, int&) {
                    "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
                    ".msh)")
       ->required();
-  command
-      ->add_option("--weights", a.weights,
-                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
-                   ".npy, .csv, .mat")
-      ->required();
+  command->add_option("--weights", a.weights, describe_weight_file())->required();
   auto* pose = command->add_option(
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")

@@ -180,11 +180,7 @@ void add_export_command(CLI::App& app, int&) {
                    "model (.obj .off .ply .stl .om), or domain mesh (.vtu; 3D: .mesh .node .ele "
                    ".msh) whose boundary is exported")
       ->required();
-  command
-      ->add_option("--weights", a.weights,
-                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
-                   ".npy, .csv, .mat")
-      ->required();
+  command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* poses = command->add_option(
       "--pose", a.poses, "animation: one or more deformed cages, or a pattern such as pose_%d.obj");

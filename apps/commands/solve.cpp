@@ -98,11 +98,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto* command = app.add_subcommand("solve", "compute the coordinates of a cage");
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");
-  command
-      ->add_option("-o,--output", a.output,
-                   "weights, one row per vertex and one column per control point: .mtx, .dmat, "
-                   ".npy, .csv, .mat")
-      ->required();
+  command->add_option("-o,--output", a.output, describe_weight_file())->required();
   command->add_option("--report", a.report,
                       "write a report of the solve to this .json file, or to standard output (-)");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

@@ -166,8 +166,8 @@ void add_sparsify_command(CLI::App& app, int&) {
       "not.");
   command
       ->add_option("WEIGHTS", a.weights,
-                   "weights: .mtx, .dmat, .npy, .csv, .mat, or .txt with \"CONTROL_POINT POINT "
-                   "WEIGHT\" on every line")
+                   std::string("weights: ") + kWeightFormats +
+                       ", or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
@@ -178,7 +178,7 @@ void add_sparsify_command(CLI::App& app, int&) {
       "--threshold", a.options.threshold,
       "first drop weights below this value where the others can reproduce the vertex");
   add_reduction_option(*command, a.reduction);
-  command->add_option("-o,--output", a.output, "sparse weights: .mtx, .dmat, .npy, .csv, .mat")
+  command->add_option("-o,--output", a.output, std::string("sparse weights: ") + kWeightFormats)
       ->required();
   command
       ->add_option(

@@ -106,7 +106,7 @@ void add_transfer_command(CLI::App& app, int&) {
       "result is what flbc solve computes for the model. With --from, WEIGHTS belong to another\n"
       "model. Each vertex gets the weights of the nearest point on that model, with the smallest\n"
       "change that makes them >= 0 and reproduces the vertex.");
-  command->add_option("WEIGHTS", a.weights, "existing weights: .mtx, .dmat, .npy, .csv, .mat")
+  command->add_option("WEIGHTS", a.weights, std::string("existing weights: ") + kWeightFormats)
       ->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* from = command->add_option("--from", a.from, "model that has these weights");
@@ -121,7 +121,7 @@ void add_transfer_command(CLI::App& app, int&) {
   add_choice(*command, "--outside", a.outside,
              "method for vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);
-  command->add_option("-o,--output", a.output, "new weights: .mtx, .dmat, .npy, .csv, .mat")
+  command->add_option("-o,--output", a.output, std::string("new weights: ") + kWeightFormats)
       ->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {

@@ -181,9 +181,7 @@ void add_view_command(CLI::App& app, int&) {
       "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
   command->add_option("MODEL", a.model,
                       "model (.obj .off .ply .stl .om), or domain mesh whose boundary is shown");
-  command->add_option("--weights", a.weights,
-                      "weights, one row per vertex and one column per control point: .mtx, .dmat, "
-                      ".npy, .csv, .mat");
+  command->add_option("--weights", a.weights, describe_weight_file());
   command->add_option("--cage", a.cage, "cage of the weights");
   auto* poses = command->add_option(
       "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");

@@ -157,6 +157,11 @@ void write_text(const std::string& path, const std::string& text) {
   io::write_file(path, [&](std::ostream& file) { file << text; });
 }
 
+std::string describe_weight_file() {
+  return std::string("weights, one row per vertex and one column per control point: ") +
+         kWeightFormats;
+}
+
 std::string mesh_formats() {
   return io::extensions_of({io::Content::kMesh2D}) + " in 2D, " +
          io::extensions_of({io::Content::kMesh3D}) + " in 3D";

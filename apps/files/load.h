@@ -58,6 +58,12 @@ void require_writable_folder(const std::string& path);
 //! Writes a result of text; signals wait meanwhile. \throws IoError
 void write_text(const std::string& path, const std::string& text);
 
+//! The formats of weights, for help.
+constexpr const char* kWeightFormats = ".mtx, .dmat, .npy, .csv, .mat";
+
+//! What a file of weights holds, and its formats, for help.
+std::string describe_weight_file();
+
 //! The formats of meshes of the interior, for help.
 std::string mesh_formats();
 

@@ -29,7 +29,7 @@ class Facts {
   std::ostringstream text_;
 };
 
-//! The number of digits with which two corners of a box are told apart, also far from the origin.
+//! The number of digits that two corners of a box need to differ, also far from the origin.
 template <class Derived>
 int digits_of_box(const Eigen::MatrixBase<Derived>& low, const Eigen::MatrixBase<Derived>& high) {
   constexpr int kUsual = 6, kMost = 17;

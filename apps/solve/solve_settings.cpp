@@ -30,9 +30,9 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (method == Method::kHarmonic || method == Method::kMeanValue) {
-    for (const char* option :
-         {"--phi", "--smoothness", "--distances", "--linear-solver", "--precision", "--coarse-to-fine", "--active",
-          "--tolerance", "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
+    for (const char* option : {"--phi", "--smoothness", "--distances", "--linear-solver",
+                               "--precision", "--coarse-to-fine", "--active", "--tolerance",
+                               "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
       refuse(option, name + " does not use it");
     }
   }
@@ -86,9 +86,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "method that computes weights from gradients (default: auto)");
   add_choice(command, "--precision", options.precision,
              "floating-point precision of the iteration (default: auto)");
-  command.add_option("--gap", options.gap,
-                     "certified relative gap, 0 for none; the first of --gap and --tolerance that is "
-                     "met ends the iteration (default: 1e-3, or 0 if --tolerance is given)");
+  command.add_option(
+      "--gap", options.gap,
+      "certified relative gap, 0 for none; the first of --gap and --tolerance that is "
+      "met ends the iteration (default: 1e-3, or 0 if --tolerance is given)");
   command.add_option("--max-iterations", options.max_iterations,
                      "maximum number of iterations (default: 20000)");
   command.add_option("--penalty", settings.penalty,
