@@ -95,10 +95,10 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& dom
 //! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
 //! a deformation makes.
 struct CreaseCheck {
-  Index edges = 0;      //!< number of edges with two faces, none of them degenerate
-  double mean = 0;      //!< mean change
-  double high = 0;      //!< 99 % of the edges change by at most this
-  double largest = 0;   //!< largest change
+  Index edges = 0;           //!< number of edges with two faces, none of them degenerate
+  double mean = 0;           //!< mean change
+  double high = 0;           //!< 99 % of the edges change by at most this
+  double largest = 0;        //!< largest change
   Index ends[2] = {-1, -1};  //!< vertices of that edge
 };
 

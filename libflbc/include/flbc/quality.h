@@ -46,6 +46,12 @@ template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const SparseWeights& weights, double smoothness = 0);
 
+//! The objective that a problem minimizes, in its scaled units.
+template <int Dim, class Weights>
+double objective(const LbcProblem<Dim>& problem, const Weights& weights) {
+  return objective(problem.mesh, problem.phi, weights, problem.smoothness);
+}
+
 //! The total variation sum_s sum_i A_s |grad w_i|_s.
 //! \param mesh  valid, V vertices
 //! \param weights  n x V
@@ -53,8 +59,8 @@ double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
 template <int Dim>
 double total_variation(const DomainMesh<Dim>& mesh, const WeightMatrix& weights);
 
-//! Smoothness of weights: the jump of their gradients across interior facets, relative to the size of
-//! the cage. A kink has a jump on every mesh; jumps of smooth functions shrink with the cells.
+//! Smoothness of weights: the jump of their gradients across interior facets, relative to the size
+//! of the cage. A kink has a jump on every mesh; jumps of smooth functions shrink with the cells.
 //! \param problem  its mesh and topology
 //! \param weights  n x V
 //! \return root mean square of sqrt(sum_i |jump of grad w_i|^2), weighted by the measure of a

@@ -110,8 +110,7 @@ class AdmissibleFlux {
         length2 += component * component;
       }
       if (!(length2 < std::numeric_limits<double>::infinity())) continue;
-      const double excess =
-          kUp * std::sqrt(length2) / measure - kDown * problem_.phi(i, s);
+      const double excess = kUp * std::sqrt(length2) / measure - kDown * problem_.phi(i, s);
       if (excess > 0) sum += excess * excess;
     }
     const double rounding = 1 + (flux_.n + 8) * kEpsilon;
@@ -222,9 +221,8 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
       return block;
     });
   }
-  const auto bound =
-      static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()) +
-                          conjugate.rounded_down(problem.mesh.num_cells()));
+  const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()) +
+                                         conjugate.rounded_down(problem.mesh.num_cells()));
   // Every objective is at least 0, and a non-finite bound proves nothing more.
   if (!(bound > 0) || !std::isfinite(bound)) return 0;
   return std::nextafter(bound, 0);
@@ -236,7 +234,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
   check_flux_and_weights(problem, flux, weights);
   const WeightMatrix feasible = made_feasible(problem, weights);
   Certificate certificate;
-  certificate.objective = objective(problem.mesh, problem.phi, feasible, problem.smoothness);
+  certificate.objective = flbc::objective(problem, feasible);
   certificate.lower_bound = lower_bound(problem, flux, feasible);
   if (certificate.objective > 0) {
     certificate.relative_gap =

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/lbc_problem.h"
+#include "flbc/sparse_weights.h"
 #include "problem/barycentric_constraints.h"
 #include "problem/laplacian.h"
 
@@ -33,5 +34,9 @@ void project_interior(const LbcProblem<Dim>& problem, WeightMatrix& weights) {
     }
   }
 }
+
+//! The same for sparse weights, which stay zero where they are zero.
+template <int Dim>
+void project_interior(const LbcProblem<Dim>& problem, SparseWeights& weights);
 
 }  // namespace flbc

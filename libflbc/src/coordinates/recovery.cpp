@@ -2,9 +2,12 @@
 #include "flbc/recovery.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "coordinates/poisson_weights.h"
 #include "flbc/harmonic.h"
+#include "linear/dense.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
 
@@ -113,6 +116,37 @@ WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
   return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
 }
 
+namespace {
+
+// The nearest weights on the same control points with sum 1 that reproduce the point.
+template <int Dim>
+Eigen::VectorXd projected_on_support(const LbcProblem<Dim>& problem, Index vertex,
+                                     Eigen::VectorXd weights) {
+  std::vector<Index> support;
+  for (Index i = 0; i < weights.size(); ++i) {
+    if (weights[i] != 0) support.push_back(i);
+  }
+  Eigen::MatrixXd constraints(Dim + 1, support.size());
+  constraints.row(0).setOnes();
+  constraints.bottomRows(Dim) = problem.cage.points(Eigen::all, support);
+  Vector<Dim + 1> target;
+  target << 1, problem.mesh.points.col(vertex);
+  const Eigen::VectorXd defect = target - constraints * weights(support);
+  weights(support) += dense::least_squares(constraints, defect);
+  return weights;
+}
+
+}  // namespace
+
+template <int Dim>
+void project_interior(const LbcProblem<Dim>& problem, SparseWeights& weights) {
+  const auto given = std::move(weights);
+  weights = SparseWeights::of(given.num_control_points(), given.num_points(), [&](Index v) {
+    return problem.boundary.is_interior(v) ? projected_on_support(problem, v, given.at(v))
+                                           : given.at(v);
+  });
+}
+
 #define FLBC_INSTANTIATE(Scalar, Dim)                                               \
   template WeightMatrix integrate_breadth_first(const LbcProblem<Dim>&,             \
                                                 const CellFieldView<Scalar, Dim>&); \
@@ -126,8 +160,9 @@ FLBC_INSTANTIATE(double, 2)
 FLBC_INSTANTIATE(double, 3)
 #undef FLBC_INSTANTIATE
 
-#define FLBC_INSTANTIATE(Dim)                                         \
-  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&); \
+#define FLBC_INSTANTIATE(Dim)                                             \
+  template void project_interior(const LbcProblem<Dim>&, SparseWeights&); \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&);     \
   template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&, const DirichletProblem<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -43,7 +43,7 @@ Vector<3> normal(const PointList<3>& points, const FacetList<3>& triangles, Inde
 }
 
 // The angle between the faces at an edge, in degrees, signed: positive where they form a ridge. NaN
-// beside a degenerate face.
+// if a face is degenerate.
 double angle_at(const PointList<3>& points, const FacetList<3>& triangles, const Edge& one,
                 const Edge& other) {
   const Vector<3> a = normal(points, triangles, one.triangle);

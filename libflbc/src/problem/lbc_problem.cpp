@@ -55,15 +55,14 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
   return problem;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                            \
-  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,  \
-                                         BoundaryValues<Dim>);                           \
-  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>); \
-  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                    \
-  template DistanceMatrix distances_for(DistanceScheme, const LbcProblem<Dim>&);         \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme,      \
-                                        double);                                         \
-  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,   \
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,      \
+                                         BoundaryValues<Dim>);                               \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>);     \
+  template LbcProblem<Dim> make_geometry(Cage<Dim>, DomainMesh<Dim>);                        \
+  template DistanceMatrix distances_for(DistanceScheme, const LbcProblem<Dim>&);             \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, DistanceScheme, double); \
+  template LbcProblem<Dim> make_problem(Cage<Dim>, DomainMesh<Dim>, MeshTopology<Dim>,       \
                                         DistanceScheme, double);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

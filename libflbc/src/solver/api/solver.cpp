@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
-
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/stage_progress.h"
@@ -90,35 +88,6 @@ void make_non_negative(const LbcProblem<Dim>& problem, Weights& weights) {
   }
 }
 
-// The nearest weights on the same control points with sum 1 that reproduce the point.
-template <int Dim>
-Eigen::VectorXd projected_on_support(const LbcProblem<Dim>& problem, Index vertex,
-                                     Eigen::VectorXd weights) {
-  std::vector<Index> support;
-  for (Index i = 0; i < weights.size(); ++i) {
-    if (weights[i] != 0) support.push_back(i);
-  }
-  Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> constraints(Dim + 1, support.size());
-  constraints.row(0).setOnes();
-  constraints.template bottomRows<Dim>() = problem.cage.points(Eigen::all, support);
-  Vector<Dim + 1> target;
-  target << 1, problem.mesh.points.col(vertex);
-  const Vector<Dim + 1> defect = target - constraints * weights(support);
-  weights(support) += constraints.completeOrthogonalDecomposition().solve(defect);
-  return weights;
-}
-
-// Weights of the splitting have the precision of its iteration.
-template <int Dim>
-void restore_sums(const LbcProblem<Dim>& problem, Weights& weights) {
-  if (!weights.is_sparse()) return project_interior(problem, weights.dense);
-  const auto given = std::move(weights.sparse);
-  weights.sparse = SparseWeights::of(given.num_control_points(), given.num_points(), [&](Index v) {
-    return problem.boundary.is_interior(v) ? projected_on_support(problem, v, given.at(v))
-                                           : given.at(v);
-  });
-}
-
 template <int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
                     const WeightMatrix& weights) {
@@ -132,10 +101,8 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
 
 template <int Dim, class AnyWeights>
 void measure(const LbcProblem<Dim>& problem, const AnyWeights& weights, SolveReport& report) {
-  report.objective = problem.phi.size() > 0
-                         ? unscaled(problem, objective(problem.mesh, problem.phi, weights,
-                                                       problem.smoothness))
-                         : std::numeric_limits<double>::quiet_NaN();
+  report.objective = problem.phi.size() > 0 ? unscaled(problem, objective(problem, weights))
+                                            : std::numeric_limits<double>::quiet_NaN();
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
 }
 
@@ -147,7 +114,11 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
                 const SolverOptions& options, const Reporter& reporter, SolveReport report) {
   Stopwatch watch;
   const bool is_splitting = options.method == Method::kValue || options.method == Method::kLbc2014;
-  if (is_splitting && options.non_negative == NonNegative::kOff) restore_sums(problem, weights);
+  // Weights of the splitting have the precision of its iteration.
+  if (is_splitting && options.non_negative == NonNegative::kOff) {
+    weights.is_sparse() ? project_interior(problem, weights.sparse)
+                        : project_interior(problem, weights.dense);
+  }
   if (!options.sparse) weights = {std::move(weights).to_dense(), {}};
   if (options.non_negative != NonNegative::kOff) {
     const StageScope scope(reporter.stage(Stage::kNonNegative));

@@ -164,8 +164,8 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
   const auto from = cold ? harmonic.start : start.from->start();
   active_set::Settings settings;
   settings.penalty = options.penalty ? *options.penalty
-                     : cold          ? plan::first_penalty(problem_->smoothness)
-                                     : from.penalty;
+                     : cold ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
+                            : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
   settings.relaxation = *options.relaxation;
   settings.tolerance = *options.tolerance;
@@ -183,9 +183,10 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   if (begin_on_active_set(options, start)) return;
   if (options.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
-    const double penalty = options.penalty  ? *options.penalty
-                           : from.is_cold() ? plan::first_penalty(problem_->smoothness)
-                                            : from.penalty;
+    const double penalty = options.penalty ? *options.penalty
+                           : from.is_cold()
+                               ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
+                               : from.penalty;
     iteration_ = make_value(*problem_, options, penalty, true);
     iteration_->start(from);
     return;

@@ -21,11 +21,11 @@ constexpr double kLargestPenalty = 1.0 / 30;
 //! `value`: a balanced penalty is this times |dual| / |motion since the start|.
 constexpr double kBalance = 0.3;
 //! `value`: smoothness adds this times epsilon to the penalty, because the best penalty for the
-//! quadratic term alone is proportional to it. Iterations to a true error of 1e-7 on five models are
-//! least for 3 to 30 (lab book).
+//! quadratic term alone is proportional to it. Iterations to a true error of 1e-7 on five models
+//! are least for 3 to 30 (lab book).
 constexpr double kPenaltyOfSmoothness = 10;
-constexpr double first_penalty(double smoothness) {
-  return kFirstPenalty + kPenaltyOfSmoothness * smoothness;
+constexpr double with_smoothness(double penalty, double smoothness) {
+  return penalty + kPenaltyOfSmoothness * smoothness;
 }
 //! `value` on all pairs balances after these iterations.
 constexpr int kBalancedAfter[] = {5, 10, 20, 40};

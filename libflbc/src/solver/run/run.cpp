@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 #include "base/instantiate.h"
 #include "flbc/errors.h"
@@ -19,9 +18,8 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
   Progress progress{report.iterations, report.primal_residual, report.dual_residual};
   progress.objective = [&] {
     const auto weights = iteration.weights();
-    const auto& [mesh, phi, epsilon] = std::tie(problem.mesh, problem.phi, problem.smoothness);
-    return unscaled(problem, weights.is_sparse() ? objective(mesh, phi, weights.sparse, epsilon)
-                                                 : objective(mesh, phi, weights.dense, epsilon));
+    return unscaled(problem, weights.is_sparse() ? objective(problem, weights.sparse)
+                                                 : objective(problem, weights.dense));
   };
   return progress;
 }

@@ -112,8 +112,8 @@ double ActiveSet<Scalar, Dim>::balanced_penalty(int made) {
   if (made >= plan::kLastBalance) start_weights_ = nullptr;
   if (!(lengths2[0] > 0) || !(lengths2[1] > 0)) return splitting_->penalty();
   const double balanced = plan::kBalance * std::sqrt(lengths2[0] / lengths2[1]);
-  return settings_.part * (std::min(balanced, plan::kLargestPenalty) +
-                           plan::kPenaltyOfSmoothness * problem_.smoothness);
+  return settings_.part *
+         plan::with_smoothness(std::min(balanced, plan::kLargestPenalty), problem_.smoothness);
 }
 
 // Extends the active set if weights at its border exceed a small part of the estimated error or of

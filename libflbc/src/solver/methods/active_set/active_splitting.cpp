@@ -90,8 +90,7 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   state.cells = patches_.cells.data() + patch.first_cell;
   state.radius = patches_.radius.data() + loops_.bytes * patch.first_number;
   state.sigma = static_cast<Scalar>(sigma());
-  state.smoothing =
-      static_cast<Scalar>(problem_.smoothness / (penalty_ + problem_.smoothness));
+  state.smoothing = static_cast<Scalar>(compact::smoothing(problem_, penalty_));
   return state;
 }
 

@@ -68,7 +68,8 @@ template <int lanes, bool note, class Scalar, int Dim>
   }
   norm2 = length2 > norm2 ? length2 : norm2;
   const Scalar theta = arrays.smoothing[cell];
-  const P shrink = theta + (Scalar(1) - theta) * (radius * inverse_square_root<Scalar, lanes>(norm2));
+  const P shrink =
+      theta + (Scalar(1) - theta) * (radius * inverse_square_root<Scalar, lanes>(norm2));
   for (int d = 0; d < Dim; ++d) {
     const P step = shrink * (dual[d] - extrapolated[d]) - dual[d];
     store_pack<lanes>(place + d * arrays.stride, dual[d] + arrays.relaxation * step);

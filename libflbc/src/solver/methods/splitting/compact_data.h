@@ -40,6 +40,12 @@ double dual_scale(const LbcProblem<Dim>& problem, const splitting::Metric& metri
   return unit * cell_geometry(problem.mesh, cell).measure / std::sqrt(metric.cell[cell]);
 }
 
+//! theta, what the z-step keeps of its argument. \param penalty  rho
+template <int Dim>
+double smoothing(const LbcProblem<Dim>& problem, double penalty) {
+  return problem.smoothness / (penalty + problem.smoothness);
+}
+
 //! phi of a cell may be nearly zero, but radii must not be denormal.
 constexpr double kSmallestPhi = 1e-10;
 

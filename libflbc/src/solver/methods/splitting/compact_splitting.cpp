@@ -70,7 +70,7 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.difference = difference_.data();
   arrays.sigma = static_cast<Scalar>(sigma());
   arrays.relaxation = static_cast<Scalar>(settings_.relaxation);
-  arrays.smoothing = static_cast<Scalar>(smoothing());
+  arrays.smoothing = static_cast<Scalar>(smoothing(problem_, penalty_));
   return arrays;
 }
 
@@ -223,10 +223,9 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   auto [dual2, motion2] = squared_lengths(moved);
   dual2 += data_.boundary_dual2;
   if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double balanced = std::min(ratio * penalty_ * std::sqrt(dual2 / motion2), largest) +
-                          plan::kPenaltyOfSmoothness * problem_.smoothness;
-  const double factor = penalty_ / balanced;
-  penalty_ = balanced;
+  const double balanced = std::min(ratio * penalty_ * std::sqrt(dual2 / motion2), largest);
+  const double factor = penalty_ / plan::with_smoothness(balanced, problem_.smoothness);
+  penalty_ /= factor;
   const auto shrink = static_cast<Scalar>(1 / factor);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) {

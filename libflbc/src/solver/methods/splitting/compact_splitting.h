@@ -126,7 +126,6 @@ class CompactSplitting final : public Iteration<Dim> {
   using RowLoop = typename Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
-  double smoothing() const { return problem_.smoothness / (penalty_ + problem_.smoothness); }
   std::pair<double, double> squared_lengths(const AlignedArray<Scalar>& moved);
   State arrays();
   void set_weights(const VectorsAt<1>& weights);

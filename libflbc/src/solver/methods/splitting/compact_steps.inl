@@ -45,8 +45,7 @@ template <class Scalar, class Stored, int Dim, int Lanes>
   PackN<Scalar, Lanes> length2 = field[0] * field[0];
   for (int d = 1; d < Dim; ++d) length2 += field[d] * field[d];
   const PackN<Scalar, Lanes> shrink = shrinkage<Stored, Scalar, Lanes>(radius, length2);
-  const PackN<Scalar, Lanes> factor =
-      arrays.smoothing + (Scalar(1) - arrays.smoothing) * shrink;
+  const PackN<Scalar, Lanes> factor = arrays.smoothing + (Scalar(1) - arrays.smoothing) * shrink;
   for (int d = 0; d < Dim; ++d) field[d] *= factor;
 }
 
