@@ -51,12 +51,7 @@ void write_dmat(std::ostream& out, const WeightMatrix& weights) {
   header << "0 0\n" << weights.rows() << " " << weights.cols() << "\n";
   header.flush();
   if (weights.size() == 0) return;
-  Eigen::VectorXd column;
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    column = weights.row(i);
-    out.write(reinterpret_cast<const char*>(column.data()),
-              static_cast<std::streamsize>(sizeof(double)) * column.size());
-  }
+  write_columns(out, weights);
 }
 
 }  // namespace flbc::io

@@ -48,6 +48,9 @@ bool is_absurd(std::int64_t num_points, std::int64_t num_controls);
 //! Reads #points x n numbers, control point by control point, up to the end of the file.
 WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls);
 
+//! Writes the numbers as doubles, control point by control point.
+void write_columns(std::ostream& out, const WeightMatrix& weights);
+
 //! A block of numbers that reaches from byte `offset` to the end of a binary file.
 struct BinaryBlock {
   const std::string& path;

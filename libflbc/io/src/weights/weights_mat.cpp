@@ -128,12 +128,7 @@ void write_mat(std::ostream& out, const WeightMatrix& weights) {
   append<std::uint32_t>(head, {kDouble, static_cast<std::uint32_t>(size)});
   append<std::uint32_t>(header, {kMatrix, static_cast<std::uint32_t>(head.size() + size)});
   out << header << head;
-  Eigen::VectorXd column;
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    column = weights.row(i);
-    out.write(reinterpret_cast<const char*>(column.data()),
-              static_cast<std::streamsize>(sizeof(double)) * column.size());
-  }
+  write_columns(out, weights);
 }
 
 }  // namespace flbc::io
