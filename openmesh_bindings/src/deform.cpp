@@ -27,14 +27,6 @@ Vector<Dim> place_of(const RowBlock<double>& weights, std::int64_t p,
   return place;
 }
 
-// Whether all weights are zero, as those of vertices that were added after bind().
-bool is_unbound(const InfluenceBlock& weights, std::int64_t p) {
-  return weights[static_cast<std::size_t>(p)].count() == 0;
-}
-bool is_unbound(const RowBlock<double>& weights, std::int64_t p) {
-  return weights[static_cast<std::size_t>(p)].matrix().isZero(0);
-}
-
 std::size_t numbers_in(const InfluenceBlock& weights) {
   return weights.size() * weights.most();
 }
@@ -72,7 +64,7 @@ void move_points(const Block& weights, const PointList<Dim>& control_points,
 #pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
   for (std::int64_t p = 0; p < count; ++p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);
-    if (place.isZero(0) && is_unbound(weights, p)) continue;
+    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) continue;
     if (offsets) {
       const auto offset = (*offsets)[static_cast<std::size_t>(p)];
       for (int d = 0; d < Dim; ++d) place[d] += offset[static_cast<std::size_t>(d)];

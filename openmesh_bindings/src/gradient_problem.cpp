@@ -145,7 +145,9 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   return problem;
 }
 
-template GradientProblem<2> make_gradient_problem(const Cage<2>&, Domain<2>, DistanceScheme, double);
-template GradientProblem<3> make_gradient_problem(const Cage<3>&, Domain<3>, DistanceScheme, double);
+template GradientProblem<2> make_gradient_problem(const Cage<2>&, Domain<2>, DistanceScheme,
+                                                  double);
+template GradientProblem<3> make_gradient_problem(const Cage<3>&, Domain<3>, DistanceScheme,
+                                                  double);
 
 }  // namespace flbc::openmesh

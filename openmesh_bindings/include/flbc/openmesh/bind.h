@@ -93,9 +93,9 @@ std::vector<bool> bound_vertices(const Mesh& mesh, const std::string& weights) {
   const auto* rows = find_property<Wide<double>>(mesh, weights);
   for (std::size_t v = 0; v < are_bound.size(); ++v) {
     if (influences) {
-      are_bound[v] = influences->data_vector()[v].count() > 0;
+      are_bound[v] = !is_unbound(influences->data_vector()[v]);
     } else if (rows) {
-      are_bound[v] = !rows->data_vector()[v].matrix().isZero(0);
+      are_bound[v] = !is_unbound(rows->data_vector()[v]);
     }
   }
   return are_bound;

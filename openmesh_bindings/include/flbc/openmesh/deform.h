@@ -46,6 +46,16 @@ auto view_points(Mesh& mesh) {
   return PointsView<Scalar>{data, sizeof(Point) / sizeof(Scalar)};
 }
 
+//! Whether all weights of a vertex are zero, as those of vertices that were added after bind().
+template <class Weight>
+bool is_unbound(const InfluencesView<Weight>& influences) {
+  return influences.count() == 0;
+}
+template <class Weight>
+bool is_unbound(const RowsView<Weight>& row) {
+  return row.matrix().isZero(0);
+}
+
 //! Deforms one point per element of `weights` with the control points (Dim x n).
 //! \param offsets  Dim values per point to add, at distances of offset_stride; may be null
 //! \throws InputError if the numbers of control points differ

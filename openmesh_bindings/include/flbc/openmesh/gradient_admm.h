@@ -23,15 +23,16 @@ struct GradientAdmmOptions {
   double penalty = 0;     //!< mu > 0, in length^(Dim + 1) of the mesh; 0: chosen from the mesh
   double relaxation = 1;  //!< over-relaxation in (0, 2); 1 is the iteration of the paper
   DistanceScheme phi = DistanceScheme::kSquare;  //!< growth of phi with the geodesic distance
-  double smoothness = 0;  //!< >= 0, see SolverOptions::smoothness
+  double smoothness = 0;                         //!< >= 0, see SolverOptions::smoothness
   std::string weights = kWeights;                //!< name of the property for recovered weights
   bool persistent = false;                       //!< whether .om files keep state and weights
 };
 
-//! Minimizes sum_s sum_i A (phi |g| + epsilon / 2 |g|^2), (7) plus the quadratic term, over a gradient g per cell and control point, subject to the
-//! barycentric conditions (8), the boundary values (9), and integrability (10). Copies of the
-//! gradients, X on boundary facets, Y on interior facets, and Z on cells, satisfy one condition
-//! each; u = lambda / mu is the scaled dual of a copy.
+//! Minimizes sum_s sum_i A (phi |g| + epsilon / 2 |g|^2), (7) plus the quadratic term, over a
+//! gradient g per cell and control point, subject to the barycentric conditions (8), the boundary
+//! values (9), and integrability (10). Copies of the gradients, X on boundary facets, Y on interior
+//! facets, and Z on cells, satisfy one condition each; u = lambda / mu is the scaled dual of a
+//! copy.
 //!
 //!     X-step   x = g - u, its tangential part replaced by h       boundary facets (9)
 //!     Y-step   y = g - u, its tangential part averaged            interior facets (10)
@@ -40,8 +41,8 @@ struct GradientAdmmOptions {
 //!
 //! Each step updates its dual lambda relative to the extrapolated gradient e = 2 g - (g before)
 //! (docs/explanation/method/gradient_admm.md). Then the dual is a tangential vector per facet or a
-//! vector per cell, of length <= phi A without smoothness. The copy is e + (change of lambda) / mu and need not be
-//! stored. The gradients are those of the paper, iterate by iterate;
+//! vector per cell, of length <= phi A without smoothness. The copy is e + (change of lambda) / mu
+//! and need not be stored. The gradients are those of the paper, iterate by iterate;
 //! tests/support/textbook_admm.h is the version with all copies. If the boundary has several
 //! components, each one after the first adds a period constraint.
 //!
