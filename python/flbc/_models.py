@@ -231,8 +231,6 @@ def bind(
         If an option is out of range.
     """
     given = checked(options, "bind")
-    if given.get("method", "auto") in ("auto", "value", "gradient"):
-        given.setdefault("smoothness", 0.003)  # as flbc run and openmesh::bind()
     given["sparse"] = True
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
     points = as_points(vertices, "vertices", cage.dim)
@@ -241,6 +239,7 @@ def bind(
     if outside == "extend" and max_influences:
         raise InputError("outside cannot be 'extend' unless max_influences is 0")
     polygons = as_polygons(faces, "faces", len(points))
+    given["smoothness"] = _core.smoothness_of_bind(given)
     solution = solve(cage, mesh(cage, mesh_vertices) if domain is None else domain, **given)
     weights, placed, which = evaluate(solution, points, outside)
     if max_influences:

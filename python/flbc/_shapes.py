@@ -123,7 +123,20 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-class Cage:
+class _Points:
+    __slots__ = ()
+    points: Floats
+
+    @property
+    def dim(self) -> int:
+        """The dimension, 2 or 3."""
+        return int(self.points.shape[1])
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+class Cage(_Points):
     """A cage: a closed polygon in 2D or a closed surface in 3D.
 
     Parameters
@@ -178,14 +191,6 @@ class Cage:
             return polygons[0].reshape(-1, 3).copy()
         return _core.triangles(self.points, polygons)
 
-    @property
-    def dim(self) -> int:
-        """The dimension, 2 or 3."""
-        return int(self.points.shape[1])
-
-    def __len__(self) -> int:
-        return len(self.points)
-
     def __repr__(self) -> str:
         kind = "edges" if self.dim == 2 else "triangles"
         return f"<flbc.Cage: {len(self)} control points, {len(self.facets)} {kind}>"
@@ -215,7 +220,7 @@ def _edges_in_order(polygons: Polygons) -> Ints:
     return np.ascontiguousarray(np.delete(edges, repeated, axis=0))
 
 
-class DomainMesh:
+class DomainMesh(_Points):
     """A mesh of the interior of a cage: triangles in 2D, tetrahedra in 3D.
 
     Parameters
@@ -257,14 +262,6 @@ class DomainMesh:
     def _take(self, arrays: Tuple[Floats, Ints]) -> DomainMesh:
         self.points, self.cells = frozen(arrays[0]), frozen(arrays[1])
         return self
-
-    @property
-    def dim(self) -> int:
-        """The dimension, 2 or 3."""
-        return int(self.points.shape[1])
-
-    def __len__(self) -> int:
-        return len(self.points)
 
     def __repr__(self) -> str:
         kind = "triangles" if self.dim == 2 else "tetrahedra"

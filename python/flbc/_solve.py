@@ -37,7 +37,7 @@ class SolverOptions(TypedDict, total=False):
     threads: int
     non_negative: str
     phi: str
-    smoothness: float
+    smoothness: Optional[float]
     distances: str
     precision: str
     linear_solver: str

@@ -170,11 +170,20 @@ py::tuple normalized_mesh(const Doubles& vertices, const Indices& cells) {
 
 // ---------------------------------------------------------------------------------------- weights
 
+// For functions that take dense weights only.
+WeightMatrix as_dense(const SparseWeights& weights) {
+  return weights.dense();
+}
+template <class Dense>
+const Dense& as_dense(const Dense& weights) {
+  return weights;
+}
+
 // Weights at points, the points that they reproduce, and the points outside.
 py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
                      const Indices& cells, const py::object& weights, const Doubles& places,
-                     const std::string& outside) {
-  const auto policy = named<OutsidePoints>("outside", outside);
+                     const std::string& policy_name) {
+  const auto policy = named<OutsidePoints>("outside", policy_name);
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);
@@ -187,9 +196,9 @@ py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles
         return flbc::weights_at(cage, mesh, known, placement);
       }));
     });
-    std::vector<Index> beside;
-    for (const auto& point : placement.outside) beside.push_back(point.point);
-    return py::make_tuple(found, as_array(std::move(placement.points)), beside);
+    std::vector<Index> outside;
+    for (const auto& point : placement.outside) outside.push_back(point.point);
+    return py::make_tuple(found, as_array(std::move(placement.points)), outside);
   });
 }
 
@@ -211,12 +220,8 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
         // Without neighbors there are no seams.
         if (lists.empty()) return SparseWeights(flbc::sparsify<kDim>(cage, all, given, options));
         const auto edges = edges_of_polygons(all, lists);
-        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-          return SparseWeights(
-              reduce_by_poisson<kDim>(cage, all, edges, given.dense(), moved, options));
-        } else {
-          return SparseWeights(reduce_by_poisson<kDim>(cage, all, edges, given, moved, options));
-        }
+        return SparseWeights(
+            reduce_by_poisson<kDim>(cage, all, edges, as_dense(given), moved, options));
       }));
     });
   });
@@ -234,11 +239,7 @@ py::tuple transfer(const Doubles& control_points, const Doubles& points, const I
     Eigen::VectorXd distances;
     auto found = with_weights(weights, [&](const auto& given) -> py::object {
       return as_python(without_gil([&] {
-        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-          return transfer_weights<kDim>(cage, model, given.dense(), to, limit, &distances);
-        } else {
-          return transfer_weights<kDim>(cage, model, given, to, limit, &distances);
-        }
+        return transfer_weights<kDim>(cage, model, as_dense(given), to, limit, &distances);
       }));
     });
     return py::make_tuple(found, py::array_t<double>(distances.size(), distances.data()));
@@ -298,15 +299,8 @@ py::dict measure(const Doubles& points, const Indices& facets, const Doubles& pl
     return with_weights(weights, [&](const auto& given) {
       return as_python(without_gil([&] {
         validate(cage);
-        WeightMatrix copy;
-        const WeightMatrix* dense = nullptr;
-        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-          copy = given.dense();
-          dense = &copy;
-        } else {
-          dense = &given;
-        }
-        return cells ? check_weights(cage, mesh, *dense) : check_weights(cage, mesh.points, *dense);
+        const auto& dense = as_dense(given);
+        return cells ? check_weights(cage, mesh, dense) : check_weights(cage, mesh.points, dense);
       }));
     });
   });

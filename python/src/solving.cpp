@@ -158,6 +158,13 @@ class Watch {
   Clock::time_point last_ = Clock::now();
 };
 
+// The smoothness that bind() takes if the options do not set it; none for other coordinates.
+std::optional<double> smoothness_of_bind(const py::dict& keywords) {
+  auto options = options_of(keywords);
+  make_smooth(options);
+  return options.smoothness;
+}
+
 SolverOptions options_here(const py::dict& keywords) {
   auto options = options_of(keywords);
   if (is_forked) options.threads = 1;
@@ -277,6 +284,7 @@ void use_threads_of_this_process() {
 void bind_solving(py::module_& module) {
   module.def("has_forked", [] { is_forked = true; });
   module.def("option_names", &option_names);
+  module.def("smoothness_of_bind", &smoothness_of_bind);
   module.def("mesh", &mesh);
   module.def("solve", &solve);
 
