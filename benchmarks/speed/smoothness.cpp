@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/check.h"
 #include "flbc/deform.h"
@@ -14,6 +15,7 @@
 #include "paper/experiments.h"
 #include "paper/result_table.h"
 #include "paper/run_columns.h"
+#include "problem/unit_scale.h"
 
 namespace flbc::bench {
 namespace {
@@ -24,8 +26,7 @@ constexpr double kSmoothness[] = {0, 1e-3, 3e-3, 1e-2, 3e-2};
 PointList<3> random_pose(const Cage<3>& cage) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
-  const double size =
-      (cage.points.rowwise().maxCoeff() - cage.points.rowwise().minCoeff()).norm();
+  const double size = bounding_box_diagonal(cage.points);
   PointList<3> pose = cage.points;
   for (double& number : pose.reshaped()) number += size * coordinate(random);
   return pose;
@@ -39,14 +40,11 @@ class PosedModel {
     auto file = cage_path(context, setting.model);
     file.replace(file.rfind("_cage"), 5, "");
     const auto soup = io::read_polygons(file);
-    const auto cage = std::get<Cage<3>>(
-        io::to_cage(io::read_polygons(cage_path(context, setting.model)), file));
-    const PointList<3> points = io::to_points<3>(soup, file);
+    const auto cage =
+        std::get<Cage<3>>(io::to_cage(io::read_polygons(cage_path(context, setting.model)), file));
     triangles_ = std::get<Cage<3>>(io::to_cage(soup, file)).facets;
     pose_ = random_pose(setting.problem.cage);
-    const Vector<3> shift = setting.problem.cage.points.col(0) -
-                            setting.problem.scale * cage.points.col(0);
-    points_ = (setting.problem.scale * points).colwise() + shift;
+    points_ = UnitScale<3>(cage)(io::to_points<3>(soup, file));
     places_ = locate_points(setting.problem.mesh, points_);
   }
 
@@ -121,12 +119,11 @@ std::string measure(const Context& context, const ResultTable& table, Setting<Di
 }  // namespace
 
 bool run_smoothness(const Context& context) {
-  ResultTable table(
-      context, "smoothness",
-      joined({mesh_columns(),
-              {"smoothness", "converged", "iterations", "error", "default_iterations",
-               "default_seconds", "mean_influences", "gradient_jump",
-               "crease_mean", "crease_high", "crease_largest"}}));
+  ResultTable table(context, "smoothness",
+                    joined({mesh_columns(),
+                            {"smoothness", "converged", "iterations", "error", "default_iterations",
+                             "default_seconds", "mean_influences", "gradient_jump", "crease_mean",
+                             "crease_high", "crease_largest"}}));
   for (const auto& model : models()) {
     table.add(in_setting(context, "smoothness", model,
                          context.size(model.dim, model.dim == 2 ? 10000 : 6000),

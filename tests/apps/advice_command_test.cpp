@@ -196,7 +196,8 @@ const std::vector<Row> kFiles{
      "$F sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction poisson -o x.npy",
      2,
      {"$F sparsify w.npy --cage square.obj --points model.obj -k 3 --reduction poisson -o x.npy",
-      "$F sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction quadratic -o x.npy"}},
+      "$F sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction quadratic -o "
+      "x.npy"}},
     {": has control points as rows; give --transpose",
      "$F convert w.npy --transpose -o x.npy; $F convert x.npy --cage square.obj --points model.obj "
      "-o y.npy",

@@ -163,7 +163,8 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
 
 TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   const auto arguments = square();
-  expect_refusal(arguments + " -k 3 --reduction poisson", 2, "model.obj: has no faces and no lines");
+  expect_refusal(arguments + " -k 3 --reduction poisson", 2,
+                 "model.obj: has no faces and no lines");
   expect_refusal(arguments + " -k 3 --reduction cubic", 1, "choose from auto|poisson|quadratic");
   // Without neighbors there are no edges to measure.
   expect("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"));
@@ -172,8 +173,8 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   EXPECT_FALSE(report["error"].contains("edge"));
   // A line is enough.
   file("model.obj", "v 2 2 0\nv 1 2 0\nl 1 2\n");
-  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --reduction poisson -o " + path("s.npy")).errors,
-            "");
+  EXPECT_EQ(
+      run("sparsify " + arguments + " -k 3 -q --reduction poisson -o " + path("s.npy")).errors, "");
 }
 
 TEST_F(SparsifyCommand, TripletsAndThresholds) {

@@ -115,7 +115,8 @@ TEST_F(PolygonFile, MalformedObj) {
       {
           {"", ":1: ", "without a vertex"},
           {"# nothing\n\n", ":2: ", "without a vertex"},
-          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ", "it looks like a binary file"},
+          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ",
+           "it looks like a binary file"},
           {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
           {"v 0 0 0\nv 1\n", ":2: ", "expected a number, found the end of the line"},
           {"v", ":1: ", "expected a number, found the end of the file"},

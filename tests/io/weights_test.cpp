@@ -357,7 +357,8 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file); }, {file, ".mtx, .dmat, .npy, .csv or .mat"});
+    expect_error<OptionError>([&] { read_weights(file); },
+                              {file, ".mtx, .dmat, .npy, .csv or .mat"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
                               {file, ".mtx, .dmat, .npy, .csv or .mat"});
   }

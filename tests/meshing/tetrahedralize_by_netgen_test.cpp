@@ -71,9 +71,10 @@ TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
   EXPECT_THROW(tetrahedralize_by_netgen(cage, vertices<3>(-1)), OptionError);
   MeshingOptions<3> embedding;
   embedding.embedded_points = Vector<3>(0.1, 0.2, 0.3);
-  EXPECT_NE(
-      message_of<OptionError>([&] { tetrahedralize_by_netgen(cage, embedding); }).find("given points"),
-      std::string::npos);
+  EXPECT_NE(message_of<OptionError>([&] {
+              tetrahedralize_by_netgen(cage, embedding);
+            }).find("given points"),
+            std::string::npos);
   MeshingOptions<3> hasty = vertices<3>(300000);
   hasty.time_limit = 0.2;
   EXPECT_NE(message_of<InputError>([&] {

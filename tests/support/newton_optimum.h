@@ -15,8 +15,8 @@
 
 namespace flbc::testing {
 
-//! Minimizes sum A (phi sqrt(|grad w|^2 + delta^2) + epsilon / 2 |grad w|^2) - delta sum log w under
-//! the linear constraints, for delta falling to 1e-11.
+//! Minimizes sum A (phi sqrt(|grad w|^2 + delta^2) + epsilon / 2 |grad w|^2) - delta sum log w
+//! under the linear constraints, for delta falling to 1e-11.
 template <int Dim>
 class NewtonOptimum {
  public:
@@ -35,8 +35,7 @@ class NewtonOptimum {
     for (Index s = 0; s < mesh.num_cells(); ++s) {
       const auto corners = cell_corners(mesh, s);
       measures_.push_back(simplex_measure<Dim>(corners));
-      const auto hats =
-          linear_gradients<Dim>(corners, Eigen::MatrixXd::Identity(Dim + 1, Dim + 1));
+      const auto hats = linear_gradients<Dim>(corners, Eigen::MatrixXd::Identity(Dim + 1, Dim + 1));
       for (int k = 0; k <= Dim; ++k) {
         const Index v = mesh.cells(k, s);
         if (place[v] >= 0) {
@@ -58,7 +57,8 @@ class NewtonOptimum {
     for (Eigen::Index k = 0; k < w.cols(); ++k) w.col(k) = start_.col(interior_[k]);
     if (non_negative_ && w.minCoeff() <= 1e-9) return {};
     for (double delta = 0.1; delta > 0.5e-11; delta /= 4) {
-      for (int step = 0; step < 60 && improve(w, delta); ++step) {}
+      for (int step = 0; step < 60 && improve(w, delta); ++step) {
+      }
     }
     Eigen::MatrixXd all = start_;
     for (Eigen::Index k = 0; k < w.cols(); ++k) all.col(interior_[k]) = w.col(k);
@@ -99,8 +99,7 @@ class NewtonOptimum {
         const Vector<Dim> z = g.block(Dim * s, i, Dim, 1);
         const double length = std::sqrt(z.squaredNorm() + delta * delta);
         const double phi = problem_.phi(i, s);
-        slope.col(i) +=
-            measures_[s] * (phi / length + problem_.smoothness) * rows.transpose() * z;
+        slope.col(i) += measures_[s] * (phi / length + problem_.smoothness) * rows.transpose() * z;
         const Eigen::Matrix<double, Dim, Dim> unit = Eigen::Matrix<double, Dim, Dim>::Identity();
         const Eigen::Matrix<double, Dim, Dim> inner =
             phi / length * (unit - z * z.transpose() / (length * length)) +

@@ -29,7 +29,8 @@ struct Lbc2014Input {
   Eigen::MatrixXd initial_z_dual{};  //!< scaled dual of Z, n x Dim F (a block per cell)
 };
 
-//! With the quadratic term epsilon / 2 A |grad w|^2. Alternates 1. W and Z, 2. Y, 3. duals, with over-relaxation of W and Z in steps 2 and 3.
+//! With the quadratic term epsilon / 2 A |grad w|^2. Alternates 1. W and Z, 2. Y, 3. duals, with
+//! over-relaxation of W and Z in steps 2 and 3.
 template <int Dim>
 class TextbookLbc2014 {
  public:
