@@ -94,18 +94,28 @@ std::string stem_of(const std::string& path) {
   return std::filesystem::path(path).stem().string();
 }
 
+// Weights of --compare, for the same vertices as those drawn.
+WeightMatrix load_compared(Eigen::Index control_points, Eigen::Index points,
+                           const DrawArguments& arguments) {
+  auto others = io::read_weights(arguments.compared);
+  check_sizes(others, control_points, points,
+              {arguments.compared, arguments.cage,
+               arguments.domain.empty() ? arguments.model : arguments.domain});
+  return others;
+}
+
+std::array<std::string, 2> names_of_compared(const DrawArguments& arguments) {
+  return {stem_of(arguments.weights), stem_of(arguments.compared)};
+}
+
 std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
   if (!arguments.shown_model.empty()) throw OptionError("--show-model is for cages in 3D");
   if (!arguments.compared.empty()) {
-    const auto others = io::read_weights(arguments.compared);
-    check_sizes(others, cage.size(), domain.num_vertices(),
-                {arguments.compared, arguments.cage,
-                 arguments.domain.empty() ? arguments.model : arguments.domain});
+    const auto others = load_compared(cage.size(), domain.num_vertices(), arguments);
     const Index i = arguments.control_point;
     return draw::draw_comparison(cage, domain, weights.row(i), others.row(i),
-                                 {stem_of(arguments.weights), stem_of(arguments.compared)}, i,
-                                 arguments.options);
+                                 names_of_compared(arguments), i, arguments.options);
   }
   if (arguments.all) {
     return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
@@ -116,7 +126,7 @@ std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const Weig
 
 std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
                     const DrawArguments& arguments) {
-  if (!arguments.compared.empty()) throw OptionError("--compare is for cages in 2D");
+  if (!arguments.compared.empty()) throw OptionError("--compare in 3D needs --model");
   if (arguments.all) {
     return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
   }
@@ -179,7 +189,6 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
 }
 
 std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
-  if (!arguments.compared.empty()) throw OptionError("--compare is for cages in 2D");
   const auto view = parse_view(arguments.view);
   const auto posed = load_posed(cage, arguments);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
@@ -187,6 +196,12 @@ std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments
   std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
   if (arguments.all) {
     return draw::draw_model_sheet(model, places[0], posed.weights, view, arguments.options);
+  }
+  if (!arguments.compared.empty()) {
+    const auto others = load_compared(cage.size(), posed.model.points.cols(), arguments);
+    const Index i = arguments.control_point;
+    return draw::draw_model_comparison(model, places[0], posed.weights.row(i), others.row(i),
+                                       names_of_compared(arguments), i, view, arguments.options);
   }
   if (posed.moved.cols() > 0) places.push_back({posed.pose, posed.moved});
   return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);
@@ -216,9 +231,9 @@ void add_options(CLI::App& command, DrawArguments& a) {
   model->excludes(domain);
   command.add_option("--weights", a.weights, "weights at the vertices")->required();
   command.add_option("--cage", a.cage, "cage of the weights")->required();
-  auto* compare = command.add_option(
-      "--compare", a.compared,
-      "other weights of the same vertices: draw both functions and their difference, in 2D");
+  auto* compare = command.add_option("--compare", a.compared,
+                                     "other weights of the same vertices: draw both functions and "
+                                     "their difference (3D: with --model)");
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
   auto* point =

@@ -148,4 +148,24 @@ std::string draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
   return canvas.encode();
 }
 
+std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& place,
+                                  const Eigen::VectorXd& values, const Eigen::VectorXd& others,
+                                  const std::array<std::string, 2>& labels, Index control_point,
+                                  const ObliqueView& view, const WeightPictureOptions& options) {
+  validate(options);
+  check(model, {place}, {values, control_point});
+  check(model, {place}, {others, control_point});
+  const auto [shown, names] = compare_functions(values, others, labels);
+  const Box content = common_box({place}, view);
+  const auto sheet = plan_sheet(content, 3, options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (int k = 0; k < 3; ++k) {
+    paint_model(canvas, {model, place, shown[k], control_point, view,
+                         PixelMap(content, sheet.frames[k]), Vector<2>::Zero(), unit});
+    paint_label(canvas, {sheet.frames[k].center().x(), sheet.frames[k].low.y()}, names[k], unit);
+  }
+  return canvas.encode();
+}
+
 }  // namespace flbc::draw

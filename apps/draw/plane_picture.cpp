@@ -167,14 +167,7 @@ std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
   check_edges(cage);
   check_weight(values, mesh.num_vertices(), control_point, cage.size());
   check_weight(others, mesh.num_vertices(), control_point, cage.size());
-  const Eigen::VectorXd difference = (values - others).cwiseAbs();
-  const double largest = difference.maxCoeff();
-  std::ostringstream label;
-  label.precision(2);
-  label << "difference, at most " << largest;
-  const double unit_of_difference = largest > 0 ? largest : 1;
-  const Eigen::VectorXd shown[] = {values, others, difference / unit_of_difference};
-  const std::string names[] = {labels[0], labels[1], label.str()};
+  const auto [shown, names] = compare_functions(values, others, labels);
   const Box content = bounding_box(cage.points);
   const auto sheet = plan_sheet(content, 3, options);
   Canvas canvas(sheet.width, sheet.height, options.format);

@@ -170,6 +170,17 @@ void paint_length_bar(Canvas& canvas, const Box& box, double largest,
   paint_scale(canvas, box, 0, {"0", short_number(largest / 2), short_number(largest)}, unit);
 }
 
+ComparedFunctions compare_functions(const Eigen::VectorXd& values, const Eigen::VectorXd& others,
+                                    const std::array<std::string, 2>& names) {
+  const Eigen::VectorXd difference = (values - others).cwiseAbs();
+  const double largest = difference.maxCoeff();
+  std::ostringstream label;
+  label.precision(2);
+  label << "difference, at most " << largest;
+  return {{values, others, difference / (largest > 0 ? largest : 1)},
+          {names[0], names[1], label.str()}};
+}
+
 void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,
                   Index num_control_points) {
   if (control_point < 0 || control_point >= num_control_points) {

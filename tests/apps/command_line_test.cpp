@@ -113,6 +113,23 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   expect_failure(draw + sample("2d/ring_cage.obj"), 2, "has weights for 24 control points, but");
 }
 
+TEST_F(CommandLine, ComparesFunctionsIn3D) {
+  const auto cage = sample("3d/torus_cage.obj");
+  const auto solve = "solve " + cage + " -q --vertices 500 --save-domain " + path("d.mesh");
+  expect(solve + " --method harmonic -o " + path("w.npy"));
+  expect("solve " + cage + " --domain " + path("d.mesh") + " -q --method meanvalue -o " +
+         path("m.npy"));
+  const auto draw = "draw --model " + path("d.mesh") + " --cage " + cage + " --weights " +
+                    path("w.npy") + " -o " + path("p.svg");
+  expect(draw + " --compare " + path("w.npy"));
+  const auto same = slurp(path("p.svg"));
+  expect(draw + " --compare " + path("m.npy"));
+  EXPECT_NE(slurp(path("p.svg")), same);
+  expect_failure("draw " + path("d.mesh") + " --cage " + cage + " --weights " + path("w.npy") +
+                     " -o " + path("q.svg") + " --compare " + path("m.npy"),
+                 1, "--compare in 3D needs --model");
+}
+
 TEST_F(CommandLine, TellsWhatIsInAFile) {
   auto result = expect("info " + sample("3d/torus_cage.obj"));
   EXPECT_NE(result.output.find("a sound 3D cage of 48 control points and 96 triangles"),
