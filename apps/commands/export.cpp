@@ -60,9 +60,11 @@ void check_arguments(ExportArguments& arguments) {
 // Vertex groups of Blender, as a program.
 template <int Dim>
 void write_vertex_groups(const PointList<Dim>& rest, const PointList<Dim>& points,
-                         const SparseWeights& weights, const ExportArguments& arguments) {
+                         const EdgeList& edges, const SparseWeights& weights,
+                         const ExportArguments& arguments) {
   const auto few = naming(arguments.model, [&] {
-    return sparsify<Dim>(rest, points, weights, {arguments.options.max_influences});
+    return reduce_influences<Dim>(rest, points, edges, weights, {},
+                                  {arguments.options.max_influences});
   });
   const auto script = blender_script<Dim>(rest, few);
   write_text(arguments.output, script);
@@ -140,10 +142,11 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   check_sizes(weights, rest.cols(), points.cols(), files);
   check_reproduction(weights, rest, points, files);
   if (io::extension_of(arguments.output) == "py") {
-    return write_vertex_groups<Dim>(rest, points, weights, arguments);
+    return write_vertex_groups<Dim>(rest, points, model.edges(), weights, arguments);
   }
 
   auto options = arguments.options;
+  options.edges = model.edges();
   options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, options, animation);
@@ -207,10 +210,10 @@ void add_export_command(CLI::App& app, int&) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    const auto poses = find_cages(arguments->poses);
-    check_files(*arguments, poses);
-    dimension_of_cage(arguments->cage) == 2 ? export_model<2>(*arguments, poses)
-                                            : export_model<3>(*arguments, poses);
+    const auto pose_files = find_cages(arguments->poses);
+    check_files(*arguments, pose_files);
+    dimension_of_cage(arguments->cage) == 2 ? export_model<2>(*arguments, pose_files)
+                                            : export_model<3>(*arguments, pose_files);
   });
 }
 

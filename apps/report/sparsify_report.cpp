@@ -66,7 +66,6 @@ void add_reduction_option(CLI::App& command, std::string& reduction) {
 
 std::string reduction_for(const std::string& asked, const std::string& points_file,
                           const EdgeList& edges, Eigen::Index control_points, Eigen::Index points) {
-  constexpr double kMostNumbers = 2.5e8;  // 2 GB
   const bool has_edges = !edges.ends.empty();
   if (asked == kPoisson && !has_edges) {
     throw InputError(points_file +
@@ -74,8 +73,7 @@ std::string reduction_for(const std::string& asked, const std::string& points_fi
                      "--reduction quadratic");
   }
   if (asked != kAutomatic) return asked;
-  const double numbers = static_cast<double>(control_points) * static_cast<double>(points);
-  return has_edges && numbers <= kMostNumbers ? kPoisson : kQuadratic;
+  return suits_poisson(edges, control_points, points) ? kPoisson : kQuadratic;
 }
 
 template <int Dim>

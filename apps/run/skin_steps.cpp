@@ -115,6 +115,7 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   gltf::SkinOptions options;
   options.max_influences = max_influences;
   options.name = shape.name;
+  if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
   options.cage_edges = view::as_facets(shown_cage(run).edges);
   const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
                                       shape.surface, options, animation);

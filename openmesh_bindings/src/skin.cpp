@@ -46,6 +46,7 @@ void write_skin_file(const std::string& path, SkinInput<Dim> input,
     place.head<Dim>() = point;
     input.model.soup.points.push_back(place);
   }
+  skin.edges = edges_of_polygons(rest, input.model.soup.polygons, input.model.soup.polylines);
   const auto surface = gltf::surface_of_model<Dim>(input.model);
   const auto made = gltf::export_skin<Dim>(input.cage, rest, SparseWeights(input.weights), surface,
                                            skin, animation);

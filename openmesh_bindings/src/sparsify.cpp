@@ -10,12 +10,10 @@ SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>&
   SparsifyOptions options;
   options.max_influences = most;
   options.threshold = threshold;
-  // Without neighbors there are no seams.
-  if (reduction == Reduction::kQuadratic || edges.ends.empty()) {
+  if (reduction == Reduction::kQuadratic) {
     return flbc::sparsify<Dim>(control_points, points, weights, options);
   }
-  return SparseWeights(
-      reduce_by_poisson<Dim>(control_points, points, edges, weights.dense(), {}, options));
+  return reduce_influences<Dim>(control_points, points, edges, weights, {}, options);
 }
 
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) {

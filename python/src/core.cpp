@@ -217,9 +217,10 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
     return with_weights(weights, [&](const auto& given) -> py::object {
       return as_python(without_gil([&] {
         validate<kDim>(options);
-        // Without neighbors there are no seams.
-        if (lists.empty()) return SparseWeights(flbc::sparsify<kDim>(cage, all, given, options));
         const auto edges = edges_of_polygons(all, lists);
+        if (!suits_poisson(edges, cage.cols(), all.cols())) {
+          return SparseWeights(flbc::sparsify<kDim>(cage, all, given, options));
+        }
         return SparseWeights(
             reduce_by_poisson<kDim>(cage, all, edges, as_dense(given), moved, options));
       }));

@@ -161,6 +161,7 @@ void export_skin(const std::string& path, const Doubles& cage_points, const Indi
     with_weights(weights, [&](const auto& given) {
       without_gil([&] {
         const auto surface = surface_of<kDim>(points, polygons);
+        options.edges = edges_of_polygons(places, lists_of(polygons));
         const auto skin = gltf::export_skin<kDim>(cage.points, places, SparseWeights(given),
                                                   surface, options, animation);
         io::write_file(path, [&](std::ostream& out) { out << skin.content; });

@@ -51,8 +51,8 @@ class ExportCommand : public CommandLineTest {
     const auto with_weights = " --weights " + path("w.npy") + " --cage ";
     expect("solve " + cage + " --method harmonic -q --vertices 1500 --save-domain " +
            path(domain_file) + " --model " + model + " -o " + path("w.npy"));
-    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
-           " -k 4 --reduction quadratic -q -o " + path("w4.mtx"));
+    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model + " -k 4 -q -o " +
+           path("w4.mtx") + " --pose " + cage + " --pose " + pose);
     expect("deform " + model + " --weights " + path("w4.mtx") + " --pose " + pose + " -q -o " +
            path("posed.obj"));
     const auto result = expect_export(model + with_weights + cage + " -k 4 -o " + path("s.glb") +

@@ -35,23 +35,29 @@ TYPED_TEST_SUITE(GltfSkinTest, Dimensions);
 // points would matter.
 template <int Dim>
 struct Example {
-  Example() : sample(make_sample<Dim>(Shape::kRing, 3)), weights(harmonic_weights(sample)) {
+  Example()
+      : sample(make_sample<Dim>(Shape::kRing, 3)),
+        weights(harmonic_weights(sample)),
+        edges(edges_of_cells(sample.mesh)) {
     const auto& mesh = sample.mesh;
     for (Index v = 0; v < mesh.num_vertices(); ++v) surface.sources.push_back(v);
     surface.triangles = mesh.cells.template topRows<3>();
     surface.normals = Vector<3>(0.6, 0, 0.8).replicate(1, mesh.num_vertices());
   }
-  gltf::ExportedSkin skin(const gltf::SkinOptions& options = {},
+  gltf::ExportedSkin skin(gltf::SkinOptions options = {},
                           const gltf::Animation<Dim>& animation = {}) const {
+    options.edges = edges;
     return gltf::export_skin<Dim>(sample.cage.points, sample.mesh.points, SparseWeights(weights),
                                   surface, options, animation);
   }
-  WeightMatrix few(Index count) const {
-    return sparsify<Dim>(sample.cage.points, sample.mesh.points, weights, {count});
+  SparseWeights few(Index count, const std::vector<PointList<Dim>>& poses = {}) const {
+    return reduce_influences<Dim>(sample.cage.points, sample.mesh.points, edges,
+                                  SparseWeights(weights), poses, {count});
   }
 
   Sample<Dim> sample;
   WeightMatrix weights;
+  EdgeList edges;
   gltf::Surface surface;
 };
 
@@ -156,8 +162,9 @@ TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
   const GlbFile file(skin.content);
   ASSERT_EQ(file.json["animations"].size(), 1);
   EXPECT_EQ(file.json["animations"][0]["channels"].size(), 2);
+  const auto few = example.few(8, animation.poses);
   const auto expect_pose = [&](double time, const PointList<Dim>& pose) {
-    EXPECT_LT(distance<Dim>(file, file.joints(time), deform<Dim>(example.few(8), pose)), 1e-6);
+    EXPECT_LT(distance<Dim>(file, file.joints(time), deform<Dim>(few, pose)), 1e-6);
   };
   for (int k = 0; k < 3; ++k) expect_pose(animation.times[k], animation.poses[k]);
   expect_pose(0.25, (animation.poses[0] + animation.poses[1]) / 2);
@@ -238,7 +245,7 @@ TYPED_TEST(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
   EXPECT_EQ(file.metadata().at("endTimeCode").numbers[0], 24);
   const double begin = 0, end = 24;
   EXPECT_LT((file.skinned(&begin) - rest).cwiseAbs().maxCoeff(), 1e-5);
-  const Eigen::MatrixXd expected = in_space<Dim>(deform<Dim>(example.few(8), pose));
+  const Eigen::MatrixXd expected = in_space<Dim>(deform<Dim>(example.few(8, {cage, pose}), pose));
   EXPECT_GT((expected - rest).norm(), 0.1);
   EXPECT_LT((file.skinned(&end) - expected).cwiseAbs().maxCoeff(), 1e-5);
   const auto& joints = file["/model/cage.joints"].value.words;
@@ -336,6 +343,7 @@ struct Segments {
   PointList<Dim> control_points;
   PointList<Dim> points;
   WeightMatrix weights;
+  EdgeList edges;
   gltf::Surface surface;
 };
 
@@ -428,8 +436,8 @@ TYPED_TEST(GltfSkinTest, ErrorsOfStoringAreMeasured) {
   surface.sources.insert(surface.sources.end(), 1000, surface.sources.back());
   surface.normals = Vector<3>(0, 0, 1).replicate(1, static_cast<int>(surface.sources.size()));
   const auto skin = example.skin(options, {{0}, {pose}});
-  const auto errors =
-      displacements<Dim>(deform<Dim>(example.weights, pose), deform<Dim>(example.few(4), pose));
+  const auto errors = displacements<Dim>(deform<Dim>(example.weights, pose),
+                                         deform<Dim>(example.few(4, {pose}), pose));
   EXPECT_GT(errors.maxCoeff(), 0.01);
   EXPECT_NEAR(skin.deformation_error.max, errors.maxCoeff(), 1e-6);
   EXPECT_NEAR(skin.deformation_error.rms,

@@ -79,7 +79,7 @@ keyframes() { # CAGE POSE
 # ---- steps ---------------------------------------------------------------------------------------
 # The weights of a model, and the poses in which flbc deform puts it with at most K of them.
 prepare() { # NAME MODEL CAGE POSE K
-  "$flbc" sparsify "$1.npy" --cage "$3" --points "$2" -k "$5" --reduction quadratic -q -o "$1.$5.mtx"
+  "$flbc" sparsify "$1.npy" --cage "$3" --points "$2" -k "$5" --pose "$3" --pose "$4" -q -o "$1.$5.mtx"
   "$flbc" deform "$2" --weights "$1.$5.mtx" --rest "$3" --pose "$4" -q -o "$1.$5.posed.${2##*.}"
 }
 

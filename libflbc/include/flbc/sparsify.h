@@ -84,6 +84,26 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
                                const std::vector<PointList<Dim>>& poses,
                                const SparsifyOptions& options);
 
+//! Whether reduce_influences() uses reduce_by_poisson(): there are edges, and the dense weights,
+//! which it needs, have at most 2.5e8 numbers (2 GB).
+bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points, Eigen::Index num_points);
+
+//! Reduces influences by reduce_by_poisson() if suits_poisson(), otherwise by sparsify(). Weights
+//! within the limits only pass sparsify().
+//! \param control_points  Dim x n, finite
+//! \param points  Dim x P, inside the convex hull of the control points, in the same units
+//! \param edges  between the points, may be empty
+//! \param weights  n x P, as for sparsify()
+//! \param poses  Dim x n each, displaced control points, may be empty
+//! \param options  as for sparsify()
+//! \return n x P
+//! \throws as these functions
+template <int Dim>
+SparseWeights reduce_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                                const EdgeList& edges, const SparseWeights& weights,
+                                const std::vector<PointList<Dim>>& poses,
+                                const SparsifyOptions& options);
+
 //! The energy that reduce_by_poisson() minimizes, for any weights. The unit of displacements is a
 //! tenth of cage size.
 //! \param control_points  Dim x n, finite

@@ -183,7 +183,8 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
                          const SkinOptions& options, const Animation<Dim>& animation) {
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
-  const auto few = sparsify(control_points, points, weights, {options.max_influences});
+  const auto few = reduce_influences(control_points, points, options.edges, weights,
+                                     animation.poses, {options.max_influences});
   const auto stored = to_joint_weights(few, options.weight_format);
   const Vector<Dim> origin = origin_of(control_points, options.format);
   auto scene = make_scene(control_points, points, stored, surface, animation, origin);

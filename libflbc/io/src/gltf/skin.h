@@ -25,6 +25,7 @@ struct SkinOptions {
   WeightFormat weight_format = WeightFormat::kFloat;
   std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
+  EdgeList edges{};           //!< between the points, for the reduction; empty = each point alone
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
 
@@ -56,8 +57,8 @@ struct ExportedSkin {
   ErrorNorms deformation_error{};
 };
 
-//! Points with more than `max_influences` influences or with negative weights are reduced by
-//! sparsify(); others are unchanged.
+//! Weights are reduced by reduce_influences() with the poses of the animation. Non-negative weights
+//! with at most `max_influences` influences are unchanged.
 //! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, reproducing
 //! \param surface  of these points; in 2D it lies in the plane z = 0
 //! \throws OptionError for another number of influences; InputError if sizes do not match, there
