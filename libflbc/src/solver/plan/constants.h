@@ -29,6 +29,19 @@ constexpr double with_smoothness(double penalty, double smoothness) {
 }
 //! `value` on all pairs balances after these iterations.
 constexpr int kBalancedAfter[] = {5, 10, 20, 40};
+//! `value` on all pairs looks at its residuals after this many iterations, and whenever their
+//! number has grown by the factor.
+constexpr int kFirstLook = 80;
+constexpr double kLookGrowth = 1.5;
+//! `value`: the penalty is lowered if the violation of the constraints is less than the first of
+//! these times the change of gradients in an iteration, both in the metric and the latter times the
+//! penalty, and raised if it is more than the second. On slits, combs, and stars the ratio is 15 to
+//! 60, and half to a fifth of the balanced penalty is best. On round cages it is 60 to 450, and a
+//! smaller penalty harms. It grows to thousands where the penalty is too small in the end (lab
+//! book).
+constexpr double kLeastViolation = 120, kMostViolation = 500;
+//! `value`: factors by which the penalty changes at most then, and the smallest penalty.
+constexpr double kMostLowered = 0.3, kMostRaised = 3, kSmallestPenalty = 1.0 / 400;
 //! `value` on the active set balances after these, by rebuilding the iteration.
 constexpr int kFirstBalance = 10, kLastBalance = 40;
 //! `value` on the active set uses this fraction of the penalty of all pairs. Fewer weights move,

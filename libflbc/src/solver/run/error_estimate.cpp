@@ -26,31 +26,33 @@ WeightHistory::WeightHistory(const std::vector<Index>& vertices, Index n, bool i
 }
 
 template <class Scalar>
-double WeightHistory::compare(std::vector<Scalar>& kept, const ReadRow& read) const {
+std::vector<double> WeightHistory::compare(std::vector<Scalar>& kept, const ReadRow& read) const {
   const auto count = static_cast<Index>(sample_.size());
   const bool full = !kept.empty();
   kept.resize(sample_.size() * n_);
-  const double sum = parallel_sum(count, 0.0, [&](Index begin, Index end) {
-    double part = 0;
+  const auto n = static_cast<Eigen::Index>(n_);
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(n);
+  const Eigen::ArrayXd sum = parallel_sum(count, none, [&](Index begin, Index end) {
+    Eigen::ArrayXd part = none;
     std::vector<double> row(n_);
     for (Index k = begin; k < end; ++k) {
       read(sample_[k], row.data());
-      double of_row = 0;
       for (std::size_t i = 0; i < n_; ++i) {
         Scalar& before = kept[k * n_ + i];
         const double difference = row[i] - static_cast<double>(before);
-        of_row += difference * difference;
+        part[static_cast<Eigen::Index>(i)] += difference * difference;
         before = static_cast<Scalar>(row[i]);
       }
-      part += of_row;
     }
     return part;
   });
-  return full ? sum / std::max<Index>(1, count) : -1;
+  if (!full) return {};
+  const Eigen::ArrayXd mean = sum / std::max<Index>(1, count);
+  return {mean.begin(), mean.end()};
 }
 
-double WeightHistory::operator()(int iteration, const ReadRow& read) {
-  if (iteration % kStep != 0) return -1;
+std::vector<double> WeightHistory::operator()(int iteration, const ReadRow& read) {
+  if (iteration % kStep != 0) return {};
   const auto turn = static_cast<std::size_t>(iteration / kStep) % doubles_.size();
   return in_double_ ? compare(doubles_[turn], read) : compare(floats_[turn], read);
 }
@@ -61,9 +63,9 @@ double ErrorEstimate::spans_left(double rate) const {
   return rate > 0 ? 1 / std::expm1(rate * span_) : kInfinity;
 }
 
-// Decay rate of difference norms per iteration, by regression over iterations first .. last.
-// Infinite with fewer than two differences.
-double ErrorEstimate::rate(double first, double last) const {
+// Decay rate of difference norms of a control point per iteration, by regression over iterations
+// first .. last. Infinite with fewer than two differences.
+double ErrorEstimate::rate(std::size_t i, double first, double last) const {
   double count = 0, mean_k = 0, mean_y = 0;
   const auto counts = [&](const Entry& entry) {
     return entry.iteration >= first && entry.iteration <= last;
@@ -72,7 +74,7 @@ double ErrorEstimate::rate(double first, double last) const {
     if (!counts(entry)) continue;
     ++count;
     mean_k += entry.iteration;
-    mean_y += entry.log_difference;
+    mean_y += entry.log_differences[i];
   }
   if (count < 2) return kInfinity;
   mean_k /= count;
@@ -80,22 +82,22 @@ double ErrorEstimate::rate(double first, double last) const {
   double covariance = 0, variance = 0;
   for (const auto& entry : entries_) {
     if (!counts(entry)) continue;
-    covariance += (entry.iteration - mean_k) * (entry.log_difference - mean_y);
+    covariance += (entry.iteration - mean_k) * (entry.log_differences[i] - mean_y);
     variance += (entry.iteration - mean_k) * (entry.iteration - mean_k);
   }
   return -0.5 * covariance / variance;
 }
 
-// The remaining error, squared, relative to the last squared difference.
-double ErrorEstimate::rest() const {
+// The remaining error of a control point, squared, relative to its last squared difference.
+double ErrorEstimate::rest(std::size_t i) const {
   using namespace plan::error_estimate;
   const double now = entries_.back().iteration;
   const double window = std::max<double>(span_, kPart * now);
-  const double present = rate(now - window, now);
+  const double present = rate(i, now - window, now);
   if (present == kInfinity) return kLeast;
   const double farthest = square(kFarthest * now / span_);
   double rate_to_come = present;
-  const double before = rate(now - 2 * window, now - window);
+  const double before = rate(i, now - 2 * window, now - window);
   if (present > 0 && present < before && before < kInfinity) {
     rate_to_come *= std::sqrt(std::max(present / before, kFall));
   }
@@ -119,6 +121,9 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   }
   const bool ends = shown_ <= tolerance_ && iteration >= kFirstMeasured;
   wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
+  // Before, rates are unknown, and the weights of a cold start may still be about to move.
+  const bool early = origin_ == Origin::kCold && iteration < kFirstMeasured;
+  if (early) return std::max(shown_, plan::kUnknownError * tolerance_);
   if (!ends) return shown_;
   return std::max(shown_, hidden_ < 0 ? plan::kUnknownError * tolerance_ : hidden_);
 }
@@ -132,13 +137,18 @@ double ErrorEstimate::least(int iteration, double change) const {
          change;
 }
 
-double ErrorEstimate::operator()(int iteration, double change, double difference, double residual) {
+double ErrorEstimate::operator()(int iteration, double change,
+                                 const std::vector<double>& differences, double residual) {
   constexpr double kTiny = 1e-300;
   if (!std::isfinite(change)) return change;
   if (!std::isfinite(residual)) return residual;
-  if (difference >= 0) {
-    entries_.push_back({iteration, std::log(std::max(difference, kTiny))});
-    shown_ = std::max(rest() * difference, least(iteration, change));
+  if (!differences.empty()) {
+    auto& logs = entries_.emplace_back(Entry{iteration, {}}).log_differences;
+    for (const double difference : differences)
+      logs.push_back(std::log(std::max(difference, kTiny)));
+    double error = 0;
+    for (std::size_t i = 0; i < differences.size(); ++i) error += rest(i) * differences[i];
+    shown_ = std::max(error / static_cast<double>(differences.size()), least(iteration, change));
   } else if (entries_.empty()) {
     shown_ = (origin_ == Origin::kCold ? 1 : 2) * plan::error_estimate::kOfChange * change;
   }

@@ -12,8 +12,8 @@
 
 namespace flbc {
 
-//! Differences of weights over kSpan iterations. Unlike differences of single iterations, they
-//! suppress fast oscillations and amplify slow drift by kSpan.
+//! Differences of weights over kSpan iterations, for each control point. Unlike differences of
+//! single iterations, they suppress fast oscillations and amplify slow drift by kSpan.
 class WeightHistory {
  public:
   static constexpr int kSpan = 32;  //!< iterations
@@ -28,16 +28,16 @@ class WeightHistory {
   WeightHistory(const std::vector<Index>& vertices, Index n, bool in_double);
 
   //! Must be called after every iteration.
-  //! \return mean squared difference per vertex to the weights kSpan iterations ago, every kStep
-  //! iterations; below 0 at other times
-  double operator()(int iteration, const ReadRow& read);
+  //! \return for each control point, the mean squared difference to the weights kSpan iterations
+  //! ago, every kStep iterations; empty at other times
+  std::vector<double> operator()(int iteration, const ReadRow& read);
 
  private:
   template <class Scalar>
   using Rows = std::array<std::vector<Scalar>, kSpan / kStep>;  // of the sample, in turn
 
   template <class Scalar>
-  double compare(std::vector<Scalar>& kept, const ReadRow& read) const;
+  std::vector<double> compare(std::vector<Scalar>& kept, const ReadRow& read) const;
 
   std::vector<Index> sample_;
   std::size_t n_;
@@ -63,7 +63,8 @@ enum class Origin {
 //! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a
 //! regression over the last iterations, because differences oscillate. If the rate falls, because
 //! slow parts of the error remain, it is assumed to fall further. If it is low for the number of
-//! iterations, power-law decay is also assumed.
+//! iterations, power-law decay is also assumed. Every control point is extrapolated with its own
+//! rate: weights in a slit or a thin finger may creep when the mean over all has settled.
 //!
 //! Duals may still grow while weights do not change, for example on round cages with nearly
 //! undetermined weights. The residual of the splitting detects this, but costs more than an
@@ -82,22 +83,23 @@ class ErrorEstimate {
 
   //! Estimates of one run, iteration by iteration.
   //! \param change  mean squared change of a weight in this iteration
-  //! \param difference  mean squared difference to the weights of `span` iterations ago; negative
-  //! if unknown
+  //! \param differences  of each control point, mean squared differences to the weights of `span`
+  //! iterations ago; empty if unknown
   //! \param residual  mean squared difference of z and grad w per control point, times the squared
   //! size of the cage; negative if not measured
   //! \return the latest estimate; above the tolerance until a residual has confirmed it; not finite
   //! if an argument is not finite
-  double operator()(int iteration, double change, double difference, double residual = -1);
+  double operator()(int iteration, double change, const std::vector<double>& differences,
+                    double residual = -1);
 
  private:
   struct Entry {
     int iteration;
-    double log_difference;
+    std::vector<double> log_differences;  // of each control point
   };
-  double rate(double first, double last) const;
+  double rate(std::size_t i, double first, double last) const;
   double spans_left(double rate) const;
-  double rest() const;
+  double rest(std::size_t i) const;
   double least(int iteration, double change) const;
   double confirmed(int iteration, double residual);
 

@@ -23,7 +23,6 @@ template <int Dim>
 EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options,
                                     Origin origin)
     : options_(options),
-      num_control_points_(problem.num_control_points()),
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
       residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
@@ -41,8 +40,8 @@ void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
 template <int Dim>
 bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
                                 SolveReport& report) {
-  const double difference = history_(report.iterations, rows_of(iteration)) / num_control_points_;
-  report.primal_residual = estimate_(report.iterations, step.change / num_weights_, difference,
+  const auto differences = history_(report.iterations, rows_of(iteration));
+  report.primal_residual = estimate_(report.iterations, step.change / num_weights_, differences,
                                      step.violation * residual_scale_) /
                            *options_.tolerance;
   return this->looks(options_, report, plan::kFewestIterations);
@@ -78,7 +77,7 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   weights_ = std::move(weights);
   // The residual is used separately, because single iterations are not measured.
   constexpr double kNone = 0;
-  const double shown = estimate_(report.iterations, kNone, difference, kNone);
+  const double shown = estimate_(report.iterations, kNone, {difference}, kNone);
   const double residual = residual_scale_ * step.violation;
   errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
   // Differences oscillate as the state circles its limit, and the first ones after resuming are

@@ -66,7 +66,7 @@ class EstimatedError : public StopRule<Dim> {
 
  private:
   const SolverOptions& options_;
-  const double num_control_points_, num_weights_, residual_scale_;
+  const double num_weights_, residual_scale_;
   ErrorEstimate estimate_;
   WeightHistory history_;
   bool begun_ = false;

@@ -128,8 +128,9 @@ Step CompactSplitting<Scalar, Dim>::iterate(int count, bool measure) {
     const bool balances =
         balances_ && std::find(std::begin(plan::kBalancedAfter), std::end(plan::kBalancedAfter),
                                made_) != std::end(plan::kBalancedAfter);
-    step = balances ? iterate_and_adapt(plan::kBalance, plan::kLargestPenalty)
-                    : iterate_once(measure && k == count);
+    step = balances              ? iterate_and_adapt(plan::kBalance, plan::kLargestPenalty)
+           : made_ == next_look_ ? iterate_and_look()
+                                 : iterate_once(measure && k == count);
   }
   return step;
 }
@@ -137,22 +138,31 @@ Step CompactSplitting<Scalar, Dim>::iterate(int count, bool measure) {
 // z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step.
 template <class Scalar, int Dim>
 Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure) {
+  if (measure) return iterate_measured(settings_.paper_residuals);
+  return {pass(arrays(), loops_->z_step, loops_->y_step).change / (sigma() * sigma())};
+}
+
+// The same with the violation of the constraints. \param paper  whether to add r_p and r_d
+// \param waits  whether the next w_step waits for another penalty
+template <class Scalar, int Dim>
+Step CompactSplitting<Scalar, Dim>::iterate_measured(bool paper, bool waits) {
   const double scale = 1 / (sigma() * sigma());
-  if (!measure) return {scale * pass(arrays(), loops_->z_step, loops_->y_step).change};
   set_difference();
   violation_ = AlignedArray<double>(stride_);
   violation_sum_ = AlignedArray<Scalar>(stride_);
   // First w, then its change in the iteration, which is zero on the boundary.
   AlignedArray<Scalar> moved;
-  if (settings_.paper_residuals) {
+  if (paper) {
     moved = AlignedArray<Scalar>(a_.size());
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]);
   }
-  const RowSums sums = pass(arrays(), loops_->z_step_measured, loops_->y_step_measured);
+  auto state = arrays();
+  if (waits) state.vertex_dual = nullptr;
+  const RowSums sums = pass(state, loops_->z_step_measured, loops_->y_step_measured);
   const double of_cells = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
   Step step{scale * sums.change, scale * (of_cells + sums.violation)};
-  if (settings_.paper_residuals) add_paper_residuals(moved, step);
+  if (paper) add_paper_residuals(moved, step);
   return step;
 }
 
@@ -189,6 +199,24 @@ Step CompactSplitting<Scalar, Dim>::iterate_and_adapt(double ratio, double large
   return step;
 }
 
+// Weights in thin parts and slits creep long after the rest has settled. There the constraints are
+// violated little for the speed of the weights, and a smaller penalty lets them move on.
+template <class Scalar, int Dim>
+Step CompactSplitting<Scalar, Dim>::iterate_and_look() {
+  const Step step = iterate_measured(true, true);
+  next_look_ = static_cast<int>(plan::kLookGrowth * made_);
+  const double ratio = step.primal / step.dual;
+  if (ratio < plan::kLeastViolation) {
+    const double factor = std::max(ratio / plan::kLeastViolation, plan::kMostLowered);
+    set_penalty(std::min(penalty_, std::max(factor * penalty_, plan::kSmallestPenalty)));
+  } else if (ratio > plan::kMostViolation) {
+    const double factor = std::min(ratio / plan::kMostViolation, plan::kMostRaised);
+    set_penalty(std::max(penalty_, std::min(factor * penalty_, plan::kLargestPenalty)));
+  }
+  pass(arrays(), nullptr, loops_->w_step);
+  return step;
+}
+
 // w - W, which is (a - W) / 2.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_difference() {
@@ -211,8 +239,6 @@ std::pair<double, double> CompactSplitting<Scalar, Dim>::squared_lengths(
           std::accumulate(motion.data(), motion.data() + n_, 0.0)};
 }
 
-// In the units of the arrays the duals do not change, and w changes with sigma: w / f. The step
-// w - W belongs to the duals.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) {
   if (start_.size() == 0) return;
@@ -224,16 +250,23 @@ void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) 
   dual2 += data_.boundary_dual2;
   if (!(dual2 > 0) || !(motion2 > 0)) return;
   const double balanced = std::min(ratio * penalty_ * std::sqrt(dual2 / motion2), largest);
-  const double factor = penalty_ / plan::with_smoothness(balanced, problem_.smoothness);
-  penalty_ /= factor;
-  const auto shrink = static_cast<Scalar>(1 / factor);
+  set_penalty(plan::with_smoothness(balanced, problem_.smoothness));
+}
+
+// In the units of the arrays the duals do not change, and w changes with sigma. The step w - W
+// belongs to the duals.
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
+  set_difference();
+  const auto factor = static_cast<Scalar>(penalty / penalty_);
+  penalty_ = penalty;
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) {
-    const Scalar w = shrink * (a_[k] - difference_[k]);
+    const Scalar w = factor * (a_[k] - difference_[k]);
     W_[k] = w - difference_[k];
     a_[k] = w + difference_[k];
-    start_[k] *= shrink;
   }
+  for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
   set_boundary_rows();
 }
 
@@ -243,6 +276,8 @@ template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   made_ = 0;
   balances_ = settings_.balances && start.is_cold();
+  // With smoothness, runs end before it would matter.
+  next_look_ = settings_.balances && problem_.smoothness == 0 ? plan::kFirstLook : 0;
   if (!start.is_cold()) {
     start_from_duals(start);
   } else if (settings_.harmonic_cold) {

@@ -137,8 +137,11 @@ class CompactSplitting final : public Iteration<Dim> {
   void for_slices(const State& state, const std::function<void(const State&, Columns)>& body) const;
   RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
   Step iterate_once(bool measure);
+  Step iterate_measured(bool paper, bool waits = false);
+  Step iterate_and_look();
   void add_paper_residuals(AlignedArray<Scalar>& moved, Step& step);
   void adapt_penalty(double ratio, double largest);
+  void set_penalty(double penalty);
   void set_difference();
 
   const LbcProblem<Dim>& problem_;
@@ -155,6 +158,7 @@ class CompactSplitting final : public Iteration<Dim> {
   CompactData<Scalar, Dim> data_;
   int made_ = 0;  // iterations since the start
   bool balances_ = false;
+  int next_look_ = 0;  // iteration that looks at its residuals; 0 = never
   // state, by rows: interior vertices in the order of the solver, then the boundary
   AlignedArray<Scalar> a_;
   AlignedArray<Scalar> W_;
