@@ -2,7 +2,6 @@
 // flbc cage: a cage from a model, or from a defective one.
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "commands/commands.h"
@@ -13,7 +12,6 @@
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "solve/make_cage.h"
-#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -26,19 +24,10 @@ struct CageArguments {
   bool quiet = false;
 };
 
-const std::map<std::string, CageSymmetry> kSymmetries{{"none", CageSymmetry::kNone},
-                                                      {"x", CageSymmetry::kX},
-                                                      {"y", CageSymmetry::kY},
-                                                      {"z", CageSymmetry::kZ},
-                                                      {"auto", CageSymmetry::kAuto}};
-
 template <int Dim>
 void cage(const ModelFacets<Dim>& model, const CageArguments& arguments) {
   require_cage_writable<Dim>(arguments.output);
-  const auto made = [&] {
-    const ProgressBar bar(arguments.quiet, "making a cage");
-    return make_cage(arguments.model, model, arguments.options);
-  }();
+  const auto made = make_cage(arguments.model, model, arguments.options, arguments.quiet);
   {
     const HeldSignals held;
     write_cage(arguments.output, made.cage, model.height);
@@ -116,18 +105,14 @@ void add_cage_command(CLI::App& app, int&) {
   command->add_option("-o,--output", a.output, "cage: .obj; in 3D also .off and .ply")->required();
   auto* count = command->add_option(
       "--control-points", a.options.control_points,
-      "maximum number of control points (default: depends on the shape, 12 to 60 in 2D, 50 to 150 "
+      "maximum number of control points (default: depends on the shape, 12 to 60 in 2D, 8 to 300 "
       "in 3D)");
   count->check(refuse_vertex_count)->needs(model);
   auto* offset = command->add_option(
       "--offset", a.options.offset,
       "distance from the model, in its units (default: depends on the number of control points)");
   offset->needs(model);
-  add_choice(
-      *command, "--symmetric", {"none", "x", "y", "z", "auto"},
-      [&a](const std::string& word) { a.options.symmetry = kSymmetries.at(word); },
-      "make the cage symmetric across this axis (default: auto, if the model is symmetric)")
-      ->needs(model);
+  add_symmetric_option(*command, a.options.symmetry)->needs(model);
   command->add_option(
       "--repair", a.defective,
       "repair this defective cage: weld, orient, and fill holes, and list every change; wrap it as "

@@ -16,7 +16,6 @@
 #include "report/facts.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
-#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -173,14 +172,9 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   file = std::exchange(settings.cage, kCage);
   if (is_picture) refuse_unread_options(command, settings);
   require_model_to_embed(settings);
-  CagingOptions options;
-  options.control_points = arguments.cage_control_points;
   const auto run_in_cage = [&](const auto& model) {
     const auto start = std::chrono::steady_clock::now();
-    const auto cage = [&] {
-      const ProgressBar bar(arguments.quiet, "making a cage");
-      return make_cage(file, model, options).cage;
-    }();
+    const auto cage = make_cage(file, model, arguments.caging, arguments.quiet).cage;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     arguments.caging_seconds = seconds.count();
     return run_cage(cage, arguments);
@@ -217,10 +211,11 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       command.add_flag("--auto-cage", a.makes_cage, "make a cage around the first file");
   command
       .add_option(
-          "--control-points", a.cage_control_points,
+          "--control-points", a.caging.control_points,
           "maximum number of control points for --auto-cage (default: depends on the shape)")
       ->check(refuse_vertex_count)
       ->needs(makes_cage);
+  add_symmetric_option(command, a.caging.symmetry)->needs(makes_cage)->group(kMore);
 }
 
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {

@@ -10,6 +10,7 @@
 
 #include "files/movable_model.h"
 #include "flbc/cage.h"
+#include "flbc/cage_from_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
@@ -41,7 +42,7 @@ struct RunArguments {
   SolveSettings settings;          //!< cage and model among them, but no domain
   bool makes_cage = false;         //!< whether to make a cage around the model
   std::string picture;             //!< or round this picture's silhouette; empty for none
-  Index cage_control_points = 0;   //!< at most so many; 0 = by the model's shape
+  CagingOptions caging;            //!< of that cage
   std::vector<std::string> poses;  //!< cage files or a pattern of them
   std::string keyframes;           //!< file of poses instead
   std::string output;              //!< folder

@@ -1,18 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/make_cage.h"
 
+#include <iostream>
+#include <map>
+
 #include "files/load.h"
 #include "flbc/errors.h"
+#include "help/options.h"
 #include "report/facts.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
+
+namespace {
+
+const std::map<std::string, CageSymmetry> kSymmetries{{"none", CageSymmetry::kNone},
+                                                      {"x", CageSymmetry::kX},
+                                                      {"y", CageSymmetry::kY},
+                                                      {"z", CageSymmetry::kZ},
+                                                      {"auto", CageSymmetry::kAuto}};
+
+#ifdef FLBC_WITH_CGAL
+const char* name_of(CagingStage stage) {
+  switch (stage) {
+    case CagingStage::kSimplify:
+      return "simplifying the model";
+    case CagingStage::kWrap:
+      return "wrapping the model";
+    case CagingStage::kReduce:
+      return "reducing control points";
+    case CagingStage::kCheck:
+      break;
+  }
+  return "checking the cage";
+}
+
+// The limits that the cage exceeds.
+template <int Dim>
+std::string excess_of(const ModelCage<Dim>& made, double model_size) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (made.volume_ratio > kMaxCageVolume) {
+    add("its volume is more than " + std::to_string(static_cast<int>(kMaxCageVolume)) +
+        " times that of the model");
+  }
+  if (Dim == 3 && made.max_valence > kMaxCageValence) {
+    add("a control point has " + std::to_string(made.max_valence) + " edges");
+  }
+  if (made.max_distance > kMaxCageDistance * model_size) {
+    add((Facts() << "a control point is " << 100 * made.max_distance / model_size
+                 << "% of the model size away")
+            .text());
+  }
+  return text;
+}
+#endif
+
+}  // namespace
+
+CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry) {
+  return add_choice(
+      command, "--symmetric", {"none", "x", "y", "z", "auto"},
+      [&symmetry](const std::string& word) { symmetry = kSymmetries.at(word); },
+      "make the cage symmetric across this axis (default: auto, if the model is symmetric)");
+}
 
 template <int Dim>
 ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
                          [[maybe_unused]] const ModelFacets<Dim>& model,
-                         [[maybe_unused]] const CagingOptions& options) {
+                         [[maybe_unused]] CagingOptions options, [[maybe_unused]] bool quiet) {
 #ifdef FLBC_WITH_CGAL
-  return naming(file, [&] { return cage_from_model<Dim>(model.points, model.facets, options); });
+  ModelCage<Dim> made;
+  {
+    ProgressBar bar(quiet, "making a cage");
+    options.stage = [&bar](CagingStage stage, double done) { bar.show(name_of(stage), done); };
+    made = naming(file, [&] { return cage_from_model<Dim>(model.points, model.facets, options); });
+  }
+  const auto excess = excess_of(made, bounding_box_diagonal<Dim>(model.points));
+  if (!quiet && !excess.empty()) {
+    std::cerr << file << ": the cage is far from the model: " << excess
+              << "; more control points may help\n";
+  }
+  return made;
 #else
   throw OptionError("this flbc was built without CGAL and cannot make cages");
 #endif
@@ -35,6 +104,9 @@ std::string describe(const ModelCage<Dim>& made) {
   facts << made.cage.size() << " control points, " << made.cage.facets.cols()
         << (Dim == 2 ? " edges" : " triangles") << ", mean distance from the model "
         << 100 * made.mean_distance / size << "% of the cage size";
+  if (made.volume_ratio > 0)
+    facts << ", volume " << made.volume_ratio << " times that of the model";
+  if (Dim == 3) facts << ", at most " << made.max_valence << " edges at a control point";
   if (made.symmetry_axis >= 0) {
     facts << ", symmetric across "
           << "xyz"[made.symmetry_axis] << " = " << made.symmetry_place;
@@ -44,7 +116,7 @@ std::string describe(const ModelCage<Dim>& made) {
 
 #define FLBC_INSTANTIATE(Dim)                                                      \
   template ModelCage<Dim> make_cage(const std::string&, const ModelFacets<Dim>&,   \
-                                    const CagingOptions&);                         \
+                                    CagingOptions, bool);                          \
   template RepairedCage<Dim> repair_defects(const std::string&, const Cage<Dim>&); \
   template std::string describe(const ModelCage<Dim>&);
 FLBC_INSTANTIATE(2)

@@ -5,23 +5,30 @@
 
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "files/model_facets.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"
 
 namespace flbc::app {
 
+//! --symmetric of the commands that make cages.
+CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry);
+
+//! Shows the progress of each stage, and says which limits the cage exceeds, if any.
 //! \param file  the model's, for messages \throws InputError; OptionError, also where the program
 //! was built without CGAL
 template <int Dim>
 ModelCage<Dim> make_cage(const std::string& file, const ModelFacets<Dim>& model,
-                         const CagingOptions& options);
+                         CagingOptions options, bool quiet);
 
 //! As repair_cage(). \param file  the cage's, for messages
 template <int Dim>
 RepairedCage<Dim> repair_defects(const std::string& file, const Cage<Dim>& cage);
 
-//! "96 control points, 188 triangles, mean distance 2.1 % of its size, symmetric across x = 0"
+//! "96 control points, 188 triangles, mean distance 2.1% of its size, volume 1.8 times that of the
+//! model, at most 10 edges at a control point, symmetric across x = 0"
 template <int Dim>
 std::string describe(const ModelCage<Dim>& made);
 

@@ -106,6 +106,13 @@ TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
          "noise.png: the silhouette has more than 4,000,000 pixel edges");
 }
 
+TEST_F(CageCommand, NamesTheLimitsThatACageExceeds) {
+  const auto star = sample("3d/star_model.obj"), out = " -o " + path("cage.obj");
+  const std::string far = "the cage is far from the model";
+  expect("cage " + star + out + " --control-points 5", 0, far);
+  EXPECT_EQ(expect("cage " + star + out, 0, "volume ").errors.find(far), std::string::npos);
+}
+
 TEST_F(CageCommand, RefusesWithReason) {
   const auto out = " -o " + path("out.obj");
   expect("cage" + out, 1, "give either a MODEL");
@@ -170,11 +177,16 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
     EXPECT_EQ(slurp(out + "/cage.obj"), slurp(cage));
   }
   const auto model = sample("2d/figure_model.obj");
+  const auto symmetric = model + " -q --symmetric x -o ";
+  expect("run --auto-cage --vertices 1500 --force " + symmetric + path("out"), 0, "");
+  expect("cage " + symmetric + path("cage.obj"), 0, "");
+  EXPECT_EQ(slurp(path("out/cage.obj")), slurp(path("cage.obj")));
   const auto into = [&](const std::string& folder) { return " -q -o " + path(folder); };
   expect("run " + model + " --auto-cage --vertices 1500" + into("plain"), 0, "");
   expect("run " + model + " --auto-cage --control-points two" + into("none"), 1,
          "--control-points");
   expect("run " + model + " --control-points 30" + into("none"), 1, "requires --auto-cage");
+  expect("run " + model + " --symmetric x" + into("none"), 1, "requires --auto-cage");
   expect("run " + model + " " + model + " --auto-cage" + into("none"), 1, "--auto-cage");
   expect("run " + model + " --auto-cage 30" + into("none"), 1, "by --control-points");
 }

@@ -2,9 +2,15 @@
 // Generated cages enclose their models, even defective ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -198,6 +204,135 @@ TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   auto infinite = model;
   infinite.points(0, 2) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(make(infinite, {}), InputError);
+}
+
+double distance_from_points(const PointList<3>& points, const Vector<3>& p) {
+  return (points.colwise() - p).colwise().norm().minCoeff();
+}
+
+// Every triangle is cut into four with corners of their own.
+Cage<3> subdivided(const Cage<3>& cage, int times) {
+  if (times == 0) return cage;
+  const auto n = static_cast<Index>(cage.facets.cols());
+  Cage<3> fine{PointList<3>(3, 6 * n), FacetList<3>(3, 4 * n)};
+  for (Index f = 0; f < n; ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector<3> a = cage.points.col(cage.facets(k, f));
+      const Vector<3> b = cage.points.col(cage.facets((k + 1) % 3, f));
+      fine.points.col(6 * f + k) = a;
+      fine.points.col(6 * f + 3 + k) = (a + b) / 2;
+    }
+    Eigen::Matrix<Index, 3, 4> parts;
+    parts << 0, 3, 5, 3,  //
+        3, 1, 4, 4,       //
+        5, 4, 2, 5;
+    fine.facets.middleCols(4 * f, 4) = parts.array() + 6 * f;
+  }
+  return subdivided(fine, times - 1);
+}
+
+// A body with eight thin arms.
+Cage<3> spider() {
+  auto spider = box_cage<3>(0.25);
+  for (int arm = 0; arm < 8; ++arm) {
+    auto bar = box_cage<3>(Vector<3>(0.1, -0.05, -0.05), Vector<3>(1.6, 0.05, 0.05));
+    const Eigen::AngleAxisd turn(arm * std::acos(-1.0) / 4, Vector<3>::UnitZ());
+    const Eigen::AngleAxisd slope(0.3 + 0.05 * arm, Vector<3>::UnitY());
+    bar.points = turn.toRotationMatrix() * slope.toRotationMatrix() * bar.points;
+    spider = join(spider, bar);
+  }
+  return spider;
+}
+
+TEST(CageLimitsTest, DefaultCagesKeepThem) {
+  const auto bar = box_cage<3>(Vector<3>(-1, -0.1, -0.1), Vector<3>(1, 0.1, 0.1));
+  for (const auto& model : {box_cage<3>(1), bar, crossed_bars<3>(), spider()}) {
+    const auto made = make(model, {});
+    std::vector<Index> valences(static_cast<std::size_t>(made.cage.size()), 0);
+    for (const Index v : made.cage.facets.reshaped()) ++valences[v];
+    EXPECT_EQ(made.max_valence, *std::max_element(valences.begin(), valences.end()));
+    EXPECT_LE(made.max_valence, kMaxCageValence);
+    const double size = bounding_box_diagonal<3>(model.points);
+    const auto samples = subdivided(model, 5).points;
+    double farthest = 0;
+    for (Index v = 0; v < made.cage.size(); ++v) {
+      farthest = std::max(farthest, distance_from_points(samples, made.cage.points.col(v)));
+    }
+    EXPECT_NEAR(made.max_distance, farthest, 0.02 * size);
+    EXPECT_LE(made.max_distance, kMaxCageDistance * size);
+    EXPECT_GE(made.volume_ratio, 1);
+    EXPECT_LE(made.volume_ratio, kMaxCageVolume);
+  }
+}
+
+TEST(CageLimitsTest, CompactModelsGetFewControlPointsAndThinOnesMore) {
+  EXPECT_LE(make(box_cage<3>(1), {}).cage.size(), 16);
+  EXPECT_GE(make(spider(), {}).cage.size(), 60);
+}
+
+TEST(CageLimitsTest, ARequestedNumberOverridesThem) {
+  CagingOptions options;
+  options.control_points = 4;
+  const auto made = make(spider(), options);
+  EXPECT_GT(made.max_distance, kMaxCageDistance * bounding_box_diagonal<3>(spider().points));
+  EXPECT_GT(made.volume_ratio, kMaxCageVolume);
+}
+
+// Models that overlap, are open, or are oriented inward.
+TEST(CageLimitsTest, VolumesOfModels) {
+  const auto box = box_cage<3>(1);
+  auto moved = box;
+  moved.points.row(0).array() += 1;
+  const std::pair<Cage<3>, double> cases[] = {
+      {box, 8}, {reversed(box), 8}, {join(box, moved), 12}, {without_facet(box, 3), 8}};
+  for (const auto& [model, volume] : cases) {
+    const auto made = make(model, {});
+    EXPECT_NEAR(measure_cage(made.cage).measure / made.volume_ratio, volume, 0.02 * volume);
+  }
+  const Cage<3> points{box.points, FacetList<3>(3, 0)};
+  EXPECT_EQ(make(points, {}).volume_ratio, 0);
+}
+
+// A box that is wider at one side, in which another one is not centered along x.
+TEST(CageLimitsTest, ModelsThatMirrorWithinAPercentGetSymmetricCages) {
+  for (const double deviation : {0.008, 0.02}) {
+    auto model = box_cage<3>(1);
+    for (const int corner : {0, 1}) model.points.col(corner).tail<2>().array() -= 2;
+    auto part = model;
+    part.points.row(0) *= 0.5;
+    part.points.bottomRows(2).array() += 0.5;
+    model = join(model, part);
+    model.points.row(0).tail(8).array() += 0.5 * deviation * bounding_box_diagonal<3>(model.points);
+    const auto made = make(model, {});
+    EXPECT_EQ(made.symmetry_axis, deviation < 0.01 ? 0 : -1);
+    if (made.symmetry_axis < 0) continue;
+    for (Index i = 0; i < made.cage.size(); ++i) {
+      Vector<3> image = made.cage.points.col(i);
+      image(0) = 2 * made.symmetry_place - image(0);
+      EXPECT_LT(distance_from_points(made.cage.points, image), 1e-12);
+    }
+  }
+}
+
+// A model that is simplified first is itself enclosed.
+TEST(CageLimitsTest, LargeModels) {
+  const auto model = subdivided(spider(), 5);
+  ASSERT_GT(model.facets.cols(), 100000);
+  std::vector<CagingStage> stages;
+  CagingOptions options;
+  options.stage = [&](CagingStage stage, double done) {
+    EXPECT_GE(done, 0);
+    EXPECT_LE(done, 1);
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+  };
+  const auto made = cage_from_model<3>(model.points, model.facets, options);
+  expect_cage_of(spider(), {}, made);
+  EXPECT_LE(made.volume_ratio, kMaxCageVolume);
+  ASSERT_GE(stages.size(), 4u);
+  EXPECT_EQ(stages[0], CagingStage::kSimplify);
+  EXPECT_EQ(stages[1], CagingStage::kWrap);
+  EXPECT_EQ(stages[2], CagingStage::kReduce);
+  EXPECT_EQ(stages.back(), CagingStage::kCheck);
 }
 
 TEST(CageFromRealModelTest, RealModels) {

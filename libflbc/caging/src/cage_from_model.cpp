@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -14,9 +16,12 @@
 #include "caging/coarsening.h"
 #include "caging/enclosure.h"
 #include "caging/mirror_plane.h"
+#include "caging/simplified.h"
+#include "caging/solid_volume.h"
 #include "caging/surface_tools.h"
 #include "caging/wrap.h"
 #include "flbc/cage.h"
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 
@@ -25,12 +30,7 @@ namespace flbc {
 namespace {
 
 // Maximum distance of a mirror image from the model, relative to model size.
-constexpr double kSymmetryTolerance = 0.005;
-
-template <int Dim>
-MirrorPlane plane_across(const Enclosure<Dim>& model, int axis) {
-  return {axis, model.box().center()(axis)};
-}
+constexpr double kSymmetryTolerance = 0.01;
 
 // The maximum distance of mirrored vertices from the model.
 template <int Dim>
@@ -49,18 +49,19 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
 // The requested plane through the center of the model. For kAuto, the plane of best symmetry if the
 // model is symmetric.
 template <int Dim>
-MirrorPlane find_symmetry(const PointList<Dim>& points, const FacetList<Dim>& facets,
+MirrorPlane find_symmetry(const Cage<Dim>& model, const Vector<Dim>& center, double size,
                           CageSymmetry wanted) {
   if (wanted == CageSymmetry::kNone) return {};
-  const Enclosure<Dim> model(points, facets);
-  if (wanted == CageSymmetry::kX) return plane_across(model, 0);
-  if (wanted == CageSymmetry::kY) return plane_across(model, 1);
-  if (Dim == 3 && wanted == CageSymmetry::kZ) return plane_across(model, Dim - 1);
+  if (wanted != CageSymmetry::kAuto) {
+    const int axis = static_cast<int>(wanted) - static_cast<int>(CageSymmetry::kX);
+    return {axis, center(axis)};
+  }
+  const Enclosure<Dim> enclosure(model.points, model.facets);
   MirrorPlane best;
-  double least = kSymmetryTolerance * model.box().diagonal().norm();
+  double least = kSymmetryTolerance * size;
   for (int axis = 0; axis < Dim; ++axis) {
-    const auto plane = plane_across(model, axis);
-    const double own = asymmetry(model, points, plane, least);
+    const MirrorPlane plane{axis, center(axis)};
+    const double own = asymmetry(enclosure, model.points, plane, least);
     if (own < least) {
       least = own;
       best = plane;
@@ -88,19 +89,24 @@ std::vector<Vector<Dim>> spread_coordinates() {
   return all;
 }
 
+// An upper bound for the distances of control points.
+template <int Dim>
+double farthest_distance(const Enclosure<Dim>& model) {
+  return 8 * model.box().diagonal().norm();
+}
+
 // Mean distance of the cage surface (2D: lines) from the model, at points evenly distributed on
 // every facet.
 template <int Dim>
 double mean_distance(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
   const auto coordinates = spread_coordinates<Dim>();
-  const double farthest = 8 * model.box().diagonal().norm();
   double sum = 0, total = 0;
   for (Index f = 0; f < cage.facets.cols(); ++f) {
     Eigen::Matrix<double, Dim, Dim> corners;
     for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
     const double part = facet_normal<Dim>(corners).norm() / static_cast<double>(coordinates.size());
     for (const auto& weights : coordinates) {
-      sum += part * model.distance(corners * weights, farthest);
+      sum += part * model.distance(corners * weights, farthest_distance(model));
       total += part;
     }
   }
@@ -166,46 +172,56 @@ WrapSize wrap_size(double control_points) {
 template <int Dim>
 constexpr Index kUsualNumber = Dim == 2 ? 30 : 100;
 
-template <int Dim>
-double total_measure(const Cage<Dim>& cage) {
-  double sum = 0;
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    Eigen::Matrix<double, Dim, Dim> corners;
-    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-    sum += facet_normal<Dim>(corners).norm();
+// Longer boundaries get more control points.
+Index number_by_shape(const Cage<2>& wrap, double model_size) {
+  double length = 0;
+  for (Index e = 0; e < wrap.facets.cols(); ++e) {
+    length += (wrap.points.col(wrap.facets(0, e)) - wrap.points.col(wrap.facets(1, e))).norm();
   }
-  return sum;
+  return std::clamp(static_cast<Index>(8 * length / model_size), 12, 60);
 }
 
-// Longer and more complex boundaries get more control points.
+// The largest number of facets at a control point. In a closed surface there are as many edges.
 template <int Dim>
-Index number_by_shape(const Cage<Dim>& wrap, double model_size) {
-  if (Dim == 2) {
-    return std::clamp(static_cast<Index>(8 * total_measure(wrap) / model_size), 12, 60);
-  }
-  return std::clamp(wrap.size() / 5, 50, 150);
+Index max_valence(const Cage<Dim>& cage) {
+  std::vector<Index> valences(static_cast<std::size_t>(cage.size()), 0);
+  for (const Index v : cage.facets.reshaped()) ++valences[v];
+  return *std::max_element(valences.begin(), valences.end());
 }
 
 // Makes a cage around a model of size about 1.
 template <int Dim>
 class Caging {
  public:
-  Caging(const PointList<Dim>& points, const FacetList<Dim>& facets, const CagingOptions& options)
-      : options_(options),
-        size_(bounding_box_diagonal<Dim>(points)),
-        plane_(find_symmetry<Dim>(points, facets, options.symmetry)),
-        model_(enclosed(points, facets)) {}
+  // \param cell  of the simplified model; 0: the model as it is
+  Caging(const PointList<Dim>& points, const FacetList<Dim>& facets, const CagingOptions& options,
+         double cell)
+      : options_(options), size_(bounding_box_diagonal<Dim>(points)) {
+    Cage<Dim> model{points, facets};
+    if (cell > 0) {
+      tell(CagingStage::kSimplify);
+      model = simplified<Dim>(points, facets, cell);
+    }
+    tell(CagingStage::kWrap);
+    const Eigen::AlignedBox<double, Dim> box(points.rowwise().minCoeff(),
+                                             points.rowwise().maxCoeff());
+    plane_ = find_symmetry<Dim>(model, box.center(), size_, options.symmetry);
+    if constexpr (Dim == 3) volume_ = solid_volume(points, facets);
+    // Adding the mirror image makes the model symmetric.
+    if (plane_.is_there()) model = with_mirror_image(model, plane_);
+    model_.emplace(model.points, model.facets);
+  }
 
   ModelCage<Dim> make() {
-    constexpr double kCoarsening = 1.4, kCoarsest = 2;
-    for (double scale = 1;; scale *= kCoarsening) {
-      const auto size = size_at(scale);
-      if (size.alpha > kCoarsest * size_) break;
-      if (const auto cage = try_wrap(size)) return describe(*cage, size.offset);
+    if (options_.control_points == 0) {
+      if (const auto made = make_by_shape()) return *made;
     }
-    if (options_.control_points == 0) options_.control_points = kUsualNumber<Dim>;
-    const double offset = size_at(1).offset;
-    for (const auto& cage : simple_cages<Dim>(model_.box(), offset)) {
+    // Limits give way to a number of control points that cannot keep them.
+    for (const auto& limits : {limits_, CageLimits{}}) {
+      if (const auto made = make_in_limits(limits)) return *made;
+    }
+    const double offset = size_at(options_.control_points).offset;
+    for (const auto& cage : simple_cages<Dim>(model_->box(), offset)) {
       if (is_sound(cage)) return describe(cage, offset);
       plane_ = {};
     }
@@ -214,51 +230,129 @@ class Caging {
   }
 
  private:
-  // Adding the mirror image makes the model symmetric.
-  Enclosure<Dim> enclosed(const PointList<Dim>& points, const FacetList<Dim>& facets) const {
-    const Cage<Dim> shape{points, facets};
-    if (!plane_.is_there()) return {points, facets};
-    const auto both = with_mirror_image(shape, plane_);
-    return {both.points, both.facets};
+  void tell(CagingStage stage, double done = 0) const {
+    if (options_.stage) options_.stage(stage, done);
   }
 
-  WrapSize size_at(double scale) const {
-    const Index wanted = options_.control_points > 0 ? options_.control_points : kUsualNumber<Dim>;
-    WrapSize size = wrap_size<Dim>(wanted);
+  WrapSize size_at(Index control_points, double scale = 1) const {
+    WrapSize size = wrap_size<Dim>(control_points);
     size.alpha *= scale * size_;
     size.offset *= std::sqrt(scale) * size_;
     if (options_.offset > 0) size.offset = options_.offset;
     return size;
   }
 
-  std::optional<Cage<Dim>> try_wrap(const WrapSize& size) {
-    Cage<Dim> surface = wrap(model_, size);
-    if (surface.facets.cols() == 0) return {};
-    if (options_.control_points == 0) options_.control_points = number_by_shape(surface, size_);
-    if (plane_.is_there()) surface = cut_half(surface, plane_, 1e-2 * size.offset);
-    Coarsening<Dim> coarsening(surface, plane_, model_, size.offset);
-    coarsening.reduce_to(options_.control_points);
+  // Closed, or its half; no facets if wrapping failed.
+  Cage<Dim> wrap_of(const WrapSize& size) const {
+    tell(CagingStage::kWrap);
+    const Cage<Dim> surface = wrap(*model_, size);
+    if (surface.facets.cols() == 0 || !plane_.is_there()) return surface;
+    return cut_half(surface, plane_, 1e-2 * size.offset);
+  }
+
+  std::optional<ModelCage<Dim>> make_in_limits(const CageLimits& limits) const {
+    constexpr double kCoarsening = 1.4, kCoarsest = 2;
+    for (double scale = 1;; scale *= kCoarsening) {
+      const auto size = size_at(options_.control_points, scale);
+      if (size.alpha > kCoarsest * size_) return {};
+      const auto cage = reduced(wrap_of(size), size.offset, options_.control_points, limits);
+      if (cage) return describe(*cage, size.offset);
+    }
+  }
+
+  // Chooses the number of control points. If it fails, the usual number is left to be tried.
+  std::optional<ModelCage<Dim>> make_by_shape() {
+    if constexpr (Dim == 2) {
+      const auto surface = wrap(*model_, size_at(kUsualNumber<2>));
+      options_.control_points =
+          surface.facets.cols() > 0 ? number_by_shape(surface, size_) : kUsualNumber<2>;
+    } else {
+      // A model with thin limbs gets a finer wrap, unless it would take too many control points:
+      // then it is boxed in.
+      constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+      const double most = 0.97 * kMaxCageVolume * volume_;
+      options_.control_points = kMostByShape;
+      for (const auto& [fineness, limit] :
+           {std::pair(kUsualNumber<3>, most), std::pair(kMostByShape, most),
+            std::pair(kUsualNumber<3>, kUnlimited)}) {
+        if (auto made = make_close(size_at(fineness), limit)) return made;
+      }
+      options_.control_points = kUsualNumber<3>;
+    }
+    return {};
+  }
+
+  // As few control points as possible in a volume that is not much larger than that of the wrap. A
+  // compact model may have few; others need some to bend limbs.
+  std::optional<ModelCage<3>> make_close(const WrapSize& size, double most_volume) const {
+    constexpr double kGrowth = 1.3, kFreeVolume = 2, kCompact = 0.5;
+    constexpr Index kLeast = 40, kLeastOfCompact = 8;
+    const auto surface = wrap_of(size);
+    const double volume = (plane_.is_there() ? 2 : 1) * signed_measure(surface);
+    if (!(volume > 0 && volume <= most_volume)) return {};
+    auto limits = limits_;
+    limits.growth =
+        std::min(std::max(kGrowth * volume, kFreeVolume * volume_), most_volume) / volume;
+    const bool is_compact = volume > kCompact * model_->box().volume();
+    const auto cage = reduced(surface, size.offset, is_compact ? kLeastOfCompact : kLeast, limits);
+    if (!cage) return {};
+    return describe(*cage, size.offset);
+  }
+
+  // Half a surface needs no facets in the plane, because the origin is in it too.
+  double signed_measure(const Cage<3>& surface) const {
+    const Vector<3> origin = model_->box().center();
+    double sum = 0;
+    for (Index f = 0; f < surface.facets.cols(); ++f) {
+      const Vector<3> a = surface.points.col(surface.facets(0, f)) - origin;
+      const Vector<3> b = surface.points.col(surface.facets(1, f)) - origin;
+      sum += a.cross(b).dot(surface.points.col(surface.facets(2, f)) - origin) / 6;
+    }
+    return sum;
+  }
+
+  // \return empty if it has more control points than the options permit
+  std::optional<Cage<Dim>> reduced(const Cage<Dim>& start, double offset, Index control_points,
+                                   const CageLimits& limits) const {
+    if (start.facets.cols() == 0) return {};
+    Coarsening<Dim> coarsening(start, plane_, *model_, offset, limits);
+    coarsening.reduce_to(control_points, [&](double done) { tell(CagingStage::kReduce, done); });
     if (coarsening.num_control_points() > options_.control_points) return {};
     coarsening.relax();
-    surface = coarsening.surface();
+    Cage<Dim> surface = coarsening.surface();
     if (plane_.is_there()) surface = join_halves(surface, plane_);
     if (!is_sound(surface)) return {};
     return surface;
   }
 
   bool is_sound(const Cage<Dim>& cage) const {
+    tell(CagingStage::kCheck);
     return cage.size() <= options_.control_points && find_defects(cage, 1).empty() &&
-           find_self_intersections(cage, 1).empty() && model_.is_strictly_inside(cage);
+           find_self_intersections(cage, 1).empty() && model_->is_strictly_inside(cage);
   }
 
   ModelCage<Dim> describe(const Cage<Dim>& cage, double offset) const {
-    return {cage, offset, plane_.axis, plane_.position, mean_distance(cage, model_)};
+    ModelCage<Dim> made{cage, offset, plane_.axis, plane_.position, mean_distance(cage, *model_)};
+    for (Index v = 0; v < cage.size(); ++v) {
+      made.max_distance =
+          std::max(made.max_distance,
+                   model_->distance(Vector<Dim>(cage.points.col(v)), farthest_distance(*model_)));
+    }
+    made.max_valence = max_valence(cage);
+    if constexpr (Dim == 3) {
+      if (volume_ > 0) made.volume_ratio = measure_cage(cage).measure / volume_;
+    }
+    return made;
   }
+
+  static constexpr Index kMostByShape = 300;
 
   CagingOptions options_;
   double size_;
-  MirrorPlane plane_;
-  Enclosure<Dim> model_;
+  CageLimits limits_{kMaxCageValence, kMaxCageDistance* size_};
+  MirrorPlane plane_{};
+  double volume_ = 0;  // of the model, in 3D
+  std::optional<Enclosure<Dim>> model_{};
 };
 
 template <int Dim>
@@ -290,6 +384,25 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
   }
 }
 
+// A large 3D model is simplified first. If the cage of the simplified model does not enclose the
+// model itself, the model is used as it is.
+template <int Dim>
+ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                            const CagingOptions& options) {
+  constexpr Eigen::Index kManyFacets = 40000;
+  constexpr double kCellPerOffset = 0.25;
+  if (Dim == 3 && facets.cols() > kManyFacets) {
+    double offset = options.offset;
+    if (offset == 0) {
+      const Index number = options.control_points > 0 ? options.control_points : kUsualNumber<Dim>;
+      offset = wrap_size<Dim>(number).offset * bounding_box_diagonal<Dim>(points);
+    }
+    const auto made = Caging<Dim>(points, facets, options, kCellPerOffset * offset).make();
+    if (Enclosure<Dim>(points, facets).is_strictly_inside(made.cage)) return made;
+  }
+  return Caging<Dim>(points, facets, options, 0).make();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -300,11 +413,12 @@ ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim
   const double unit = std::exp2(std::ilogb(bounding_box_diagonal<Dim>(points)));
   CagingOptions scaled = options;
   scaled.offset /= unit;
-  auto made = Caging<Dim>(points / unit, facets, scaled).make();
+  auto made = make_checked<Dim>(points / unit, facets, scaled);
   made.cage.points *= unit;
   made.offset *= unit;
   made.symmetry_place *= unit;
   made.mean_distance *= unit;
+  made.max_distance *= unit;
   return made;
 }
 

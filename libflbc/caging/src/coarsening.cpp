@@ -39,13 +39,32 @@ std::vector<Quadric<Dim>> collect_quadrics(const EditableSurface<Dim>& surface,
 
 template <int Dim>
 Coarsening<Dim>::Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane,
-                            const Enclosure<Dim>& enclosure, double offset)
+                            const Enclosure<Dim>& enclosure, double offset,
+                            const CageLimits& limits)
     : surface_(surface, plane),
-      check_(surface_, enclosure, kClearance * offset),
+      check_(surface_, enclosure, kClearance * offset, limits),
       offset_(offset),
       origin_(enclosure.box().center()),
       quadrics_(collect_quadrics(surface_, origin_)),
       versions_(quadrics_.size(), 0) {
+  for (Index f = 0; f < surface.facets.cols(); ++f) measure_ += measure_of(surface_.facet(f));
+  most_ = limits.growth * measure_;
+}
+
+// Half a surface needs no facets in the plane, because the origin is in it too.
+template <int Dim>
+double Coarsening<Dim>::measure_of(const Simplex<Dim>& facet) const {
+  return facet_normal<Dim>(facet.corners).dot(facet.corners.col(0) - origin_);
+}
+
+template <int Dim>
+double Coarsening<Dim>::growth(const Replacement<Dim>& change, const Vector<Dim>& position) const {
+  double sum = 0;
+  for (const auto& corners : change.new_facets) {
+    sum += measure_of(surface_.facet_with(corners, change.vertex, position));
+  }
+  for (const Index f : change.old_facets) sum -= measure_of(surface_.facet(f));
+  return sum;
 }
 
 template <int Dim>
@@ -150,6 +169,10 @@ bool Coarsening<Dim>::take(Candidate candidate) {
       return false;
     }
   }
+  const double growth = this->growth(change, candidate.position);
+  is_full_ = growth > 0 && measure_ + growth > most_;
+  if (is_full_) return false;
+  measure_ += growth;
   surface_.collapse(*plan, candidate.position);
   quadrics_[candidate.a] = sum;
   ++versions_[candidate.a];
@@ -159,9 +182,10 @@ bool Coarsening<Dim>::take(Candidate candidate) {
 }
 
 template <int Dim>
-void Coarsening<Dim>::reduce_to(Index control_points) {
+void Coarsening<Dim>::reduce_to(Index control_points, const std::function<void(double)>& progress) {
+  const double first = num_control_points();
   bool has_progressed = true;
-  while (num_control_points() > control_points && has_progressed) {
+  while (num_control_points() > control_points && has_progressed && !is_full_) {
     has_progressed = false;
     candidates_ = {};
     for (Index a = 0; a < static_cast<Index>(versions_.size()); ++a) {
@@ -170,10 +194,12 @@ void Coarsening<Dim>::reduce_to(Index control_points) {
         if (a < b) add_edge(a, b);
       }
     }
-    while (num_control_points() > control_points && !candidates_.empty()) {
+    while (num_control_points() > control_points && !candidates_.empty() && !is_full_) {
       const Candidate candidate = candidates_.top();
       candidates_.pop();
-      if (is_current(candidate) && take(candidate)) has_progressed = true;
+      if (!is_current(candidate) || !take(candidate)) continue;
+      has_progressed = true;
+      if (progress) progress((first - num_control_points()) / (first - control_points));
     }
   }
 }

@@ -2,6 +2,7 @@
 // Reduces control points by collapsing edges.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -73,10 +74,12 @@ class Coarsening {
  public:
   //! \param offset  distance that facets keep from the model if possible
   Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane, const Enclosure<Dim>& enclosure,
-             double offset);
+             double offset, const CageLimits& limits);
 
-  //! Collapses edges until the number of control points is reached, or no edge can be collapsed.
-  void reduce_to(Index control_points);
+  //! Collapses edges until the number of control points is reached, the measure would grow beyond
+  //! its limit, or no edge can be collapsed.
+  //! \param progress  receives the progress in [0, 1]
+  void reduce_to(Index control_points, const std::function<void(double)>& progress = {});
 
   //! Moves vertices toward the smallest deviation from the original surface.
   void relax();
@@ -111,6 +114,8 @@ class Coarsening {
   void add_edge(Index a, Index b);
   void add_edges_at(Index vertex);
   bool take(Candidate candidate);
+  double measure_of(const Simplex<Dim>& facet) const;
+  double growth(const Replacement<Dim>& change, const Vector<Dim>& position) const;
 
   EditableSurface<Dim> surface_;
   CollapseCheck<Dim> check_;
@@ -119,6 +124,9 @@ class Coarsening {
   std::vector<Quadric<Dim>> quadrics_;
   std::vector<Index> versions_;
   std::priority_queue<Candidate> candidates_;
+  double measure_ = 0;  // Dim! times the area or volume inside the closed surface or its half
+  double most_;         // of this
+  bool is_full_ = false;
 };
 
 }  // namespace flbc

@@ -2,6 +2,7 @@
 #include "caging/collapse_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "caging/surface_tools.h"
 
@@ -40,10 +41,12 @@ Replacement<Dim> replacement_of(const EditableSurface<Dim>& surface, Index verte
 
 template <int Dim>
 CollapseCheck<Dim>::CollapseCheck(const EditableSurface<Dim>& surface,
-                                  const Enclosure<Dim>& enclosure, double clearance)
+                                  const Enclosure<Dim>& enclosure, double clearance,
+                                  const CageLimits& limits)
     : surface_(surface),
       enclosure_(enclosure),
       clearance_(clearance),
+      limits_(limits),
       representatives_(enclosure.representatives()) {
   const auto& plane = surface.plane();
   if (!plane.is_there()) return;
@@ -51,6 +54,16 @@ CollapseCheck<Dim>::CollapseCheck(const EditableSurface<Dim>& surface,
     const Vector<Dim> p = representatives_.col(part);
     if (p(plane.axis) < plane.position) representatives_.col(part) = plane.mirrored(p);
   }
+}
+
+template <int Dim>
+bool CollapseCheck<Dim>::keeps_limits(const Replacement<Dim>& change,
+                                      const Vector<Dim>& position) const {
+  // A vertex in the plane has as many facets again on the other side.
+  const std::size_t valence = (change.is_in_plane ? 2 : 1) * change.new_facets.size();
+  if (Dim == 3 && valence > static_cast<std::size_t>(limits_.valence)) return false;
+  return !std::isfinite(limits_.reach) ||
+         enclosure_.distance(position, limits_.reach) < limits_.reach;
 }
 
 template <int Dim>
@@ -145,8 +158,8 @@ bool CollapseCheck<Dim>::loses_parts(const Replacement<Dim>& change,
 template <int Dim>
 bool CollapseCheck<Dim>::allows(const Replacement<Dim>& change, const Vector<Dim>& position) const {
   return position.allFinite() && keeps_half(change, position) && keeps_shape(change, position) &&
-         !meets_model(change, position) && !meets_surface(change, position) &&
-         !loses_parts(change, position);
+         keeps_limits(change, position) && !meets_model(change, position) &&
+         !meets_surface(change, position) && !loses_parts(change, position);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                   \

@@ -2,6 +2,7 @@
 // Checks that a surface still encloses the model when a vertex moves.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "caging/editable_surface.h"
@@ -26,18 +27,26 @@ Replacement<Dim> replacement_of(const Collapse<Dim>& plan);
 template <int Dim>
 Replacement<Dim> replacement_of(const EditableSurface<Dim>& surface, Index vertex);
 
+//! Limits of a cage, so that it has no spikes and no crowded vertices.
+struct CageLimits {
+  Index valence = std::numeric_limits<Index>::max();        //!< edges at a control point, in 3D
+  double reach = std::numeric_limits<double>::infinity();   //!< distance of one from the model
+  double growth = std::numeric_limits<double>::infinity();  //!< 3D: of the volume, by collapses
+};
+
 //! \param clearance  new facets keep about this distance from the model
 template <int Dim>
 class CollapseCheck {
  public:
   CollapseCheck(const EditableSurface<Dim>& surface, const Enclosure<Dim>& enclosure,
-                double clearance);
+                double clearance, const CageLimits& limits);
 
   //! Whether the vertex position is valid: the surface does not intersect itself, strictly encloses
-  //! the model, inverts no facet, and makes no facet much flatter.
+  //! the model, inverts no facet, makes no facet much flatter, and respects the limits.
   bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
 
  private:
+  bool keeps_limits(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   bool keeps_shape(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   bool keeps_half(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   bool meets_surface(const Replacement<Dim>& change, const Vector<Dim>& position) const;
@@ -47,6 +56,7 @@ class CollapseCheck {
   const EditableSurface<Dim>& surface_;
   const Enclosure<Dim>& enclosure_;
   double clearance_;
+  CageLimits limits_;
   PointList<Dim> representatives_;  // of the parts of the model, on the side of the plane
 };
 

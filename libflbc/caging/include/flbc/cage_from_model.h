@@ -3,6 +3,8 @@
 //! Makes a cage for a model. Implemented in the optional component `caging`.
 #pragma once
 
+#include <functional>
+
 #include "flbc/cage.h"
 
 namespace flbc {
@@ -13,17 +15,34 @@ enum class CageSymmetry {
   kX,  //!< across the plane (2D: line) x = constant through the center of the model
   kY,
   kZ,    //!< 3D only
-  kAuto  //!< such a plane if the model vertices are symmetric about it within 0.5% of model size
+  kAuto  //!< such a plane if the model vertices are symmetric about it within 1% of model size
+};
+
+//! Steps of cage_from_model(), in this order.
+enum class CagingStage {
+  kSimplify,  //!< large models only
+  kWrap,
+  kReduce,  //!< collapses edges of the wrap
+  kCheck
 };
 
 //! Options of cage_from_model().
 struct CagingOptions {
-  Index control_points = 0;  //!< maximum number, >= Dim + 1; 0: chosen by shape, 50 to 150 (2D: 12
-                             //!< to 60)
+  //! Maximum number, >= Dim + 1. 0: chosen by shape, 12 to 60 in 2D. In 3D the smallest number
+  //! whose cage stays close to the model, 8 to 300.
+  Index control_points = 0;
   double offset = 0;  //!< distance from the model, in its units; 0: chosen by the number of control
                       //!< points
   CageSymmetry symmetry = CageSymmetry::kAuto;
+  //! Called when a stage begins and during it, with its progress in [0, 1]. Must not throw.
+  std::function<void(CagingStage stage, double done)> stage{};
 };
+
+//! 3D cages stay within these limits if the requested number of control points permits it.
+constexpr Index kMaxCageValence = 12;  //!< edges at a control point
+constexpr double kMaxCageDistance =
+    0.12;                             //!< of a control point from the model, relative to its size
+constexpr double kMaxCageVolume = 3;  //!< relative to that of the model; for the default number
 
 //! A cage and its properties.
 template <int Dim>
@@ -33,6 +52,10 @@ struct ModelCage {
   int symmetry_axis = -1;     //!< 0, 1, 2: axis normal to the symmetry plane; -1: none
   double symmetry_place = 0;  //!< coordinate of the symmetry plane
   double mean_distance = 0;   //!< between cage and model, in model units
+  double max_distance = 0;    //!< of a control point from the model, in model units
+  Index max_valence = 0;      //!< edges at a control point
+  double volume_ratio =
+      0;  //!< 3D: volume of the cage over that of the model; 0: the model has none
 };
 
 //! Makes a closed, manifold cage without self-intersections. Every vertex, edge, and facet of the
