@@ -13,6 +13,7 @@
 #include "draw/slice_picture.h"
 #include "draw/view.h"
 #include "files/load.h"
+#include "files/upright.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -36,6 +37,7 @@ struct DrawArguments {
   std::string output;
   std::string color;
   std::string view = "three-quarter";
+  UpAxis up = UpAxis::kAuto;
   Index control_point = 0;
   int slices = 3;
   bool all = false;
@@ -170,6 +172,7 @@ std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
   const auto posed = load_posed(cage, arguments);
+  up_axis(arguments.up, posed.model.points);
   const CellList<2> triangles = gltf::triangles_of_points(posed.model.surface);
   if (arguments.pose.empty() || arguments.all) {
     return picture(cage, DomainMesh<2>{posed.model.points, triangles}, posed.weights, arguments);
@@ -189,8 +192,10 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
 }
 
 std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
-  const auto view = parse_view(arguments.view);
+  const auto seen = parse_view(arguments.view);
   const auto posed = load_posed(cage, arguments);
+  const auto view =
+      draw::before_turn(seen, turn_upright(up_axis(arguments.up, posed.model.points)));
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
                                load_shown_cage<3>(arguments.cage).edges};
   std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
@@ -251,6 +256,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
                   "three-quarter)")
       ->needs(model)
       ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
+  add_up_option(command, a.up)->needs(model);
   auto* shown = command
                     .add_option("--show-model", a.shown_model,
                                 "model whose shape is shown with the slices of DOMAIN in 3D")

@@ -8,6 +8,7 @@
 #include "files/blender_script.h"
 #include "files/load.h"
 #include "files/movable_model.h"
+#include "files/upright.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
@@ -30,6 +31,7 @@ struct ExportArguments {
   double frames_per_second = 0;  // 0 = 24, or one second for a single pose
   int bits = 0;                  // 0 = float
   std::string output;
+  UpAxis up = UpAxis::kAuto;
   bool quiet = false;
   gltf::SkinOptions options;
 };
@@ -50,6 +52,10 @@ void check_arguments(ExportArguments& arguments) {
   require_writable(arguments.output, std::vector<std::string>{"glb", "usda", "py"});
   if (extension == "usda") arguments.options.format = gltf::SkinFormat::kUsda;
   if (extension != "py") return;
+  if (arguments.up != UpAxis::kAuto) {
+    throw OptionError(arguments.output +
+                      ": vertex groups do not turn the imported model; leave out --up");
+  }
   if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {
     throw OptionError(arguments.output +
                       ": vertex groups have no quantized weights and no poses; leave out "
@@ -147,6 +153,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 
   auto options = arguments.options;
   options.edges = model.edges();
+  options.turn = turn_upright(up_axis(arguments.up, points));
   options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, options, animation);
@@ -207,6 +214,7 @@ void add_export_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")
       ->required();
+  add_up_option(*command, a.up);
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -226,6 +226,7 @@ void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
                   "poses of --pose per second in model.glb (default: 24, or 1 for one pose)")
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
+  add_up_option(command, a.up);
   add_choice(command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
              "format of the pictures (default: png)");
 }

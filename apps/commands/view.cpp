@@ -8,6 +8,7 @@
 #include "commands/commands.h"
 #include "files/load.h"
 #include "files/movable_model.h"
+#include "files/upright.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -32,6 +33,7 @@ struct ViewArguments {
   double frames_per_second = 0;
   Index max_influences = view::kMostInfluences;
   std::string picture;
+  UpAxis up = UpAxis::kAuto;
   std::string output;
   std::vector<std::string> served;  // a cage and perhaps a model
   Index vertices = 0;
@@ -96,6 +98,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   auto model = load_shown_model<Dim>(arguments.model);
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
+  content.up = up_axis(arguments.up, content.points);
   content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
   if (!arguments.picture.empty()) {
     content.picture = data_uri(media_type_of(arguments.picture), io::read_file(arguments.picture));
@@ -151,7 +154,7 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
 void serve(const ViewArguments& arguments) {
   const auto& served = arguments.served;
   serve_page({served.front(), served.size() > 1 ? served[1] : "", arguments.vertices,
-              arguments.port, arguments.quiet});
+              arguments.port, arguments.up, arguments.quiet});
 }
 
 void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
@@ -198,6 +201,7 @@ void add_view_command(CLI::App& app, int&) {
                       "maximum influences per vertex, up to 16 (default: 16)");
   command->add_option("--texture", a.picture,
                       "texture for a model with texture coordinates: .png, .jpg");
+  add_up_option(*command, a.up);
   auto* output = command->add_option("-o,--output", a.output, "page: .html");
   add_serving(*command, a, output);
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

@@ -30,6 +30,12 @@ struct ObliqueView {
   }
 };
 
+//! The view of a model before `turn` that shows it as `view` does after it.
+inline ObliqueView before_turn(const ObliqueView& view, const Eigen::Matrix3d& turn) {
+  const Eigen::Matrix3d back = turn.transpose();
+  return {back * view.right, back * view.up, back * view.toward};
+}
+
 //! A view, with the y axis upwards as usual for models, in which slices perpendicular to an axis
 //! lie side by side or above each other without hiding too much.
 //! \param axis  0, 1 or 2, the one that the slices are perpendicular to

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/movable_model.h"
+#include "files/upright.h"
 #include "flbc/cage.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/domain_mesh.h"
@@ -43,6 +44,7 @@ struct RunArguments {
   bool makes_cage = false;         //!< whether to make a cage around the model
   std::string picture;             //!< or round this picture's silhouette; empty for none
   CagingOptions caging;            //!< of that cage
+  UpAxis up = UpAxis::kAuto;       //!< in pictures, page, and skins
   std::vector<std::string> poses;  //!< cage files or a pattern of them
   std::string keyframes;           //!< file of poses instead
   std::string output;              //!< folder

@@ -41,6 +41,7 @@ void write_page(Run<Dim>& run) {
   content.cage = shown_cage(run);
   content.points = shape.points;
   content.surface = shape.surface;
+  content.up = up_axis(run.arguments.up, shape.points);
   content.weights =
       view::limit_influences<Dim>(run.cage.points, shape.points, run.sparse, view::kMostInfluences);
   content.poses = shown_poses(run.poses(), times_of(run));

@@ -45,8 +45,9 @@ std::string draw_function(const Run<3>& run, Index control_point) {
                            model.facets.cols() > 0 ? &model : nullptr);
 }
 
-draw::ObliqueView usual_view() {
-  return draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation);
+draw::ObliqueView usual_view(const Run<3>& run) {
+  return draw::before_turn(draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
+                           turn_upright(up_axis(run.arguments.up, run.shape().points)));
 }
 
 // The shape at rest by the sparse weights.
@@ -59,7 +60,7 @@ std::string draw_rest(const Run<2>& run, Index control_point) {
 std::string draw_rest(const Run<3>& run, Index control_point) {
   return draw::draw_model({gltf::triangles_of_points(run.shape().surface), shown_cage(run).edges},
                           {{run.cage.points, run.shape().points}},
-                          {run.sparse.row(control_point), control_point}, usual_view(),
+                          {run.sparse.row(control_point), control_point}, usual_view(run),
                           options_of(run));
 }
 
@@ -97,7 +98,7 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
   const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
                           {{run.cage.points, shape.points}, {pose.points, points}}, {},
-                          usual_view(), options_of(run));
+                          usual_view(run), options_of(run));
 }
 
 template <int Dim>

@@ -116,6 +116,7 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.max_influences = max_influences;
   options.name = shape.name;
   if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
+  options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   options.cage_edges = view::as_facets(shown_cage(run).edges);
   const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
                                       shape.surface, options, animation);

@@ -89,6 +89,7 @@ void serve_cage(const Cage<Dim>& cage, const ServeArguments& arguments) {
   content.weights_file = "weights.npy";
   content.cage_file = arguments.cage;
   content.cage = load_shown_cage<Dim>(arguments.cage);
+  content.up = up_axis(arguments.up, model.points);
   content.surface = std::move(model.surface);
   content.is_served = true;
   content.moves_along = arguments.model.empty();

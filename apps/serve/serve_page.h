@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "files/upright.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -14,6 +15,7 @@ struct ServeArguments {
   std::string model;   //!< empty: the mesh of the interior is shown
   Index vertices = 0;  //!< of the mesh, 0 = as make_domain() chooses
   int port = 0;        //!< 0 = any that is free
+  UpAxis up = UpAxis::kAuto;
   bool quiet = false;
 };
 

@@ -174,6 +174,7 @@ Json to_json(const PageContent<Dim>& content) {
   const SparseWeights weights(content.weights);
   Json json{{"dim", Dim},
             {"title", content.title},
+            {"up", content.up},
             {"files",
              {{"model", content.model_file},
               {"weights", content.weights_file},

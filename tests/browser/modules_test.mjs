@@ -45,6 +45,28 @@ function throughMatrix(camera, origin, place) {
            y: (1 - clip[1] / clip[3]) / 2 * camera.height, depth: clip[2] / clip[3] };
 }
 
+test("camera: the axis that points up, and turns by 90 degrees", () => {
+  for (const up of [0, 1, 2]) {
+    const camera = new Camera(3, up);
+    camera.look(0, 0);
+    const axis = [0, 1, 2].map((k) => (k === up ? 1 : 0));
+    near(camera.axes().up, axis);
+    const { right, toward } = camera.axes();
+    near(toward, [0, 1, 2].map((k) => right[(k + 1) % 3] * axis[(k + 2) % 3] -
+                                      right[(k + 2) % 3] * axis[(k + 1) % 3]));
+    camera.turn();
+    near(camera.axes().toward, toward);
+    assert.ok(Math.abs(camera.axes().up[up]) < 1e-9);
+    for (let k = 0; k < 3; ++k) camera.turn();
+    near(camera.axes().up, axis);
+    camera.look(0, 1.5);
+    camera.turn();
+    camera.look(0, 0);
+    near(camera.axes().up.map(Math.abs), axis);
+    assert.ok(Math.abs(camera.axes().toward.reduce((sum, value, k) => sum + value * toward[k], 0)) < 1e-9);
+  }
+});
+
 for (const dim of [2, 3]) {
   test(`camera in ${dim}D: the card and the picking agree on where things are`, () => {
     const camera = cameraOf(dim);

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where the model is looked at. The y axis points up; in the plane nothing turns.
+// From where the model is looked at. In the plane nothing turns.
 import { add, boundingSphere, cross, dot, length, pointAt, subtract, times } from "./vectors.mjs";
 
 const kSteepest = 1.55;  // radians: a view from above still knows where right is
 const kPerspective = 0.27;  // tangent of half of the vertical field of view
 const kMargin = 1.12;
 
+// Right, up and toward a viewer in front of a model on which this axis points up.
+const kBases = [[[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                [[1, 0, 0], [0, 0, 1], [0, -1, 0]]];
+
 export class Camera {
-  constructor(dim) {
+  // \param up  axis, 0 to 2
+  constructor(dim, up = 1) {
     this.dim = dim;
+    this.basis = kBases[up];
     this.yaw = dim === 3 ? 0.6 : 0;
     this.pitch = dim === 3 ? 0.3 : 0;
     this.target = [0, 0, 0];
@@ -20,10 +26,34 @@ export class Camera {
 
   // Right, up and toward the eye.
   axes() {
-    const toward = [Math.cos(this.pitch) * Math.sin(this.yaw), Math.sin(this.pitch),
-                    Math.cos(this.pitch) * Math.cos(this.yaw)];
-    const right = [Math.cos(this.yaw), 0, -Math.sin(this.yaw)];
+    const toward = this.inModel(this.direction());
+    const right = this.inModel([Math.cos(this.yaw), 0, -Math.sin(this.yaw)]);
     return { right, up: cross(toward, right), toward };
+  }
+
+  // Toward the eye, in the basis.
+  direction() {
+    return [Math.cos(this.pitch) * Math.sin(this.yaw), Math.sin(this.pitch),
+            Math.cos(this.pitch) * Math.cos(this.yaw)];
+  }
+
+  inModel(place) {
+    const [right, up, front] = this.basis;
+    return add(add(times(place[0], right), times(place[1], up)), times(place[2], front));
+  }
+
+  // Turns the model by 90 degrees around the axis nearest to the direction of view.
+  turn() {
+    if (this.dim === 2) return;
+    const direction = this.direction();
+    const sizes = direction.map(Math.abs);
+    const axis = sizes.indexOf(Math.max(...sizes));
+    const sign = Math.sign(direction[axis]);
+    const i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const turned = [...this.basis];
+    turned[i] = times(sign, this.basis[j]);
+    turned[j] = times(-sign, this.basis[i]);
+    this.basis = turned;
   }
 
   // By how much things shrink with their distance, per unit of length.

@@ -81,7 +81,7 @@ export function decodeContent(json) {
   const rest = inSpace(given, dim);
   return {
     dim, center, base, rest, given,
-    title: json.title, files: json.files, picture: json.picture, cageText: json.cage.text,
+    title: json.title, up: json.up, files: json.files, picture: json.picture, cageText: json.cage.text,
     facets: decodeIndices(json.cage.facets), edges: decodeIndices(json.cage.edges),
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
     surface: decodeSurface(json.surface, base.length / 3),

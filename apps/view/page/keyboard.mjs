@@ -20,6 +20,7 @@ export const kHelp = [
   ["Ctrl+Z  Ctrl+Y", "undo, redo"],
   ["Del  Shift+Del", "reset the selection, everything"],
   ["F  1  2  3", "frame the selection; front, side, top"],
+  ["T", "turn the model by 90 degrees (3D)"],
   ["C  W", "cage, edges of the model"],
   ["Space", "play the poses"],
   ["D", "light or dark"],
@@ -41,7 +42,7 @@ function nudge(viewer, [dx, dy], isLarge) {
 export function bindKeys(viewer, commands, interaction) {
   const plain = {
     g: "move", r: "rotate", s: "scale", x: "axisX", y: "axisY", z: "axisZ", m: "nextMirror",
-    a: "selectAll", b: "box", f: "frame", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
+    a: "selectAll", b: "box", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
     " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",
   };
   const withControl = { z: "undo", y: "redo", a: "selectAll" };

@@ -68,6 +68,7 @@ export function makeCommands(viewer) {
     front: () => viewer.look("front"),
     side: () => { if (content.dim === 3) viewer.look("side"); },
     top: () => { if (content.dim === 3) viewer.look("top"); },
+    turn: () => { if (content.dim === 3) viewer.turn(); },
     cage: () => viewer.set("showsCage", !viewer.showsCage),
     edges: () => viewer.set("showsEdges", !viewer.showsEdges),
     play: () => (viewer.playing ? viewer.stopPlaying() : viewer.play()),
@@ -221,7 +222,7 @@ export function bindPanel(viewer) {
   for (const button of document.querySelectorAll("button[id]")) {
     button.addEventListener("click", commands[button.id]);
   }
-  for (const id of ["axisZ", "side", "top"]) element(id).hidden = content.dim === 2;
+  for (const id of ["axisZ", "side", "top", "turn"]) element(id).hidden = content.dim === 2;
   for (let axis = 0; axis < content.dim; ++axis) {
     element("mirror").add(new Option(kAxisNames[axis], String(axis)));
   }

@@ -22,7 +22,7 @@ export class Viewer {
     this.canvas = canvas;
     this.content = content;
     this.renderer = new Renderer(canvas, content);
-    this.camera = new Camera(content.dim);
+    this.camera = new Camera(content.dim, content.up);
     this.editor = new Editor(content.rest, content.dim);
     this.deformer = new Deformer(content.weights, content.base, content.rest);
     this.coloring = "shaded";
@@ -117,6 +117,11 @@ export class Viewer {
 
   look(name) {
     this.camera.look(...kViews[name]);
+    this.frame();
+  }
+
+  turn() {
+    this.camera.turn();
     this.frame();
   }
 

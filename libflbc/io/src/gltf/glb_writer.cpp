@@ -8,10 +8,12 @@
 #include <sstream>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "flbc/version.h"
 
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include "gltf/glb_buffer.h"
 
@@ -214,6 +216,10 @@ class ModelBuilder {
     add_joint("cage", centre_, Eigen::Vector3f::Zero());
     const Eigen::Vector3d place = scene_.origin + centre_.cast<double>();
     model_.nodes[kCageNode].translation = {place.x(), place.y(), place.z()};
+    if (!scene_.turn.isIdentity(0)) {
+      const Eigen::Quaterniond turn(scene_.turn);
+      model_.nodes[kCageNode].rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+    }
     for (Eigen::Index i = 0; i < num_points; ++i) {
       add_joint("control_point_" + std::to_string(i), scene_.joints.col(i) - centre_, centre_);
       skin.joints.push_back(joint_node(i));

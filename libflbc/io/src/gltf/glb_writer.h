@@ -34,8 +34,9 @@ struct GlbScene {
   Look look{};                             //!< of the triangles
   Eigen::Matrix3Xf joints{};               //!< 3 x n, at rest
   FacetList<2> wire{};                     //!< 2 x E, edges between joints, or no column
-  std::vector<float> times{};              //!< in seconds
-  std::vector<Channel> channels{};         //!< joints that move
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  //!< rotation of the root
+  std::vector<float> times{};                          //!< in seconds
+  std::vector<Channel> channels{};                     //!< joints that move
 };
 
 //! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"

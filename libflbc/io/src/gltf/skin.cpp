@@ -189,6 +189,7 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   const Vector<Dim> origin = origin_of(control_points, options.format);
   auto scene = make_scene(control_points, points, stored, surface, animation, origin);
   scene.name = options.name;
+  scene.turn = options.turn;
   scene.wire = options.cage_edges;
 
   ExportedSkin result;

@@ -123,9 +123,8 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
     text << "        color3f[] primvars:displayColor = " << columns(scene.colors)
          << " (interpolation = \"vertex\")\n";
   }
-  text << "        int[] primvars:skel:jointIndices = " << numbers(joints)
-       << per_vertex << "        float[] primvars:skel:jointWeights = " << numbers(weights)
-       << per_vertex
+  text << "        int[] primvars:skel:jointIndices = " << numbers(joints) << per_vertex
+       << "        float[] primvars:skel:jointWeights = " << numbers(weights) << per_vertex
        << "        matrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), "
           "(0, 0, 1, 0), (0, 0, 0, 1))\n"
        << "        rel skel:skeleton = </model/cage>\n    }\n";
@@ -142,6 +141,14 @@ std::string encode_usda(const GlbScene& scene) {
          << "\n    endTimeCode = " << kFrames * scene.times.back() << '\n';
   }
   text << ")\n\ndef SkelRoot \"model\"\n{\n";
+  if (!scene.turn.isIdentity(0)) {
+    const auto& turn = scene.turn;  // USD multiplies rows by matrices
+    text << "    matrix4d xformOp:transform = (";
+    for (int k = 0; k < 3; ++k) {
+      text << '(' << turn(0, k) << ", " << turn(1, k) << ", " << turn(2, k) << ", 0), ";
+    }
+    text << "(0, 0, 0, 1))\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
+  }
   write_skeleton(text, scene);
   write_animation(text, scene);
   write_surface(text, scene);

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// --up of the commands that show or export models.
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "support/command_line.h"
+#include "support/glb_file.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+class UpOption : public CommandLineTest {
+ protected:
+  // A rotation that takes y to the axis.
+  static Eigen::Matrix3d from_y(int axis) {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    if (axis == 0) turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+    if (axis == 2) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    return turn;
+  }
+
+  static std::string vertices(const PointList<3>& points, int axis) {
+    std::ostringstream text;
+    for (const auto& point : points.colwise()) {
+      const Vector<3> p = from_y(axis) * point;
+      text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    }
+    return text.str();
+  }
+
+  // A pyramid that stands along the axis, in a tetrahedron: MODEL and its options.
+  std::string pyramid(int axis) const {
+    PointList<3> points(3, 5), cage(3, 4);
+    points << 0.1, 0.3, 0.3, 0.1, 0.2,  //
+        0.1, 0.1, 0.1, 0.1, 0.35,       //
+        0.1, 0.1, 0.25, 0.25, 0.2;
+    cage << 0, 1, 0, 0,  //
+        0, 0, 1, 0,      //
+        0, 0, 0, 1;
+    const auto weights = linear_weights(points);
+    return file("model.obj",
+                vertices(points, axis) + "f 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n") +
+           " --weights " + weights + " --cage " + tetrahedron(vertices(cage, axis));
+  }
+};
+
+TEST_F(UpOption, PicturesShowTheModelUpright) {
+  const auto picture = [&](int axis, const std::string& up) {
+    expect("draw --model " + pyramid(axis) + " -o " + path("p.svg") + " --up " + up);
+    return slurp(path("p.svg"));
+  };
+  const auto upright = picture(1, "y");
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(picture(axis, kAxes[axis]), upright) << axis;
+    EXPECT_EQ(picture(axis, "auto"), upright) << axis;
+  }
+  EXPECT_NE(picture(1, "z"), upright);
+}
+
+TEST_F(UpOption, SkinsTurnTheirRoot) {
+  for (int axis = 0; axis < 3; ++axis) {
+    expect("export " + pyramid(axis) + " -q -o " + path("s.glb"));
+    const auto skin = GlbFile(slurp(path("s.glb")));
+    const auto& root = skin.root_joint();
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+    if (root.contains("rotation")) {
+      for (int k = 0; k < 4; ++k) turn.coeffs()(k) = root["rotation"][k];
+    }
+    const Vector<3> up = turn * Vector<3>::Unit(axis);
+    EXPECT_LT((up - Vector<3>::UnitY()).norm(), 1e-12) << axis;
+    EXPECT_EQ(root.contains("rotation"), axis != 1);
+    expect("export " + pyramid(axis) + " -q -o " + path("s.usda"));
+    const auto text = slurp(path("s.usda"));
+    EXPECT_EQ(text.find("xformOp:transform = (") == std::string::npos, axis == 1);
+  }
+  // Rows are the images of x, y, and z.
+  EXPECT_NE(slurp(path("s.usda")).find("((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))"),
+            std::string::npos);
+  expect("export " + pyramid(2) + " -o " + path("s.py") + " --up z", 1, "leave out --up");
+}
+
+TEST_F(UpOption, PagesKnowTheAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto up = "\"up\":" + std::to_string(axis);
+    expect("view " + pyramid(axis) + " -q -o " + path("p.html"));
+    EXPECT_NE(slurp(path("p.html")).find(up), std::string::npos);
+    expect("view " + pyramid(1) + " -q -o " + path("p.html") + " --up " + kAxes[axis]);
+    EXPECT_NE(slurp(path("p.html")).find(up), std::string::npos);
+  }
+}
+
+TEST_F(UpOption, RunsTurnPicturesPageAndSkins) {
+  pyramid(2);
+  const auto run = [&](const std::string& options) {
+    expect("run " + path("cage.obj") + " " + path("model.obj") + " --vertices 200 -q --force -o " +
+           path("out") + options);
+  };
+  run("");
+  const auto picture = slurp(path("out/model.png"));
+  EXPECT_NE(slurp(path("out/model.html")).find("\"up\":2"), std::string::npos);
+  EXPECT_TRUE(GlbFile(slurp(path("out/model.glb"))).root_joint().contains("rotation"));
+  run(" --up y");
+  EXPECT_NE(slurp(path("out/model.png")), picture);
+  EXPECT_NE(slurp(path("out/model.html")).find("\"up\":1"), std::string::npos);
+  EXPECT_FALSE(GlbFile(slurp(path("out/model.glb"))).root_joint().contains("rotation"));
+}
+
+TEST_F(UpOption, IsForModelsIn3D) {
+  const auto cage = sample("2d/ring_cage.obj"), model = sample("2d/ring_model.obj");
+  expect("solve " + cage + " --vertices 500 -q --method harmonic --model " + model + " -o " +
+         path("w.npy"));
+  const auto shape = model + " --weights " + path("w.npy") + " --cage " + cage;
+  expect("draw --model " + shape + " -o " + path("p.png") + " --up z", 1, "--up is for models in");
+  expect("view " + shape + " -o " + path("p.html") + " --up x", 1, "--up is for models in 3D");
+  expect("view " + shape + " -o " + path("p.html") + " --up w", 1, "--up");
+}
+
+}  // namespace
+}  // namespace flbc::testing
