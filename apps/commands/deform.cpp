@@ -14,10 +14,15 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "poses/poses.h"
+#include "solve/domain_jacobians.h"
 #include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
+
+// What normals follow.
+constexpr const char* kPolygons = "polygons";
+constexpr const char* kJacobian = "jacobian";
 
 struct DeformArguments {
   MovedFile file;
@@ -25,6 +30,9 @@ struct DeformArguments {
   std::vector<std::string> cages;
   std::string keyframes;
   std::string rest;
+  std::string domain;
+  OutsidePoints outside = OutsidePoints::kFail;
+  std::string normals = kPolygons;
   std::string displacement;
   bool quiet = false;
 };
@@ -43,6 +51,12 @@ void check_arguments(const DeformArguments& arguments) {
   if (arguments.rest.empty() && arguments.file.shows_displacement) {
     throw OptionError("--show-displacement needs --rest, from which displacements are measured");
   }
+  if (arguments.rest.empty() && !arguments.domain.empty()) {
+    throw OptionError("--domain needs --rest, the cage of this mesh");
+  }
+  if (arguments.domain.empty() && arguments.normals == kJacobian) {
+    throw OptionError("--normals jacobian needs --domain, a mesh that has these weights");
+  }
   require_formats(arguments.file);
   require_writable(arguments.displacement, {io::Content::kWeights});
 }
@@ -51,7 +65,8 @@ void check_arguments(const DeformArguments& arguments) {
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
   auto inputs = files_of_model(arguments.file.model);
-  inputs.insert(inputs.end(), {arguments.weights, arguments.keyframes, arguments.rest});
+  inputs.insert(inputs.end(),
+                {arguments.weights, arguments.keyframes, arguments.rest, arguments.domain});
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
@@ -77,22 +92,38 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
+// What moves the points of a model.
+template <int Dim>
+struct Binding {
+  SparseWeights weights;
+  DomainJacobians<Dim> jacobians;  // of no points, unless they are asked for
+};
+
 // Weights that fit the model and all poses, and that belong to them as far as is known.
 template <int Dim>
-SparseWeights load_weights(const MovableModel<Dim>& model, const PointList<Dim>& rest,
-                           const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
+                         const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+  const bool is_by_domain = !arguments.domain.empty();
+  DomainMesh<Dim> domain;
+  if (is_by_domain) domain = io::read_domain<Dim>(arguments.domain);
+  const auto& bound = is_by_domain ? domain.points : points;
+  const auto& file = is_by_domain ? arguments.domain : arguments.file.model;
   auto weights = io::read_sparse_weights(arguments.weights);
   const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
-    check_sizes(weights, control_points.cols(), model.points().cols(),
-                {arguments.weights, name, arguments.file.model});
+    check_sizes(weights, control_points.cols(), bound.cols(), {arguments.weights, name, file});
   };
   if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
   for (const auto& pose : poses) check_cage(pose.name, pose.points);
   if (!arguments.rest.empty()) {
-    check_reproduction(weights, rest, model.points(),
-                       {arguments.weights, arguments.rest, arguments.file.model});
+    check_reproduction(weights, rest, bound, {arguments.weights, arguments.rest, file});
   }
-  return weights;
+  if (!is_by_domain) return {std::move(weights), {}};
+  const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
+  const auto placement = naming(
+      arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
+  auto of_points = weights_at(cage, domain, weights, placement);
+  if (arguments.normals == kPolygons) return {std::move(of_points), {}};
+  return {std::move(of_points), {cage, std::move(domain), weights, placement}};
 }
 
 // Removes the files of a sequence that were new, unless all were written.
@@ -120,17 +151,19 @@ class NewFiles {
 };
 
 template <int Dim>
-void write_results(const MovableModel<Dim>& model, const SparseWeights& weights,
+void write_results(const MovableModel<Dim>& model, const Binding<Dim>& binding,
                    const std::vector<Pose<Dim>>& poses, const Displacement& displacement,
                    const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   NewFiles files;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const auto points = deform(weights, poses[k].points);
+    const auto points = deform(binding.weights, poses[k].points);
+    const auto jacobians = binding.jacobians.at(poses[k].points);
     files.expect(outputs[k]);
     Eigen::VectorXd lengths;
     if (arguments.file.shows_displacement) lengths = displacement.lengths.row(k).transpose();
     const HeldSignals held;
-    naming(outputs[k], [&] { model.write(outputs[k], points, lengths, displacement.largest); });
+    naming(outputs[k],
+           [&] { model.write(outputs[k], points, lengths, displacement.largest, jacobians); });
   }
   if (!arguments.displacement.empty()) {
     const HeldSignals held;
@@ -156,7 +189,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   }
   std::cerr << '\n';
   model.print_losses();
-  if (model.num_loose_normals() > 0) {
+  if (arguments.normals == kPolygons && model.num_loose_normals() > 0) {
     std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
               << " normals belong to no face with an area and are unchanged\n";
   }
@@ -173,16 +206,16 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   check_outputs(arguments, cages, outputs);
 
   const MovableModel<Dim> model(arguments.file);
-  const auto weights = load_weights(model, rest, poses, arguments);
+  const auto binding = bind_points(model.points(), rest, poses, arguments);
   const auto start = std::chrono::steady_clock::now();
   Displacement displacement;
   if (!arguments.rest.empty()) {
-    displacement = measure_displacement(weights, model.points(), poses);
+    displacement = measure_displacement(binding.weights, model.points(), poses);
     if (!displacement.lengths.allFinite()) {
       throw InputError(poses[displacement.pose].name + ": displacements are not finite");
     }
   }
-  write_results(model, weights, poses, displacement, outputs, arguments);
+  write_results(model, binding, poses, displacement, outputs, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (!arguments.quiet) print_summary(model, poses, displacement, seconds.count(), arguments);
 }
@@ -211,6 +244,14 @@ void add_deform_command(CLI::App& app, int&) {
   command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
       ->excludes(pose);
   command->add_option("--rest", a.rest, "rest cage, to check that the weights belong to MODEL");
+  auto* domain = command->add_option(
+      "--domain", a.domain,
+      "domain mesh that has these weights (domain_weights.npy of flbc run), instead of MODEL");
+  add_choice(*command, "--outside", a.outside,
+             "method for vertices outside the cage, as in flbc solve (default: fail)")
+      ->needs(domain);
+  add_choice(*command, "--normals", {kPolygons, kJacobian}, a.normals,
+             "what normals follow: polygons, or the gradients of the weights (default: polygons)");
   command
       ->add_option("-o,--output", a.file.output,
                    "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")

@@ -8,6 +8,7 @@
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/bounding_box.h"
+#include "flbc/gradients.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
@@ -22,6 +23,7 @@ struct SolveArguments {
   SolveSettings settings;
   std::string output;
   std::string save_domain;
+  std::string gradients;
   std::string report;
   bool quiet = false;
 };
@@ -29,9 +31,11 @@ struct SolveArguments {
 void check_outputs(const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
   require_writable(arguments.output, {io::Content::kWeights});
+  require_writable(arguments.gradients, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
-  require_distinct({settings.cage, settings.domain, settings.model},
-                   {arguments.output, arguments.save_domain, arguments.report});
+  require_distinct(
+      {settings.cage, settings.domain, settings.model},
+      {arguments.output, arguments.save_domain, arguments.gradients, arguments.report});
 }
 
 template <int Dim>
@@ -60,8 +64,21 @@ void save_domain(const std::string& path, const CageSolver<Dim>& solver) {
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
       fields.push_back({"w_" + std::to_string(i), weights.row(i)});
     }
+    const auto gradients = vertex_gradients(solver.domain(), weights);
+    for (Eigen::Index r = 0; r < gradients.rows(); ++r) {
+      fields.push_back({"dw_" + std::to_string(r / Dim) + "_d" + "xyz"[r % Dim], gradients.row(r)});
+    }
   }
   io::write_domain(path, solver.domain(), fields);
+}
+
+template <int Dim>
+void save_gradients(const std::string& path, const CageSolver<Dim>& solver, bool of_model) {
+  const auto& domain = solver.domain();
+  const auto& weights = solver.domain_weights();
+  if (!of_model) return io::write_weights(path, vertex_gradients(domain, weights));
+  const auto places = places_in_mesh(solver.cage(), domain, solver.placement());
+  io::write_weights(path, gradients_at(domain, weights, places));
 }
 
 template <int Dim>
@@ -81,6 +98,9 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
     const HeldSignals held;
     io::write_weights(arguments.output, rows);
     if (!arguments.save_domain.empty()) save_domain(arguments.save_domain, solver);
+    if (!arguments.gradients.empty()) {
+      save_gradients(arguments.gradients, solver, !settings.model.empty());
+    }
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
@@ -99,6 +119,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, describe_weight_file())->required();
+  command->add_option("--gradients", a.gradients,
+                      "write the gradients of the weights, one row per vertex and a column per "
+                      "control point and axis (x, y, z of the first, then of the second)");
   command->add_option("--report", a.report,
                       "write a report of the solve to this .json file, or to standard output (-)");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
@@ -112,7 +135,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option(
       "--save-domain", a.save_domain,
       "write the mesh of the cage interior, in .vtu with the coordinate functions as fields "
-      "w_0, w_1, and so on: " +
+      "w_0, w_1, and so on, and their gradients as dw_0_dx, dw_0_dy: " +
           mesh_formats());
   auto* model = command->add_option(
       "--model", settings.model,

@@ -164,13 +164,14 @@ void MovableModel<Dim>::print_losses() const {
 
 template <int Dim>
 void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& points,
-                              const Eigen::VectorXd& lengths, double largest) const {
+                              const Eigen::VectorXd& lengths, double largest,
+                              const Eigen::MatrixXd& jacobians) const {
   if (model_ && is_rewritten(file_)) {
-    return io::write_file(path, [&](std::ostream& out) { model_->write(out, points); });
+    return io::write_file(path, [&](std::ostream& out) { model_->write(out, points, jacobians); });
   }
   if (is_model_file(path)) {
-    auto model =
-        model_ ? model_->moved(points) : io::Model{io::to_polygons<Dim>({points, mesh_.cells})};
+    auto model = model_ ? model_->moved(points, jacobians)
+                        : io::Model{io::to_polygons<Dim>({points, mesh_.cells})};
     if (file_.shows_displacement) model.attributes.colors = colors_of(lengths, largest);
     return save(path, model);
   }

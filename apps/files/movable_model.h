@@ -74,9 +74,10 @@ class MovableModel {
 
   //! Writes it with other points (Dim x P). \param lengths  of the displacements (P) \param largest
   //! length of all, which is shown in the last colour; both of no interest unless they are shown
+  //! \param jacobians  9 x P, by which normals turn; empty: with their polygons
   //! \throws IoError, InputError
   void write(const std::string& path, const PointList<Dim>& points, const Eigen::VectorXd& lengths,
-             double largest) const;
+             double largest, const Eigen::MatrixXd& jacobians = {}) const;
 
  private:
   void find_losses(io::Model model);

@@ -92,6 +92,59 @@ TEST_F(DeformCommand, Sample3D) {
   expect_sample_deforms<3>("3d/limb", "d.mesh");
 }
 
+TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
+  ASSERT_NO_FATAL_FAILURE(solve("3d/limb", "d.mesh"));
+  const auto cage = sample("3d/limb_cage.obj");
+  auto model = io::ModelFile(sample("3d/limb_model.obj")).model();
+  auto& attributes = model.attributes;
+  const auto num_vertices = static_cast<Index>(model.soup.points.size());
+  attributes = {};
+  attributes.normals = PointList<3>::Random(3, num_vertices);
+  for (const auto& polygon : model.soup.polygons) {
+    auto& corners = attributes.corners.emplace_back();
+    for (const Index vertex : polygon) corners.push_back({-1, vertex});
+  }
+  io::write_model(path("model.obj"), model);
+  Eigen::Matrix3d a;
+  a << 2, -1, 0, 1, 0.5, 0, 0, 0.25, 3;
+  auto soup = io::read_polygons(cage);
+  for (auto& point : soup.points) point = a * point;
+  io::write_model(path("affine.obj"), {soup});
+
+  const auto command = path("model.obj") + " --weights " + path("v.npy") + " --pose " +
+                       path("affine.obj") + " --normals jacobian -q -o " + path("o.obj");
+  expect_deform(command, 1, "--normals jacobian needs --domain");
+  expect_deform(command + " --domain " + path("d.mesh"), 1, "--domain needs --rest");
+  expect_deform(command + " --rest " + cage + " --domain " + path("d.mesh"), 0, "");
+  const io::ModelFile moved(path("o.obj"));
+  const auto& normals = moved.model().attributes.normals;
+  ASSERT_EQ(normals.cols(), num_vertices);
+  const Eigen::Matrix3d inverse = a.inverse().transpose();
+  for (Index v = 0; v < num_vertices; ++v) {
+    const Vector<3> before = attributes.normals.col(v);
+    const Vector<3> expected = before.norm() * (inverse * before).normalized();
+    EXPECT_LT((normals.col(v) - expected).norm(), 1e-9);
+  }
+  const auto rest = points_of<3>(path("model.obj"));
+  EXPECT_LT((points_of<3>(path("o.obj")) - a * rest).cwiseAbs().maxCoeff(), 1e-9);
+
+  // What solve writes gives the same Jacobians.
+  expect("solve " + cage + " --method harmonic -q -o " + path("m.npy") + " --domain " +
+         path("d.mesh") + " --model " + path("model.obj") + " --gradients " + path("g.npy") +
+         " --save-domain " + path("d.vtu"));
+  const auto gradients = io::read_weights(path("g.npy"));
+  ASSERT_EQ(gradients.cols(), num_vertices);
+  const auto pose = points_of<3>(path("affine.obj"));
+  for (Index v = 0; v < num_vertices; ++v) {
+    const Eigen::Matrix3d jacobian = pose * gradients.col(v).reshaped(3, pose.cols()).transpose();
+    EXPECT_LT((jacobian - a).norm(), 1e-9);
+  }
+  std::vector<io::VertexField> fields;
+  io::read_domain<3>(path("d.vtu"), fields);
+  EXPECT_EQ(fields.size(), 4 * static_cast<std::size_t>(pose.cols()));
+  EXPECT_EQ(fields.back().name, "dw_" + std::to_string(pose.cols() - 1) + "_dz");
+}
+
 const char* const kModel =
     "# made by hand\r\n"
     "mtllib a.mtl\n"

@@ -17,6 +17,13 @@ inline Eigen::Index num_control_points(const SparseWeights& weights) {
   return weights.num_control_points();
 }
 
+inline Eigen::Index num_points(const WeightMatrix& weights) {
+  return weights.cols();
+}
+inline Eigen::Index num_points(const SparseWeights& weights) {
+  return weights.num_points();
+}
+
 inline auto column_of(const WeightMatrix& weights, Index point) {
   return weights.col(point);
 }

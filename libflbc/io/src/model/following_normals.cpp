@@ -76,6 +76,18 @@ struct Motion {
   }
 };
 
+// The inverse transpose of J times a normal, with its old length. The cofactors of J are its
+// inverse transpose times its determinant, and also defined if J has no inverse.
+Vector<3> transformed(const Eigen::VectorXd& jacobian, const Vector<3>& normal) {
+  const Eigen::Map<const Matrix3> j(jacobian.data());
+  Matrix3 cofactors;
+  cofactors << j.col(1).cross(j.col(2)), j.col(2).cross(j.col(0)), j.col(0).cross(j.col(1));
+  const double determinant = j.col(0).dot(cofactors.col(0));
+  const Vector<3> turned = (determinant < 0 ? -1 : 1) * (cofactors * normal);
+  const double length = turned.norm();
+  return length > 0 ? Vector<3>(normal.norm() / length * turned) : normal;
+}
+
 Index count_zeros(const PointList<3>& vectors) {
   return static_cast<Index>((vectors.array() == 0).colwise().all().count());
 }
@@ -120,6 +132,33 @@ FollowingNormals::Turned FollowingNormals::at(const PointList<3>& points) const 
   }
   for (std::size_t k = 0; k < motions.size(); ++k) {
     turned.normals.col(k) = motions[k].turn(model_.attributes.normals.col(k));
+  }
+  return turned;
+}
+
+FollowingNormals::Turned FollowingNormals::by(const Eigen::MatrixXd& jacobians) const {
+  Turned turned{model_.attributes.normals, face_normals_};
+  if (!has_normals()) return turned;
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(9, turned.normals.cols());
+  const auto& polygons = model_.soup.polygons;
+  for (std::size_t f = 0; f < polygons.size(); ++f) {
+    Eigen::VectorXd of_face = Eigen::VectorXd::Zero(9);
+    for (std::size_t k = 0; k < polygons[f].size(); ++k) {
+      const auto jacobian = jacobians.col(polygons[f][k]);
+      of_face += jacobian;
+      if (turned.normals.cols() == 0) continue;
+      const Index normal = model_.attributes.corners[f][k].normal;
+      if (normal >= 0) sums.col(normal) += jacobian;
+    }
+    if (face_normals_.cols() > 0) {
+      turned.face_normals.col(f) = transformed(of_face, face_normals_.col(f));
+    }
+  }
+  // Points without polygons may have a normal each.
+  const bool is_by_vertex = turned.normals.cols() == jacobians.cols();
+  for (Eigen::Index k = 0; k < turned.normals.cols(); ++k) {
+    if (is_by_vertex && sums.col(k).isZero(0)) sums.col(k) = jacobians.col(k);
+    turned.normals.col(k) = transformed(sums.col(k), model_.attributes.normals.col(k));
   }
   return turned;
 }

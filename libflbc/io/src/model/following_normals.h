@@ -26,6 +26,10 @@ class FollowingNormals {
   };
   Turned at(const PointList<3>& points) const;
 
+  //! The normals under the Jacobians at the vertices (9 x P, column by column): the inverse
+  //! transpose of the mean Jacobian of the vertices of a normal. Lengths are kept.
+  Turned by(const Eigen::MatrixXd& jacobians) const;
+
  private:
   bool has_normals() const;
 

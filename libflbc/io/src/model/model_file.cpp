@@ -185,6 +185,11 @@ struct ModelFile::Content {
   explicit Content(const std::string& path)
       : file(scan(path, Extent::kEverything)), normals(file.model, file.face_normals) {}
 
+  FollowingNormals::Turned turned(const PointList<3>& points,
+                                  const Eigen::MatrixXd& jacobians) const {
+    return jacobians.size() > 0 ? normals.by(jacobians) : normals.at(points);
+  }
+
   ModelScan file;
   FollowingNormals normals;
 };
@@ -208,11 +213,12 @@ Index ModelFile::num_loose_normals() const {
 }
 
 template <int Dim>
-void ModelFile::write(std::ostream& out, const PointList<Dim>& points) const {
+void ModelFile::write(std::ostream& out, const PointList<Dim>& points,
+                      const Eigen::MatrixXd& jacobians) const {
   const auto& file = content_->file;
   const auto moved = in_space(file.model.soup, points);
   FollowingNormals::Turned turned;
-  if (Dim == 3) turned = content_->normals.at(moved);
+  if (Dim == 3) turned = content_->turned(moved, jacobians);
 
   TextWriter writer(out);
   std::size_t done = 0;
@@ -241,18 +247,18 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points) const {
 }
 
 template <int Dim>
-Model ModelFile::moved(const PointList<Dim>& points) const {
+Model ModelFile::moved(const PointList<Dim>& points, const Eigen::MatrixXd& jacobians) const {
   Model model = content_->file.model;
   const auto moved = in_space(model.soup, points);
   for (Eigen::Index v = 0; v < moved.cols(); ++v) model.soup.points[v] = moved.col(v);
-  if (Dim == 3) model.attributes.normals = content_->normals.at(moved).normals;
+  if (Dim == 3) model.attributes.normals = content_->turned(moved, jacobians).normals;
   return model;
 }
 
-template void ModelFile::write<2>(std::ostream&, const PointList<2>&) const;
-template void ModelFile::write<3>(std::ostream&, const PointList<3>&) const;
-template Model ModelFile::moved<2>(const PointList<2>&) const;
-template Model ModelFile::moved<3>(const PointList<3>&) const;
+template void ModelFile::write<2>(std::ostream&, const PointList<2>&, const Eigen::MatrixXd&) const;
+template void ModelFile::write<3>(std::ostream&, const PointList<3>&, const Eigen::MatrixXd&) const;
+template Model ModelFile::moved<2>(const PointList<2>&, const Eigen::MatrixXd&) const;
+template Model ModelFile::moved<3>(const PointList<3>&, const Eigen::MatrixXd&) const;
 
 std::vector<std::string> losses(const Model& model, const std::string& path) {
   const auto content = holds(path, {Content::kModel}) ? Content::kModel : Content::kMesh2D;

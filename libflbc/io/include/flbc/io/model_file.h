@@ -47,14 +47,18 @@ class ModelFile {
   //! precision of the file. In 2D, z and normals are unchanged. In 3D, normals rotate with their
   //! polygons: rigidly where these move rigidly, and an area-weighted mean normal remains one.
   //! Custom and inward normals stay custom and inward.
+  //! \param jacobians  if not empty, 9 x P Jacobians at the vertices (flbc/gradients.h): normals are
+  //! then multiplied by the inverse transpose of the mean Jacobian of their vertices, and keep
+  //! their lengths
   //! \throws InputError if the number of points differs, a coordinate is not finite or too large
   //! for its precision, or the file cannot store it (integers; no z in 3D)
   template <int Dim>
-  void write(std::ostream& out, const PointList<Dim>& points) const;
+  void write(std::ostream& out, const PointList<Dim>& points,
+             const Eigen::MatrixXd& jacobians = {}) const;
 
   //! The model with vertices and normals moved as in write().
   template <int Dim>
-  Model moved(const PointList<Dim>& points) const;
+  Model moved(const PointList<Dim>& points, const Eigen::MatrixXd& jacobians = {}) const;
 
  private:
   struct Content;

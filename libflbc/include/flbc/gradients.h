@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Gradients of weights, and the Jacobians of a deformation, which rotate and stretch what moves:
+//! normals, tangents, covariances.
+//!
+//! Gradients of n weights at P points are stored as weights are: a (Dim n) x P matrix, dense or
+//! sparse. Row Dim i + d of a column is the derivative of w_i in direction d, in 1 / units of the
+//! mesh. The derivatives in a direction sum to 0 over all control points.
+#pragma once
+
+#include <vector>
+
+#include "flbc/placement.h"
+
+namespace flbc {
+
+//! How gradients are made of weights that are linear in each cell.
+enum class GradientKind {
+  kCell,   //!< the exact gradient of the cell; jumps between cells
+  kSmooth  //!< averaged at the vertices (vertex_gradients()), then linear in each cell
+};
+
+//! The means over the cells around each vertex, weighted by area or volume. They are exact where
+//! the weights are affine.
+//! \param mesh  V vertices
+//! \param weights  n x V
+//! \tparam Weights  WeightMatrix or SparseWeights
+//! \return (Dim n) x V
+template <int Dim, class Weights>
+Weights vertex_gradients(const DomainMesh<Dim>& mesh, const Weights& weights);
+
+//! Gradients at located points.
+//! \param mesh  V vertices
+//! \param weights  n x V
+//! \param places  P locations in cells, as returned by locate_points() or places_in_mesh()
+//! \param kind  see GradientKind
+//! \return (Dim n) x P
+template <int Dim, class Weights>
+Weights gradients_at(const DomainMesh<Dim>& mesh, const Weights& weights,
+                     const std::vector<Location<Dim>>& places,
+                     GradientKind kind = GradientKind::kSmooth);
+
+//! A location in a cell for every placed point. Points outside the mesh get the location of the
+//! nearest point of the cage.
+//! \param cage, mesh  as for place_points()
+//! \param placement  as returned by place_points(), P points
+//! \return P locations, all with a cell
+//! \throws InputError if the boundary of the mesh is not the cage
+template <int Dim>
+std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                          const Placement<Dim>& placement);
+
+//! Jacobians J = sum_i c_i (grad w_i)^T of a deformation. An affine pose c_i = A v_i + b of the
+//! rest cage v_i gives J = A.
+//! \param gradients  (Dim n) x P
+//! \param control_points  Dim x n, the pose
+//! \return (Dim Dim) x P: each column has J column by column, in units of the pose / units of the
+//! mesh
+//! \throws InputError if the numbers of control points differ
+template <int Dim, class Weights>
+Eigen::MatrixXd jacobians(const Weights& gradients, const PointList<Dim>& control_points);
+
+}  // namespace flbc
