@@ -58,6 +58,11 @@ void check_arguments(const DeformArguments& arguments) {
     throw OptionError("--normals jacobian needs --domain, a mesh that has these weights");
   }
   require_formats(arguments.file);
+  if (arguments.domain.empty() && moves_splats(arguments.file)) {
+    throw OptionError(arguments.file.model +
+                      ": Gaussian splats need --domain and --rest, by which they rotate and "
+                      "stretch; --weights are those of the domain");
+  }
   require_writable(arguments.displacement, {io::Content::kWeights});
 }
 
@@ -92,6 +97,10 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
+bool needs_jacobians(const DeformArguments& arguments) {
+  return arguments.normals == kJacobian || moves_splats(arguments.file);
+}
+
 // What moves the points of a model.
 template <int Dim>
 struct Binding {
@@ -122,7 +131,7 @@ Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& res
   const auto placement = naming(
       arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
   auto of_points = weights_at(cage, domain, weights, placement);
-  if (arguments.normals == kPolygons) return {std::move(of_points), {}};
+  if (!needs_jacobians(arguments)) return {std::move(of_points), {}};
   return {std::move(of_points), {cage, std::move(domain), weights, placement}};
 }
 
@@ -228,8 +237,9 @@ void add_deform_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("deform", "deform a model or a domain mesh with its cage");
   command->footer(
       "If MODEL and the result have the same format, only coordinates and normals change. In\n"
-      "2D, z does not change. Another format receives the polygons, colors, normals, and\n"
-      "texture coordinates that it supports. The program reports those that are lost.\n"
+      "2D, z does not change. Gaussian splats (.ply) also rotate and stretch, with --domain.\n"
+      "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
+      "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
       "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
       "displacement of a control point from rest, in the order of the control points.");

@@ -82,6 +82,10 @@ void require_formats(const MovedFile& file) {
   }
 }
 
+bool moves_splats(const MovedFile& file) {
+  return is_rewritten(file) && io::is_splat_file(file.model);
+}
+
 template <int Dim>
 void require_formats_of(const MovedFile& file) {
   const auto& [model, output, shows, is_anew] = file;
@@ -113,6 +117,14 @@ std::vector<std::string> files_of_model(const std::string& path) {
 template <int Dim>
 MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
   const auto& path = file_.model;
+  if (moves_splats(file_)) {
+    if constexpr (Dim == 2) {
+      throw InputError(path + ": Gaussian splats need a cage in 3D");
+    } else {
+      points_ = splats_.emplace(path).points();
+      return;
+    }
+  }
   if (is_model_file(path)) {
     model_.emplace(path);
     if (!is_rewritten(file_)) find_losses(model_->model());
@@ -166,6 +178,12 @@ template <int Dim>
 void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& points,
                               const Eigen::VectorXd& lengths, double largest,
                               const Eigen::MatrixXd& jacobians) const {
+  if constexpr (Dim == 3) {
+    if (splats_) {
+      return io::write_file(path,
+                            [&](std::ostream& out) { splats_->write(out, points, jacobians); });
+    }
+  }
   if (model_ && is_rewritten(file_)) {
     return io::write_file(path, [&](std::ostream& out) { model_->write(out, points, jacobians); });
   }

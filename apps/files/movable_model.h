@@ -12,6 +12,7 @@
 #include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/splat_file.h"
 #include "gltf/surface.h"
 
 namespace flbc::app {
@@ -38,6 +39,9 @@ void require_formats(const MovedFile& file);
 //! The same, now that the dimension is known.
 template <int Dim>
 void require_formats_of(const MovedFile& file);
+
+//! Whether Gaussian splats become moved splats, which takes the Jacobians of the poses.
+bool moves_splats(const MovedFile& file);
 
 //! The file with those that lie beside it in some formats: .node and .ele, .mesh and .sol.
 std::vector<std::string> files_of_model(const std::string& path);
@@ -74,7 +78,8 @@ class MovableModel {
 
   //! Writes it with other points (Dim x P). \param lengths  of the displacements (P) \param largest
   //! length of all, which is shown in the last colour; both of no interest unless they are shown
-  //! \param jacobians  9 x P, by which normals turn; empty: with their polygons
+  //! \param jacobians  9 x P, by which normals turn; empty: with their polygons.
+  //! Splats need them
   //! \throws IoError, InputError
   void write(const std::string& path, const PointList<Dim>& points, const Eigen::VectorXd& lengths,
              double largest, const Eigen::MatrixXd& jacobians = {}) const;
@@ -85,6 +90,7 @@ class MovableModel {
   MovedFile file_;
   PointList<Dim> points_;
   std::optional<io::ModelFile> model_;
+  std::optional<io::SplatFile> splats_;
   DomainMesh<Dim> mesh_;
   std::vector<io::VertexField> fields_;  // at its vertices
   std::vector<std::string> losses_;      // a phrase each

@@ -76,10 +76,15 @@ struct Motion {
   }
 };
 
-// The inverse transpose of J times a normal, with its old length. The cofactors of J are its
-// inverse transpose times its determinant, and also defined if J has no inverse.
-Vector<3> transformed(const Eigen::VectorXd& jacobian, const Vector<3>& normal) {
-  const Eigen::Map<const Matrix3> j(jacobian.data());
+Index count_zeros(const PointList<3>& vectors) {
+  return static_cast<Index>((vectors.array() == 0).colwise().all().count());
+}
+
+}  // namespace
+
+// The cofactors of J are its inverse transpose times its determinant, and also defined if J has no
+// inverse.
+Vector<3> transformed_normal(const Matrix3& j, const Vector<3>& normal) {
   Matrix3 cofactors;
   cofactors << j.col(1).cross(j.col(2)), j.col(2).cross(j.col(0)), j.col(0).cross(j.col(1));
   const double determinant = j.col(0).dot(cofactors.col(0));
@@ -87,12 +92,6 @@ Vector<3> transformed(const Eigen::VectorXd& jacobian, const Vector<3>& normal) 
   const double length = turned.norm();
   return length > 0 ? Vector<3>(normal.norm() / length * turned) : normal;
 }
-
-Index count_zeros(const PointList<3>& vectors) {
-  return static_cast<Index>((vectors.array() == 0).colwise().all().count());
-}
-
-}  // namespace
 
 FollowingNormals::FollowingNormals(const Model& model, const PointList<3>& face_normals)
     : model_(model), face_normals_(face_normals) {
@@ -151,14 +150,15 @@ FollowingNormals::Turned FollowingNormals::by(const Eigen::MatrixXd& jacobians) 
       if (normal >= 0) sums.col(normal) += jacobian;
     }
     if (face_normals_.cols() > 0) {
-      turned.face_normals.col(f) = transformed(of_face, face_normals_.col(f));
+      turned.face_normals.col(f) = transformed_normal(of_face.reshaped(3, 3), face_normals_.col(f));
     }
   }
   // Points without polygons may have a normal each.
   const bool is_by_vertex = turned.normals.cols() == jacobians.cols();
   for (Eigen::Index k = 0; k < turned.normals.cols(); ++k) {
     if (is_by_vertex && sums.col(k).isZero(0)) sums.col(k) = jacobians.col(k);
-    turned.normals.col(k) = transformed(sums.col(k), model_.attributes.normals.col(k));
+    turned.normals.col(k) =
+        transformed_normal(sums.col(k).reshaped(3, 3), model_.attributes.normals.col(k));
   }
   return turned;
 }

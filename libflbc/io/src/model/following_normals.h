@@ -7,6 +7,10 @@
 
 namespace flbc::io {
 
+//! The inverse transpose of a Jacobian times a normal, with its old length. The normal itself where
+//! the Jacobian leaves it no direction.
+Vector<3> transformed_normal(const Eigen::Matrix3d& jacobian, const Vector<3>& normal);
+
 //! Rotates normals with their polygons: first by the best-fit rotation, then so that the
 //! area-weighted mean of the polygon normals follows exactly. A normal therefore moves rigidly if
 //! its polygons do, and a normal that is their mean remains the mean.

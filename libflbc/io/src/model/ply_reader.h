@@ -45,6 +45,9 @@ class PlyReader {
 
   const std::vector<PlyElement>& elements() const { return elements_; }
   bool is_text() const { return !is_binary_; }
+  bool is_binary_little_endian() const { return is_binary_ && !is_big_endian_; }
+  //! The next byte; after construction the first one after the header.
+  std::size_t position() const { return position_; }
   bool has_comments() const { return has_comments_; }
   //! Of a comment "TextureFile NAME"; empty if there is none.
   const std::string& texture_file() const { return texture_file_; }

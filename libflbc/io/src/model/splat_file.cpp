@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/io/splat_file.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "linear/dense.h"
+#include "model/following_normals.h"
+#include "model/ply_reader.h"
+#include "model/turned_harmonics.h"
+#include "text/text_reader.h"
+
+namespace flbc::io {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr const char* kNeeded[] = {"x",      "y",       "z",       "f_dc_0", "f_dc_1",
+                                   "f_dc_2", "opacity", "rot_0",   "rot_1",  "rot_2",
+                                   "rot_3",  "scale_0", "scale_1", "scale_2"};
+
+// The rotation of the polar decomposition, by Newton's method where J is far from singular.
+Matrix3d rotation_of(const Matrix3d& j) {
+  const double scale = std::cbrt(std::abs(j.determinant()));
+  if (!(j.determinant() > 0) || scale < 0.05 * j.norm()) return dense::nearest_rotation(j);
+  Matrix3d r = j / scale;
+  for (int k = 0; k < 30; ++k) {
+    const Matrix3d next = 0.5 * (r + r.inverse().transpose());
+    const bool is_done = (next - r).squaredNorm() < 1e-20;
+    r = next;
+    if (is_done) break;
+  }
+  return r;
+}
+
+}  // namespace
+
+struct SplatFile::Content {
+  explicit Content(const std::string& path);
+
+  // The byte of a number of a splat.
+  std::size_t byte(Index splat, std::size_t offset) const {
+    return begin + splat * stride + offset;
+  }
+
+  template <std::size_t N>
+  Eigen::Matrix<double, int(N), 1> read(Index splat,
+                                        const std::array<std::size_t, N>& offsets) const {
+    Eigen::Matrix<double, int(N), 1> values;
+    for (std::size_t k = 0; k < N; ++k) {
+      float value = 0;
+      std::memcpy(&value, text.data() + byte(splat, offsets[k]), sizeof value);
+      values[static_cast<int>(k)] = value;
+    }
+    return values;
+  }
+
+  // Both return whether all numbers are finite in single precision.
+  bool deform(std::string& moved, Index splat, const Vector3d& point, const Matrix3d& j) const;
+  template <int Degree>
+  bool turn(std::string& moved, Index splat, const Matrix3d& rotation) const;
+
+  template <std::size_t N>
+  bool put(std::string& moved, Index splat, const std::array<std::size_t, N>& offsets,
+           const Eigen::Matrix<double, int(N), 1>& values) const {
+    for (std::size_t k = 0; k < N; ++k) {
+      const auto value = static_cast<float>(values[static_cast<int>(k)]);
+      if (!std::isfinite(value)) return false;
+      std::memcpy(&moved[byte(splat, offsets[k])], &value, sizeof value);
+    }
+    return true;
+  }
+
+  std::string text;
+  std::size_t begin = 0;   // of the splats
+  std::size_t stride = 0;  // bytes of one
+  std::array<std::size_t, 3> center{}, scale{};
+  std::array<std::size_t, 4> rotation{};
+  std::array<std::size_t, 3> normal{};
+  bool has_normals = false;
+  std::vector<std::size_t> rest;  // f_rest_0 and so on
+  int degree = 0;
+  PointList<3> points;
+  TurnedHarmonics<1> first;
+  TurnedHarmonics<2> second;
+  TurnedHarmonics<3> third;
+};
+
+SplatFile::Content::Content(const std::string& path) : text(read_file(path)) {
+  const PlyReader reader(path, text);
+  const auto fail = [&](const std::string& message) { throw InputError(path + ": " + message); };
+  if (!reader.is_binary_little_endian()) {
+    fail("splats must be binary and little-endian (format binary_little_endian 1.0)");
+  }
+  if (reader.elements().empty() || reader.elements().front().name != "vertex") {
+    fail("the vertices must be the first element of a file of splats");
+  }
+  const auto& element = reader.elements().front();
+  std::vector<std::size_t> offsets;
+  for (const auto& property : element.properties) {
+    if (property.count_type) fail("property " + in_quotes(property.name) + " is a list");
+    offsets.push_back(stride);
+    stride += property.type->bytes;
+  }
+  const auto find = [&](const std::string& name) {
+    const int k = element.find(name);
+    if (k < 0) fail("the splats have no property " + in_quotes(name));
+    const auto& type = *element.properties[k].type;
+    if (type.kind != 'f' || type.bytes != 4) fail("property " + in_quotes(name) + " is not float");
+    return offsets[k];
+  };
+  for (const char* name : kNeeded) find(name);
+  center = {find("x"), find("y"), find("z")};
+  scale = {find("scale_0"), find("scale_1"), find("scale_2")};
+  rotation = {find("rot_0"), find("rot_1"), find("rot_2"), find("rot_3")};
+  has_normals = element.find("nx") >= 0;
+  if (has_normals) normal = {find("nx"), find("ny"), find("nz")};
+  for (int k = 0; element.find("f_rest_" + std::to_string(k)) >= 0; ++k) {
+    rest.push_back(find("f_rest_" + std::to_string(k)));
+  }
+  while (degree < 4 && 3 * ((degree + 1) * (degree + 1) - 1) != static_cast<int>(rest.size())) {
+    ++degree;
+  }
+  if (degree > 3) {
+    fail("there are " + std::to_string(rest.size()) +
+         " properties f_rest; degrees 0 to 3 have 0, 9, 24, or 45");
+  }
+  begin = reader.position();
+  const auto count = static_cast<std::size_t>(element.count);
+  if (count > (text.size() - begin) / stride) {
+    fail("ends within splat " + std::to_string((text.size() - begin) / stride) + " of " +
+         std::to_string(element.count));
+  }
+  points.resize(3, static_cast<Eigen::Index>(count));
+  for (Index p = 0; p < points.cols(); ++p) {
+    points.col(p) = read(p, center);
+    const bool is_finite =
+        points.col(p).allFinite() && read(p, scale).allFinite() && read(p, rotation).allFinite();
+    if (!is_finite) fail("splat " + std::to_string(p) + " has numbers that are not finite");
+    if (read(p, rotation).isZero(0)) fail("the quaternion of splat " + std::to_string(p) + " is 0");
+  }
+}
+
+template <int Degree>
+bool SplatFile::Content::turn(std::string& moved, Index splat, const Matrix3d& by) const {
+  if (degree < Degree) return true;
+  const std::size_t per_channel = rest.size() / 3;
+  constexpr std::size_t kBefore = Degree * Degree - 1;
+  typename TurnedHarmonics<Degree>::Coefficients coefficients;
+  const auto offset = [&](int channel, int k) {
+    return std::array<std::size_t, 1>{rest[channel * per_channel + kBefore + k]};
+  };
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 2 * Degree + 1; ++k) coefficients(k, c) = read(splat, offset(c, k))[0];
+  }
+  if constexpr (Degree == 1) coefficients = first.turn(by, coefficients);
+  if constexpr (Degree == 2) coefficients = second.turn(by, coefficients);
+  if constexpr (Degree == 3) coefficients = third.turn(by, coefficients);
+  bool is_finite = true;
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 2 * Degree + 1; ++k) {
+      is_finite &= put(moved, splat, offset(c, k), Eigen::Matrix<double, 1, 1>(coefficients(k, c)));
+    }
+  }
+  return is_finite;
+}
+
+bool SplatFile::Content::deform(std::string& moved, Index splat, const Vector3d& point,
+                                const Matrix3d& j) const {
+  constexpr double kStill = 1e-6;
+  if (!j.allFinite() || !put(moved, splat, center, point)) return false;
+  if ((j - Matrix3d::Identity()).norm() < kStill) return true;
+  const Eigen::Vector4d q = read(splat, rotation);
+  const Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  // A root of the covariance: J S J^T = root root^T.
+  const Matrix3d root = j * axes * read(splat, scale).array().exp().matrix().asDiagonal();
+  const Matrix3d covariance = root * root.transpose();
+  Matrix3d new_axes = dense::principal_axes<3>(covariance);
+  if (new_axes.determinant() < 0) new_axes.col(0) *= -1;
+  // From the root, because the least eigenvalue of the covariance would lose its digits.
+  const Vector3d deviations = (new_axes.transpose() * root).rowwise().norm();
+  constexpr double kLeast = 1e-30;  // of a splat that was flattened
+  bool is_finite = put(moved, splat, scale, Vector3d(deviations.array().max(kLeast).log()));
+  const Eigen::Quaterniond turned(new_axes);
+  is_finite &=
+      put(moved, splat, rotation, Eigen::Vector4d(turned.w(), turned.x(), turned.y(), turned.z()));
+  if (has_normals) {
+    const Vector3d n = read(splat, normal);
+    if (!n.isZero(0)) is_finite &= put(moved, splat, normal, transformed_normal(j, n));
+  }
+  if (degree == 0) return is_finite;
+  const Matrix3d by = rotation_of(j);
+  return is_finite & turn<1>(moved, splat, by) & turn<2>(moved, splat, by) &
+         turn<3>(moved, splat, by);
+}
+
+bool is_splat_file(const std::string& path) {
+  if (extension_of(path) != "ply") return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line) || line.rfind("ply", 0) != 0) return false;
+  std::vector<std::string> names;
+  constexpr int kMaxLines = 1000;
+  for (int k = 0; k < kMaxLines && std::getline(file, line); ++k) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line == "end_header") break;
+    if (line.rfind("property ", 0) == 0) names.push_back(line.substr(line.rfind(' ') + 1));
+  }
+  return std::all_of(std::begin(kNeeded), std::end(kNeeded), [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  });
+}
+
+SplatFile::SplatFile(const std::string& path) : content_(std::make_unique<Content>(path)) {
+}
+SplatFile::~SplatFile() = default;
+SplatFile::SplatFile(SplatFile&&) noexcept = default;
+SplatFile& SplatFile::operator=(SplatFile&&) noexcept = default;
+
+const PointList<3>& SplatFile::points() const {
+  return content_->points;
+}
+
+int SplatFile::degree() const {
+  return content_->degree;
+}
+
+void SplatFile::write(std::ostream& out, const PointList<3>& points,
+                      const Eigen::MatrixXd& jacobians) const {
+  const auto count = content_->points.cols();
+  if (points.cols() != count || jacobians.cols() != count || jacobians.rows() != 9) {
+    throw InputError("the file has " + std::to_string(count) + " splats, but there are " +
+                     std::to_string(points.cols()) + " points and " +
+                     std::to_string(jacobians.cols()) + " Jacobians");
+  }
+  std::string moved = content_->text;
+  const auto num_splats = static_cast<Index>(count);
+  std::atomic<Index> first_bad{num_splats};
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_splats; ++p) {
+    const Matrix3d j = jacobians.col(p).reshaped(3, 3);
+    if (!content_->deform(moved, p, points.col(p), j)) {
+      Index known = first_bad;
+      while (p < known && !first_bad.compare_exchange_weak(known, p)) {
+      }
+    }
+  }
+  if (first_bad < num_splats) {
+    throw InputError("splat " + std::to_string(first_bad) +
+                     " would have numbers that are not finite in single precision");
+  }
+  out.write(moved.data(), static_cast<std::streamsize>(moved.size()));
+}
+
+}  // namespace flbc::io
