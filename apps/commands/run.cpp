@@ -10,6 +10,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/splat_file.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "help/wording.h"
@@ -93,6 +94,13 @@ void print_summary(const Run<Dim>& run) {
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
             << "save a pose there, and apply it with flbc deform.\n";
+  if (!run.inputs.splats) return;
+  const auto file = [&](const std::string& name) { return run.folder.path_of(name); };
+  std::cerr << "      flbc deform " << run.arguments.splats << " --domain "
+            << file(std::string(kDomain) + domain_extension<Dim>()) << " --weights "
+            << file(kWeights) << " --rest "
+            << (run.arguments.makes_cage ? file(kCage) : run.arguments.settings.cage)
+            << " --pose POSE -o moved.ply\n";
 }
 
 // \return the exit status
@@ -168,7 +176,8 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
         "--control-points");
   }
   const bool is_picture = io::extension_of(settings.cage) == "png";
-  auto& file = is_picture ? arguments.picture : settings.model;
+  const bool is_splats = io::is_splat_file(settings.cage);
+  auto& file = is_picture ? arguments.picture : is_splats ? arguments.splats : settings.model;
   file = std::exchange(settings.cage, kCage);
   if (is_picture) refuse_unread_options(command, settings);
   require_model_to_embed(settings);
@@ -192,6 +201,8 @@ int run_as_told(const CLI::App& command, RunArguments& arguments) {
   const io::ModelFile file(arguments.settings.cage);
   const auto& soup = file.model().soup;
   refuse_model_as_cage(soup, arguments.settings);
+  auto& model = arguments.settings.model;
+  if (io::is_splat_file(model)) arguments.splats = std::exchange(model, "");
   const auto cage = checked_cage(soup, arguments.settings.cage);
   return std::visit([&](const auto& any) { return run_cage(any, arguments, &file); }, cage);
 }

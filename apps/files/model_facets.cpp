@@ -2,13 +2,16 @@
 #include "files/model_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
 #include "files/load.h"
+#include "flbc/bounding_box.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/splat_file.h"
 
 namespace flbc::app {
 namespace {
@@ -85,10 +88,48 @@ std::vector<std::vector<Index>> loops_of(const Cage<2>& cage) {
   return loops;
 }
 
+// The corners of all voxels with points, which enclose the points and are far fewer.
+PointList<3> voxel_corners(const PointList<3>& points) {
+  if (points.cols() == 0) return points;
+  constexpr double kVoxels = 128;  // along the diagonal
+  const Vector<3> low = points.rowwise().minCoeff();
+  const double size = std::max(bounding_box_diagonal(points) / kVoxels, 1e-30);
+  std::vector<std::array<int, 3>> corners;
+  for (const auto& point : points.colwise()) {
+    const Eigen::Vector3i voxel = ((point - low) / size).array().floor().cast<int>();
+    corners.push_back({voxel.x(), voxel.y(), voxel.z()});
+  }
+  const auto drop_copies = [&] {
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  };
+  drop_copies();
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t count = corners.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      auto corner = corners[k];
+      ++corner[axis];
+      corners.push_back(corner);
+    }
+  }
+  drop_copies();
+  PointList<3> result(3, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    result.col(static_cast<Eigen::Index>(k)) =
+        low + size * Eigen::Map<const Eigen::Vector3i>(corners[k].data()).cast<double>();
+  }
+  return result;
+}
+
 }  // namespace
 
 AnyModelFacets load_model_facets(const std::string& path) {
   if (io::extension_of(path) == "png") return load_silhouette(path);
+  if (io::is_splat_file(path)) {
+    const auto corners = voxel_corners(io::SplatFile(path).points());
+    if (corners.cols() == 0) throw InputError(path + ": the model has no vertices");
+    return ModelFacets<3>{corners, {}};
+  }
   const auto soup = io::read_polygons(path);
   if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
   if (is_flat(soup)) {

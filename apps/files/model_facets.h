@@ -23,7 +23,8 @@ struct ModelFacets {
 
 using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 
-//! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. \throws
+//! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. Of Gaussian
+//! splats, points that enclose their centers. \throws
 //! IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 

@@ -50,6 +50,14 @@ Shape<Dim> load_shape(const std::string& path) {
   return shape;
 }
 
+template <int Dim>
+std::unique_ptr<MovableModel<Dim>> load_splats(const std::string& path, RunInputs<Dim>& inputs) {
+  inputs.files.push_back(path);
+  auto splats = std::make_unique<MovableModel<Dim>>(MovedFile{path, path});
+  if (splats->points().cols() == 0) throw InputError(path + ": the model has no vertices");
+  return splats;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -75,6 +83,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
     load_keyframe_file(cage, arguments.keyframes, inputs);
   }
   inputs.shape.extension = domain_extension<Dim>();
+  if (!arguments.splats.empty()) inputs.splats = load_splats<Dim>(arguments.splats, inputs);
   if (settings.model.empty()) return inputs;
   inputs.files.push_back(settings.model);
   inputs.shape = load_shape<Dim>(settings.model);
@@ -89,6 +98,9 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
+    if (inputs.splats) {
+      names.push_back(name_of_deformed(pose.number, inputs.poses.size(), kSplats));
+    }
   }
   names.insert(names.end(), {kSkin, kFullSkin});
   for (const char* picture : {kFunction, inputs.poses.empty() ? kModelPicture : kDeformation}) {

@@ -29,6 +29,7 @@ constexpr const char* kWeights = "weights.npy";
 constexpr const char* kSparseWeights = "sparse_weights.mtx";
 constexpr const char* kSkin = "model.glb";        //!< of four influences, which every reader knows
 constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
+constexpr const char* kSplats = ".ply";           //!< extension of moved splats
 // Pictures; the extension depends on the format.
 constexpr const char* kFunction = "function";
 constexpr const char* kModelPicture = "model";
@@ -42,6 +43,7 @@ constexpr const char* kReport = "report.json";
 struct RunArguments {
   SolveSettings settings;          //!< cage and model among them, but no domain
   bool makes_cage = false;         //!< whether to make a cage around the model
+  std::string splats;              //!< Gaussian splats that move; empty for none
   std::string picture;             //!< or round this picture's silhouette; empty for none
   CagingOptions caging;            //!< of that cage
   UpAxis up = UpAxis::kAuto;       //!< in pictures, page, and skins
@@ -90,6 +92,7 @@ struct RunInputs {
   std::vector<Pose<Dim>> poses{};    //!< of the cage
   gltf::Animation<Dim> animation{};  //!< through them
   Shape<Dim> shape{};                //!< the model's; empty without one
+  std::unique_ptr<MovableModel<Dim>> splats{};  //!< that move with the cage, or null
 };
 
 //! \throws IoError, InputError, OptionError; also if a pose does not fit the cage

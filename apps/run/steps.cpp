@@ -13,6 +13,7 @@
 #include "report/check_report.h"
 #include "report/facts.h"
 #include "report/report_json.h"
+#include "solve/domain_jacobians.h"
 #include "solve/progress_bar.h"
 
 namespace flbc::app {
@@ -33,6 +34,12 @@ void mesh_interior(Run<Dim>& run) {
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
   run.inputs.shape.points = solver.points();  // vertices beside the cage are where it puts them
+  if (run.inputs.splats) {
+    run.splats = naming(run.arguments.splats, [&] {
+      return place_points(run.cage, domain, run.inputs.splats->points(),
+                          run.arguments.settings.outside);
+    });
+  }
   const auto name = std::string(kDomain) + domain_extension<Dim>();
   run.report["mesh"] = {{"file", name},
                         {"vertices", domain.num_vertices()},
@@ -86,6 +93,30 @@ void check_weights_of_mesh(Run<Dim>& run) {
   run.report["check"] = check_json(check);
 }
 
+namespace {
+
+template <int Dim>
+void deform_splats(Run<Dim>& run) {
+  const auto& domain = run.solver.domain();
+  const auto& of_domain = run.solver.domain_weights();
+  const auto weights = weights_at(run.cage, domain, of_domain, run.splats);
+  const DomainJacobians<Dim> jacobians(run.cage, domain, of_domain, run.splats);
+  for (const auto& pose : run.poses()) {
+    const auto name = name_of_deformed(pose.number, run.poses().size(), kSplats);
+    Facts facts;
+    facts << weights.num_points() << " splats";
+    run.folder.add(name, facts.text(), [&](const std::string& path) {
+      naming(path, [&] {
+        run.inputs.splats->write(path, deform(weights, pose.points), {}, 0,
+                                 jacobians.at(pose.points));
+      });
+    });
+    run.report["deform"].push_back({{"pose", pose.name}, {"file", name}});
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void deform_shape(Run<Dim>& run) {
   const SparseWeights weights(run.sparse);
@@ -111,6 +142,7 @@ void deform_shape(Run<Dim>& run) {
                       {"point", farthest}});
   }
   if (run.poses().empty()) return;
+  if (run.inputs.splats) deform_splats(run);
   const auto& pose = run.poses()[run.displacement.pose];
   Facts facts;
   if (run.poses().size() > 1) facts << run.poses().size() << " poses; ";

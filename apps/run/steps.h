@@ -29,6 +29,7 @@ struct Run {
   WeightMatrix dense{};         //!< n x P, of the shape's points
   WeightMatrix sparse{};        //!< n x P, of at most so many influences
   Displacement displacement{};  //!< in the poses
+  Placement<Dim> splats{};      //!< of the splats, if there are any
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }
