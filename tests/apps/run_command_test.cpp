@@ -12,8 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
 #include "support/command_line.h"
 #include "support/model_cages.h"
+#include "support/splats.h"
 
 namespace flbc::testing {
 namespace {
@@ -325,6 +328,36 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   file("out/domain.obj", slurp(cage));
   expect_run("out", path("out/domain.obj"), 1, "the result would replace this input file");
   EXPECT_EQ(slurp(path("out/domain.obj")), slurp(cage));
+}
+
+TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
+  const auto model = io::read_polygons(sample("3d/limb_model.obj"));
+  const auto splats = random_splats(io::to_points<3>(model, ""), 1);
+  const auto splat_file = file("splats.ply", splats.text());
+  expect_run("out", splat_file + " --auto-cage --vertices 1500", 0,
+             " --rest " + path("out/cage.obj"));
+  auto soup = io::read_polygons(path("out/cage.obj"));
+  Eigen::Matrix3d a;
+  a << 0, -2, 0, 1, 0, 0.5, 0, 0, 1;
+  for (auto& point : soup.points) point = a * point;
+  io::write_model(path("pose.obj"), {soup});
+  expect_run(
+      "posed",
+      path("out/cage.obj") + " " + splat_file + " --vertices 1500 --pose " + path("pose.obj"), 0,
+      "deformed.ply");
+  const auto moved = splats.parse(slurp(path("posed/deformed.ply")));
+  for (Eigen::Index p = 0; p < moved.values.cols(); ++p) {
+    const Vector<3> before = splats.values.col(p).head<3>().cast<double>();
+    EXPECT_LT((moved.values.col(p).head<3>().cast<double>() - a * before).norm(), 1e-4);
+    const Eigen::Matrix3d expected = a * splats.covariance(p) * a.transpose();
+    EXPECT_LT((moved.covariance(p) - expected).norm(), 1e-4 * expected.norm());
+  }
+  const auto command = "deform " + splat_file + " --weights " + path("posed/weights.npy") +
+                       " --pose " + path("pose.obj");
+  expect(command + " -q -o " + path("own.ply"), 1, "need --domain and --rest");
+  expect_same(
+      command + " -q --domain " + path("posed/domain.mesh") + " --rest " + path("out/cage.obj"),
+      "own.ply", "posed/deformed.ply");
 }
 
 TEST_F(RunCommand, KeyframesOfTheArm) {

@@ -61,6 +61,11 @@ Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& sy
 
 FLBC_INSTANTIATE_FUNCTION(principal_axes)
 
+Eigen::Matrix3d fast_principal_axes(const Eigen::Matrix3d& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  return solver.computeDirect(symmetric).eigenvectors();
+}
+
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                               double threshold) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;

@@ -26,6 +26,9 @@ Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynami
 template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric);
 
+//! The same for N = 3, four times as fast, to 1e-8 instead of rounding.
+Eigen::Matrix3d fast_principal_axes(const Eigen::Matrix3d& symmetric);
+
 //! The x of least norm that minimizes |a x - b|, for each column of b. \param threshold  smaller
 //! pivots, relative to the largest, count as zero
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,

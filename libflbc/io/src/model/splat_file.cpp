@@ -68,18 +68,19 @@ struct SplatFile::Content {
     return values;
   }
 
-  // Both return whether all numbers are finite in single precision.
-  bool deform(std::string& moved, Index splat, const Vector3d& point, const Matrix3d& j) const;
+  // Both change the bytes of a splat. They return whether all numbers are finite in single
+  // precision.
+  bool deform(char* moved, Index splat, const Vector3d& point, const Matrix3d& j) const;
   template <int Degree>
-  bool turn(std::string& moved, Index splat, const Matrix3d& rotation) const;
+  bool turn(char* moved, Index splat, const Matrix3d& rotation) const;
 
   template <std::size_t N>
-  bool put(std::string& moved, Index splat, const std::array<std::size_t, N>& offsets,
+  bool put(char* moved, const std::array<std::size_t, N>& offsets,
            const Eigen::Matrix<double, int(N), 1>& values) const {
     for (std::size_t k = 0; k < N; ++k) {
       const auto value = static_cast<float>(values[static_cast<int>(k)]);
       if (!std::isfinite(value)) return false;
-      std::memcpy(&moved[byte(splat, offsets[k])], &value, sizeof value);
+      std::memcpy(moved + offsets[k], &value, sizeof value);
     }
     return true;
   }
@@ -155,7 +156,7 @@ SplatFile::Content::Content(const std::string& path) : text(read_file(path)) {
 }
 
 template <int Degree>
-bool SplatFile::Content::turn(std::string& moved, Index splat, const Matrix3d& by) const {
+bool SplatFile::Content::turn(char* moved, Index splat, const Matrix3d& by) const {
   if (degree < Degree) return true;
   const std::size_t per_channel = rest.size() / 3;
   constexpr std::size_t kBefore = Degree * Degree - 1;
@@ -172,34 +173,34 @@ bool SplatFile::Content::turn(std::string& moved, Index splat, const Matrix3d& b
   bool is_finite = true;
   for (int c = 0; c < 3; ++c) {
     for (int k = 0; k < 2 * Degree + 1; ++k) {
-      is_finite &= put(moved, splat, offset(c, k), Eigen::Matrix<double, 1, 1>(coefficients(k, c)));
+      is_finite &= put(moved, offset(c, k), Eigen::Matrix<double, 1, 1>(coefficients(k, c)));
     }
   }
   return is_finite;
 }
 
-bool SplatFile::Content::deform(std::string& moved, Index splat, const Vector3d& point,
+bool SplatFile::Content::deform(char* moved, Index splat, const Vector3d& point,
                                 const Matrix3d& j) const {
   constexpr double kStill = 1e-6;
-  if (!j.allFinite() || !put(moved, splat, center, point)) return false;
+  if (!j.allFinite() || !put(moved, center, point)) return false;
   if ((j - Matrix3d::Identity()).norm() < kStill) return true;
   const Eigen::Vector4d q = read(splat, rotation);
   const Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
   // A root of the covariance: J S J^T = root root^T.
   const Matrix3d root = j * axes * read(splat, scale).array().exp().matrix().asDiagonal();
   const Matrix3d covariance = root * root.transpose();
-  Matrix3d new_axes = dense::principal_axes<3>(covariance);
+  Matrix3d new_axes = dense::fast_principal_axes(covariance);
   if (new_axes.determinant() < 0) new_axes.col(0) *= -1;
   // From the root, because the least eigenvalue of the covariance would lose its digits.
   const Vector3d deviations = (new_axes.transpose() * root).rowwise().norm();
   constexpr double kLeast = 1e-30;  // of a splat that was flattened
-  bool is_finite = put(moved, splat, scale, Vector3d(deviations.array().max(kLeast).log()));
+  bool is_finite = put(moved, scale, Vector3d(deviations.array().max(kLeast).log()));
   const Eigen::Quaterniond turned(new_axes);
   is_finite &=
-      put(moved, splat, rotation, Eigen::Vector4d(turned.w(), turned.x(), turned.y(), turned.z()));
+      put(moved, rotation, Eigen::Vector4d(turned.w(), turned.x(), turned.y(), turned.z()));
   if (has_normals) {
     const Vector3d n = read(splat, normal);
-    if (!n.isZero(0)) is_finite &= put(moved, splat, normal, transformed_normal(j, n));
+    if (!n.isZero(0)) is_finite &= put(moved, normal, transformed_normal(j, n));
   }
   if (degree == 0) return is_finite;
   const Matrix3d by = rotation_of(j);
@@ -246,23 +247,33 @@ void SplatFile::write(std::ostream& out, const PointList<3>& points,
                      std::to_string(points.cols()) + " points and " +
                      std::to_string(jacobians.cols()) + " Jacobians");
   }
-  std::string moved = content_->text;
-  const auto num_splats = static_cast<Index>(count);
-  std::atomic<Index> first_bad{num_splats};
+  const std::string& text = content_->text;
+  const std::size_t stride = content_->stride;
+  constexpr Index kBlock = 1 << 16;  // a copy of the whole file would take long to allocate
+  std::string moved;
+  std::size_t done = content_->begin;
+  out.write(text.data(), static_cast<std::streamsize>(done));
+  for (Index first = 0; first < count; first += kBlock) {
+    const Index size = std::min(kBlock, static_cast<Index>(count) - first);
+    moved.assign(text, done, size * stride);
+    std::atomic<Index> first_bad{size};
 #pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_splats; ++p) {
-    const Matrix3d j = jacobians.col(p).reshaped(3, 3);
-    if (!content_->deform(moved, p, points.col(p), j)) {
+    for (Index k = 0; k < size; ++k) {
+      const Index p = first + k;
+      const Matrix3d j = jacobians.col(p).reshaped(3, 3);
+      if (content_->deform(moved.data() + k * stride, p, points.col(p), j)) continue;
       Index known = first_bad;
-      while (p < known && !first_bad.compare_exchange_weak(known, p)) {
+      while (k < known && !first_bad.compare_exchange_weak(known, k)) {
       }
     }
+    if (first_bad < size) {
+      throw InputError("splat " + std::to_string(first + first_bad) +
+                       " would have numbers that are not finite in single precision");
+    }
+    out.write(moved.data(), static_cast<std::streamsize>(moved.size()));
+    done += moved.size();
   }
-  if (first_bad < num_splats) {
-    throw InputError("splat " + std::to_string(first_bad) +
-                     " would have numbers that are not finite in single precision");
-  }
-  out.write(moved.data(), static_cast<std::streamsize>(moved.size()));
+  out.write(text.data() + done, static_cast<std::streamsize>(text.size() - done));
 }
 
 }  // namespace flbc::io
