@@ -77,7 +77,8 @@ void add_convert_command(CLI::App& app, int&) {
   command->footer(
       "Weights: .mtx, .dmat, .npy, .csv, .mat, and .txt with \"CONTROL_POINT POINT WEIGHT\" on "
       "every line,\n"
-      "numbered from 0. Conversions between them are lossless.\n"
+      "numbered from 0. Conversions between them are lossless. Also .lbw, for graphics cards:\n"
+      "single precision, at most 8 influences per vertex (flbc sparsify -k 8).\n"
       "Models: .obj, .off, .ply, .stl, .om. Meshes: 2D .obj, .off, .vtu; 3D .mesh, .node, .ele,\n"
       ".msh, .vtu. The program reports attributes that the new format does not support. A .ply or\n"
       ".stl result is a text file if the input is.");

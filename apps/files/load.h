@@ -59,7 +59,7 @@ void require_writable_folder(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
 
 //! The formats of weights, for help.
-constexpr const char* kWeightFormats = ".mtx, .dmat, .npy, .csv, .mat";
+constexpr const char* kWeightFormats = ".mtx, .dmat, .npy, .csv, .mat, .lbw";
 
 //! What a file of weights holds, and its formats, for help.
 std::string describe_weight_file();

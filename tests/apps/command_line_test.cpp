@@ -265,7 +265,8 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
   expect_failure("solve " + cage + o + " --embed", 1, "--model");
   expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_failure("solve " + cage + " -o " + path("w.xls"), 1, ".mtx, .dmat, .npy, .csv or .mat");
+  expect_failure("solve " + cage + " -o " + path("w.xls"), 1,
+                 ".mtx, .dmat, .npy, .csv, .mat or .lbw");
   expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off or .vtu");
   expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
@@ -403,8 +404,8 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
   expect("solve " + cage + " --method harmonic -q --domain " + path("d.vtu") + " -o " +
          path("v.npy"));
   const auto weights = io::read_weights(path("v.npy"));
-  ASSERT_EQ(fields.size(), static_cast<std::size_t>(weights.rows()));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
+  ASSERT_EQ(fields.size(), 3 * static_cast<std::size_t>(weights.rows()));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.rows()); ++i) {
     EXPECT_EQ(fields[i].name, "w_" + std::to_string(i));
     const Eigen::VectorXd row = weights.row(static_cast<Eigen::Index>(i));
     EXPECT_LT((fields[i].values - row).cwiseAbs().maxCoeff(), 1e-9);

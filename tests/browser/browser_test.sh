@@ -54,5 +54,15 @@ awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
   { for (k = 1; k <= 4; ++k) print NR, k, $k }' square.rows >square.mtx
 "$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj -q -o square.html
 
+# The example for engines.
+mkdir engine
+cp "$here"/../../engines/* engine
+"$flbc" convert limb.mtx -q -o engine/weights.lbw
+cp "$meshes/3d/limb_cage.obj" engine/cage.obj
+cp "$meshes/3d/limb_cage_pose.obj" engine/pose.obj
+cp "$meshes/3d/limb_model.obj" engine/model.obj
+"$flbc" deform engine/model.obj --weights limb.mtx --pose engine/pose.obj -q -o engine/moved.obj
+node "$here/engine_test.mjs" "$browser" engine
+
 node "$here/page_test.mjs" "$browser" "$flbc" "$meshes" "$work"
 node "$here/serve_test.mjs" "$browser" "$flbc" "$meshes"

@@ -76,6 +76,7 @@ std::vector<Reader> weight_readers() {
             npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", 24)}},
           {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}},
           {"mat", "input.mat", read_weights, {file_of_weights("a.mat")}},
+          {"lbw", "input.lbw", read_weights, {file_of_weights("a.lbw")}},
           {"triplets", "input.txt", read_triplets, {kTriplets}},
           {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
 }

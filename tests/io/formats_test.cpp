@@ -29,7 +29,7 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
   }
   EXPECT_EQ(io::extensions_of({Content::kTriplets}), ".txt");
   EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu or .mesh");
-  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv or .mat");
+  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv, .mat or .lbw");
 }
 
 // What the table says a mesh can be written to, it can be read from.

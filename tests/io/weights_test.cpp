@@ -152,6 +152,53 @@ TEST_F(WeightsFile, MatIsALevel5Matrix) {
   }
 }
 
+// What shaders read.
+TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
+  WeightMatrix weights = WeightMatrix::Zero(300, 2);
+  weights(299, 0) = 0.25;
+  weights(1, 0) = 0.75;
+  for (int k = 0; k < 8; ++k) weights(20 * k, 1) = 0.125;
+  write_weights(path("w.lbw"), weights);
+  const std::string written = content("w.lbw");
+  ASSERT_EQ(written.size(), 16U + 2 * 8 * 6);
+  EXPECT_EQ(written.substr(0, 4), "LBW1");
+  const auto number = [&](auto example, std::size_t at) {
+    std::memcpy(&example, written.data() + at, sizeof example);
+    return example;
+  };
+  EXPECT_EQ(number(std::uint32_t{}, 4), 2U);
+  EXPECT_EQ(number(std::uint32_t{}, 8), 300U);
+  EXPECT_EQ(number(std::uint32_t{}, 12), 8U);
+  EXPECT_EQ(number(std::uint16_t{}, 16), 1U);
+  EXPECT_EQ(number(std::uint16_t{}, 18), 299U);
+  EXPECT_EQ(number(float{}, 16 + 2 * 16), 0.75F);
+  EXPECT_EQ(number(float{}, 16 + 2 * 16 + 8), 0.0F);
+  EXPECT_EQ(read_weights(path("w.lbw")), weights);
+
+  weights(7, 1) = 0.1;
+  expect_error<InputError>([&] { write_weights(path("w.lbw"), weights); },
+                           {"vertex 1 has 9 influences", "sparsify -k 8"});
+  expect_error<InputError>(
+      [&] { write_weights(path("w.lbw"), WeightMatrix(WeightMatrix::Identity(65537, 1))); },
+      {"65536 control points"});
+  const auto refuse = [&](const std::string& bytes, const std::string& words) {
+    make("damaged.lbw", bytes);
+    expect_error<InputError>([&] { read_weights(path("damaged.lbw")); }, {"damaged.lbw", words});
+  };
+  const auto changed = [&](std::size_t at, const std::string& bytes) {
+    auto copy = written;
+    return copy.replace(at, bytes.size(), bytes);
+  };
+  refuse(written.substr(0, 15), "not an LBW file");
+  refuse(written.substr(0, written.size() - 1), "vertices take 112");
+  refuse(changed(3, "2"), "not an LBW file");
+  refuse(changed(12, "\4"), "8 weights per vertex");
+  refuse(changed(4, "\3"), "3 vertices take");
+  refuse(changed(8, std::string("\xff\xff\xff\xff")), "65536 control points");
+  refuse(changed(17, "\7"), "point 0");                            // a control point out of range
+  refuse(changed(48, std::string("\0\0\xc0\x7f", 4)), "point 0");  // NaN
+}
+
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {
   WeightMatrix weights(2, 1);
   weights << -0.0, 1;
@@ -358,9 +405,9 @@ TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
     expect_error<OptionError>([&] { read_weights(file); },
-                              {file, ".mtx, .dmat, .npy, .csv or .mat"});
+                              {file, ".mtx, .dmat, .npy, .csv, .mat or .lbw"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .dmat, .npy, .csv or .mat"});
+                              {file, ".mtx, .dmat, .npy, .csv, .mat or .lbw"});
   }
   EXPECT_TRUE(names().empty());
 }

@@ -35,6 +35,7 @@ constexpr Format kFormats[] = {
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
     {"mat", {}, {}, {}, {read_mat, write_mat}},
+    {"lbw", {}, {}, {}, {nullptr, nullptr, read_lbw, write_lbw}},
     {"txt"},  // flbc/io/weights_triplets.h
 };
 

@@ -20,6 +20,7 @@ class TextReader;
 #endif
 
 //! Parse a file's content; `path` is for messages.
+SparseWeights read_lbw(const std::string& path, std::string content);
 SparseWeights read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
 WeightMatrix read_npy(const std::string& path, std::string content);
@@ -31,6 +32,7 @@ WeightMatrix read_mat(const std::string& path, std::string content);
 void check_finite(const WeightMatrix& weights);
 void check_finite(const SparseWeights& weights);
 
+void write_lbw(std::ostream& out, const SparseWeights& weights);
 void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
