@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "commands/commands.h"
@@ -31,7 +32,7 @@ struct ViewArguments {
   std::vector<std::string> poses;
   std::string keyframes;
   double frames_per_second = 0;
-  Index max_influences = view::kMostInfluences;
+  std::optional<Index> max_influences;  // none: by the number of vertices
   std::string picture;
   UpAxis up = UpAxis::kAuto;
   std::string output;
@@ -131,9 +132,12 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(given, content.cage.points.cols(), content.points.cols(), files);
   check_reproduction<Dim>(SparseWeights(given), content.cage.points, content.points, files);
+  // The page moves larger models on the graphics card, which takes 8 influences per vertex.
+  constexpr Eigen::Index kManyVertices = 100'000;
+  const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;
   content.weights = naming(arguments.weights, [&] {
     return view::limit_influences(content.cage.points, content.points, given,
-                                  arguments.max_influences);
+                                  arguments.max_influences.value_or(usual));
   });
   const auto page = make_page(content);
   write_text(arguments.output, page);
@@ -198,7 +202,7 @@ void add_view_command(CLI::App& app, int&) {
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
   command->add_option("-k,--max-influences", a.max_influences,
-                      "maximum influences per vertex, up to 16 (default: 16)");
+                      "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");
   command->add_option("--texture", a.picture,
                       "texture for a model with texture coordinates: .png, .jpg");
   add_up_option(*command, a.up);

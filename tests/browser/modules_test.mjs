@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page's modules without a browser: node --test modules_test.mjs
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import test from "node:test";
 
 const page = new URL("../../apps/view/page/", import.meta.url);
@@ -17,6 +18,7 @@ const { pick, pointsInRectangle } = await load("picking");
 const { ToolDrag } = await load("actions");
 const { Reshaper } = await load("serving");
 const { commandOf } = await load("saving");
+const { kWeightedSum } = await load("shaders");
 
 // The corners of a cube with edges of length 2.
 const kCube = Float64Array.from({ length: 24 }, (_, k) => (k % 3 === 0 ? Math.floor(k / 3) & 1
@@ -197,6 +199,23 @@ test("deformer: a point goes where its weights take it, and home again bit by bi
   near(deformer.influenceCounts(), [3, 1], 0);
   deformer.move(rest);
   assert.deepEqual(deformer.points, base);
+});
+
+test("deformer: eight weights per point for the card", () => {
+  const weights = { starts: Uint32Array.of(0, 2, 3), controlPoints: Uint8Array.of(0, 2, 1),
+                    values: Float32Array.of(0.25, 0.75, 1) };
+  const deformer = new Deformer(weights, new Float32Array(6), new Float64Array(9));
+  const { indices, weights: values } = deformer.weightsForCard();
+  assert.deepEqual(indices, Uint16Array.of(0, 2, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0));
+  near(values, [0.25, 0.75, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0], 0);
+  const many = { starts: Uint32Array.of(0, 9), controlPoints: new Uint8Array(9),
+                 values: new Float32Array(9) };
+  assert.equal(new Deformer(many, new Float32Array(3), new Float64Array(3)).weightsForCard(), null);
+});
+
+test("shaders: the page moves models as the shader for engines does", () => {
+  const engine = readFileSync(new URL("../../engines/deform.glsl", import.meta.url), "utf8");
+  assert.ok(engine.includes(kWeightedSum));
 });
 
 test("surface: normals of a cube's corner, edges once each, seams share normals", () => {

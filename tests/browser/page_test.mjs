@@ -39,7 +39,7 @@ function largestDifference(a, b) {
 
 // A page with all that a test asks of it.
 class Page {
-  static async open(name, { theme = "light", viewport = { width: 1200, height: 800 } } = {}) {
+  static async open(name, { theme = "light", hash = "", viewport = { width: 1200, height: 800 } } = {}) {
     const page = new Page();
     page.name = name;
     page.tab = await browser.newPage();
@@ -57,7 +57,7 @@ class Page {
     const session = await page.tab.createCDPSession();
     await session.send("Browser.setDownloadBehavior",
                        { behavior: "allow", downloadPath: downloads });
-    await page.tab.goto(`file://${work}/${name}.html`);
+    await page.tab.goto(`file://${work}/${name}.html${hash}`);
     await page.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
     return page;
   }
@@ -310,6 +310,31 @@ async function testTexture() {
   await page.close();
 }
 
+// The graphics card puts the model where the processor does. Only the shading of surfaces differs.
+async function testCard(name, dim) {
+  const picturesOf = async (hash) => {
+    const page = await Page.open(name, { hash });
+    await page.ask("move", 1, (await page.ask("controlPoint", 1)).map((x) => 1.05 * x + 0.01));
+    await page.press("edges");
+    const pictures = [await page.picture(`${name}_${hash.slice(1)}.png`)];
+    await page.tab.select("#coloring", "displacement");
+    pictures.push(await page.picture());
+    const points = await page.points();
+    await page.close();
+    return { pictures, points };
+  };
+  const card = await picturesOf("#card"), processor = await picturesOf("#processor");
+  assert.deepEqual(card.points, processor.points);
+  for (const [k, picture] of card.pictures.entries()) {
+    const background = picture[0];
+    const outlines = [picture, processor.pictures[k]].map(
+      (pixels) => pixels.map((pixel) => Number(pixel !== background)));
+    const drawn = outlines[1].reduce((sum, pixel) => sum + pixel, 0);
+    assert.ok(countDifferent(...outlines) < 0.01 * drawn, `${name}: another outline`);
+    if (dim === 2) assert.ok(countDifferent(picture, processor.pictures[k]) < 0.01 * drawn);
+  }
+}
+
 async function testWithoutWebGl() {
   const tab = await browser.newPage();
   await tab.evaluateOnNewDocument(() => { HTMLCanvasElement.prototype.getContext = () => null; });
@@ -332,6 +357,8 @@ try {
     console.log(`${name}: as flbc deform`);
   }
   await testTexture();
+  await testCard("square", 2);
+  await testCard("limb", 3);
   await testWithoutWebGl();
 } finally {
   await browser.close();

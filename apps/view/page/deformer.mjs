@@ -8,15 +8,29 @@ export class Deformer {
     this.weights = weights;
     this.base = base;
     this.rest = rest;
-    this.points = Float32Array.from(base);
+    this.moved = Float32Array.from(base);
     this.steps = new Float64Array(rest.length);
+    this.isStale = false;
   }
 
   // Takes the control points to places in a flat array.
   move(controlPoints) {
-    const { starts, controlPoints: owners, values } = this.weights;
-    const { base, points, rest, steps } = this;
+    const { rest, steps } = this;
     for (let k = 0; k < steps.length; ++k) steps[k] = controlPoints[k] - rest[k];
+    this.isStale = true;
+  }
+
+  // Where the points are now. They are computed when they are asked for: of large models only the
+  // card needs them.
+  get points() {
+    if (this.isStale) this.update();
+    return this.moved;
+  }
+
+  update() {
+    const { starts, controlPoints: owners, values } = this.weights;
+    const { base, moved: points, steps } = this;
+    this.isStale = false;
     for (let p = 0; p < starts.length - 1; ++p) {
       let x = base[3 * p], y = base[3 * p + 1], z = base[3 * p + 2];
       for (let k = starts[p]; k < starts[p + 1]; ++k) {
@@ -52,6 +66,21 @@ export class Deformer {
       for (let k = starts[p]; k < starts[p + 1]; ++k) sums[p] += isSelected[owners[k]] * values[k];
     }
     return sums;
+  }
+
+  // Eight weights per point for the card, and their control points; null if a point has more.
+  weightsForCard() {
+    const { starts, controlPoints: owners, values } = this.weights;
+    const count = starts.length - 1;
+    const indices = new Uint16Array(8 * count), weights = new Float32Array(8 * count);
+    for (let p = 0; p < count; ++p) {
+      if (starts[p + 1] - starts[p] > 8) return null;
+      for (let k = starts[p]; k < starts[p + 1]; ++k) {
+        indices[8 * p + k - starts[p]] = owners[k];
+        weights[8 * p + k - starts[p]] = values[k];
+      }
+    }
+    return { indices, weights };
   }
 
   influenceCounts() {

@@ -46,7 +46,12 @@ function start() {
   const canvas = document.getElementById("canvas");
   let viewer;
   try {
-    viewer = new Viewer(canvas, decodeContent(json));
+    const content = decodeContent(json);
+    // For tests, and for cards that are slower than the processor: page.html#card or #processor.
+    if (["#card", "#processor"].includes(location.hash)) {
+      content.movesOnCard = location.hash === "#card";
+    }
+    viewer = new Viewer(canvas, content);
   } catch (error) {
     return apologize(error);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the model and its cage with WebGL2.
 import { atVertices, edgesOf, sumNormals } from "./surface_normals.mjs";
-import { kDotShader, kEdgeShader, kSurfaceShader, kWireShader } from "./shaders.mjs";
+import { kDotShader, kEdgeShader, kSurfaceShader, kWireShader, onCard } from "./shaders.mjs";
 
 const kCheckerSize = 256, kCheckerFields = 16;
 
@@ -45,10 +45,12 @@ function checkerboard() {
 }
 
 export class Renderer {
+  // \param weights  null, or what weightsForCard() gives: then the card moves the model
   // \throws Error where there is no WebGL2
-  constructor(canvas, content) {
+  constructor(canvas, content, weights = null) {
     this.canvas = canvas;
     this.content = content;
+    this.weights = weights;
     const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: false });
     if (!gl) throw new Error("there is no WebGL2");
     this.gl = gl;
@@ -58,8 +60,9 @@ export class Renderer {
   // Everything on the card; again after the card was lost.
   prepare() {
     const { gl } = this;
-    this.surfaceProgram = compile(gl, kSurfaceShader);
-    this.edgeProgram = compile(gl, kEdgeShader);
+    const variant = (shader) => (this.weights ? onCard(shader) : shader);
+    this.surfaceProgram = compile(gl, variant(kSurfaceShader));
+    this.edgeProgram = compile(gl, variant(kEdgeShader));
     this.wireProgram = compile(gl, kWireShader);
     this.dotProgram = compile(gl, kDotShader);
     this.makeSurface();
@@ -92,8 +95,11 @@ export class Renderer {
     this.values = new Float32Array(count);
     this.surfaceArray = gl.createVertexArray();
     gl.bindVertexArray(this.surfaceArray);
-    this.placeBuffer = this.buffer(gl.ARRAY_BUFFER, this.places, gl.DYNAMIC_DRAW);
+    if (this.weights) atVertices(this.content.base, surface.sources, 3, this.places);
+    const atRest = this.weights && !surface.sources ? this.content.base : this.places;
+    this.placeBuffer = this.buffer(gl.ARRAY_BUFFER, atRest, gl.DYNAMIC_DRAW);
     this.attribute(0, this.placeBuffer, 3);
+    if (this.weights) this.makeWeights();
     this.normalBuffer = this.buffer(gl.ARRAY_BUFFER, this.normals, gl.DYNAMIC_DRAW);
     this.attribute(1, this.normalBuffer, 3);
     this.valueBuffer = this.buffer(gl.ARRAY_BUFFER, this.values, gl.DYNAMIC_DRAW);
@@ -109,6 +115,53 @@ export class Renderer {
     const triangles = Uint32Array.from(surface.triangles);
     this.triangleBuffer = this.buffer(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
     gl.bindVertexArray(null);
+  }
+
+  makeWeights() {
+    const { gl } = this;
+    const { sources, numVertices } = this.content.surface;
+    const spread = (data) => atVertices(data, sources, 8, new data.constructor(8 * numVertices));
+    const indices = this.buffer(gl.ARRAY_BUFFER, spread(this.weights.indices), gl.STATIC_DRAW);
+    const weights = this.buffer(gl.ARRAY_BUFFER, spread(this.weights.weights), gl.STATIC_DRAW);
+    this.cardBuffers = { indices, weights };
+    this.attachWeights();
+    this.cage = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.cage);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
+      gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    }
+  }
+
+  attachWeights() {
+    const { gl } = this;
+    for (const half of [0, 1]) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.cardBuffers.indices);
+      gl.enableVertexAttribArray(5 + half);
+      gl.vertexAttribIPointer(5 + half, 4, gl.UNSIGNED_SHORT, 16, 8 * half);
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.cardBuffers.weights);
+      gl.enableVertexAttribArray(7 + half);
+      gl.vertexAttribPointer(7 + half, 4, gl.FLOAT, false, 32, 16 * half);
+    }
+  }
+
+  // Gives the displacements of the control points to the card.
+  setSteps(steps) {
+    const { gl } = this;
+    const rows = Math.ceil(steps.length / 3072);
+    const texels = new Float32Array(3072 * rows);
+    texels.set(steps);
+    gl.bindTexture(gl.TEXTURE_2D, this.cage);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB32F, 1024, rows, 0, gl.RGB, gl.FLOAT, texels);
+  }
+
+  // To be called once a program is in use that moves the model.
+  useCage(places) {
+    const { gl } = this;
+    if (!this.weights) return;
+    gl.activeTexture(gl.TEXTURE2);
+    gl.bindTexture(gl.TEXTURE_2D, this.cage);
+    gl.uniform1i(places.cage, 2);
+    gl.activeTexture(gl.TEXTURE0);
   }
 
   makeCage() {
@@ -167,7 +220,10 @@ export class Renderer {
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, data);
   }
 
-  setModel(points) {
+  // Shows the model where the cage takes it.
+  setModel(deformer) {
+    if (this.weights) return this.setSteps(deformer.steps);
+    const { points } = deformer;
     const { triangles, sources, groups } = this.content.surface;
     const places = atVertices(points, sources, 3, this.places);
     this.upload(this.placeBuffer, places);
@@ -240,6 +296,7 @@ export class Renderer {
     gl.bindTexture(gl.TEXTURE_2D, this.palette);
     gl.uniform1i(places.palette, 0);
     gl.uniform1i(places.picture, 1);
+    this.useCage(places);
     gl.bindVertexArray(this.surfaceArray);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
@@ -261,6 +318,7 @@ export class Renderer {
     this.edgeArray = gl.createVertexArray();
     gl.bindVertexArray(this.edgeArray);
     this.attribute(0, this.placeBuffer, 3);
+    if (this.weights) this.attachWeights();
     this.edgeBuffer = this.buffer(gl.ELEMENT_ARRAY_BUFFER, ends, gl.STATIC_DRAW);
     gl.bindVertexArray(null);
   }
@@ -272,6 +330,7 @@ export class Renderer {
     gl.useProgram(program);
     gl.uniformMatrix4fv(places.toClip, false, matrix);
     gl.uniform4f(places.ink, ...look.edgeInk, 0.35);
+    this.useCage(places);
     gl.bindVertexArray(this.edgeArray);
     gl.drawElements(gl.LINES, this.numEdgeEnds, gl.UNSIGNED_INT, 0);
     gl.bindVertexArray(null);

@@ -1,11 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The programs of the graphics card.
 
+// Moves vertices as engines/deform.glsl does: the cage is the texture `cage`.
+export const kWeightedSum = `
+vec3 controlPoint(uint i) { return texelFetch(cage, ivec2(i & 1023u, i >> 10), 0).xyz; }
+
+vec3 weighted(uvec4 points, vec4 weights) {
+  return weights.x * controlPoint(points.x) + weights.y * controlPoint(points.y) +
+         weights.z * controlPoint(points.z) + weights.w * controlPoint(points.w);
+}
+`;
+
+// With ON_CARD, `place` is at rest, and the cage has the displacements of the control points.
+const kPlace = `
+    layout(location = 0) in vec3 place;
+    #ifdef ON_CARD
+    uniform highp sampler2D cage;
+    layout(location = 5) in uvec4 firstPoints;
+    layout(location = 6) in uvec4 otherPoints;
+    layout(location = 7) in vec4 firstWeights;
+    layout(location = 8) in vec4 otherWeights;
+    ${kWeightedSum}
+    vec3 moved() {
+      return place + weighted(firstPoints, firstWeights) + weighted(otherPoints, otherWeights);
+    }
+    #else
+    vec3 moved() { return place; }
+    #endif`;
+
+// The shader for models that move on the card.
+export function onCard(shader) {
+  const define = (text) => text.replace("300 es", "300 es\n    #define ON_CARD");
+  return { vertex: define(shader.vertex), fragment: define(shader.fragment) };
+}
+
 export const kSurfaceShader = {
   vertex: `#version 300 es
     uniform mat4 toClip;
     uniform mat3 toView;
-    layout(location = 0) in vec3 place;
+    ${kPlace}
     layout(location = 1) in vec3 normal;
     layout(location = 2) in float value;
     layout(location = 3) in vec2 textureCoordinate;
@@ -15,9 +48,14 @@ export const kSurfaceShader = {
     out vec2 texturePlace;
     out vec3 ownColor;
     void main() {
-      gl_Position = toClip * vec4(place, 1.0);
+      vec3 now = moved();
+      gl_Position = toClip * vec4(now, 1.0);
       gl_PointSize = 3.0;
+    #ifdef ON_CARD
+      viewNormal = toView * now;  // the place; the fragment shader takes the normal from it
+    #else
       viewNormal = toView * normal;
+    #endif
       shownValue = value;
       texturePlace = textureCoordinate;
       ownColor = tint;
@@ -50,8 +88,13 @@ export const kSurfaceShader = {
         base = texture(picture, texturePlace).rgb;
       }
       if (isLit) {
-        float size = length(viewNormal);
-        vec3 normal = size > 0.0 ? viewNormal / size : vec3(0.0, 0.0, 1.0);
+    #ifdef ON_CARD
+        vec3 across = cross(dFdx(viewNormal), dFdy(viewNormal));
+    #else
+        vec3 across = viewNormal;
+    #endif
+        float size = length(across);
+        vec3 normal = size > 0.0 ? across / size : vec3(0.0, 0.0, 1.0);
         if (normal.z < 0.0) normal = -normal;
         float light = 0.30 + 0.50 * max(0.0, dot(normal, normalize(vec3(-0.35, 0.55, 0.75))))
                     + 0.26 * normal.z;
@@ -65,8 +108,8 @@ export const kSurfaceShader = {
 export const kEdgeShader = {
   vertex: `#version 300 es
     uniform mat4 toClip;
-    layout(location = 0) in vec3 place;
-    void main() { gl_Position = toClip * vec4(place, 1.0); }`,
+    ${kPlace}
+    void main() { gl_Position = toClip * vec4(moved(), 1.0); }`,
   fragment: `#version 300 es
     precision highp float;
     uniform vec4 ink;

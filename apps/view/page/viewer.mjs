@@ -14,6 +14,8 @@ const kThemes = {
   dark: { background: [0.086, 0.098, 0.122], plain: [0.58, 0.66, 0.77], ink: [0.87, 0.90, 0.95],
           edgeInk: [0.02, 0.03, 0.06], highlight: [1.0, 0.45, 0.20] },
 };
+// Larger models move on the card, which shades their triangles flat.
+const kManyVertices = 100000;
 const kViews = { front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 0.03] };
 
 export class Viewer {
@@ -21,10 +23,12 @@ export class Viewer {
   constructor(canvas, content) {
     this.canvas = canvas;
     this.content = content;
-    this.renderer = new Renderer(canvas, content);
+    this.deformer = new Deformer(content.weights, content.base, content.rest);
+    const movesOnCard = content.movesOnCard ?? content.surface.numVertices > kManyVertices;
+    const weights = movesOnCard && !content.served ? this.deformer.weightsForCard() : null;
+    this.renderer = new Renderer(canvas, content, weights);
     this.camera = new Camera(content.dim, content.up);
     this.editor = new Editor(content.rest, content.dim);
-    this.deformer = new Deformer(content.weights, content.base, content.rest);
     this.coloring = "shaded";
     this.tool = "move";
     this.axis = null;
@@ -78,7 +82,7 @@ export class Viewer {
     this.isStale = false;
     const { editor, deformer, renderer } = this;
     deformer.move(this.reshaper?.holdsModel ? deformer.rest : editor.points);
-    renderer.setModel(deformer.points);
+    renderer.setModel(deformer);
     const { values, legend } = colorValues(this.coloring, deformer, editor.selection);
     if (values) renderer.setValues(values);
     renderer.setCage(editor.points, editor.selection, this.hovered);
