@@ -197,12 +197,12 @@ int run_as_told(const CLI::App& command, RunArguments& arguments) {
   make_smooth(arguments.settings.options);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
+  auto& model = arguments.settings.model;
+  if (io::is_splat_file(model)) arguments.splats = std::exchange(model, "");
   require_model_to_embed(arguments.settings);
   const io::ModelFile file(arguments.settings.cage);
   const auto& soup = file.model().soup;
   refuse_model_as_cage(soup, arguments.settings);
-  auto& model = arguments.settings.model;
-  if (io::is_splat_file(model)) arguments.splats = std::exchange(model, "");
   const auto cage = checked_cage(soup, arguments.settings.cage);
   return std::visit([&](const auto& any) { return run_cage(any, arguments, &file); }, cage);
 }
