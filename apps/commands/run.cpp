@@ -194,6 +194,7 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
 // \return the exit status
 int run_as_told(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
+  arguments.settings.needs_domain = true;
   make_smooth(arguments.settings.options);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);

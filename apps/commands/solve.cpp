@@ -44,10 +44,15 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   const auto& report = solver.report();
   std::cerr << arguments.output << ": ";
   if (!report.parts.empty()) std::cerr << report.parts.size() << " parts, ";
-  std::cerr << report.control_points << " control points, " << report.vertices << " vertices, "
-            << report.cells << (Dim == 2 ? " triangles; " : " tetrahedra; ")
-            << describe_iterations(report) << ", " << report.seconds.solve << " s"
-            << "; minimum weight " << delivered.min_weight << ", reproduction error "
+  std::cerr << report.control_points << " control points, ";
+  if (is_meshless(arguments.settings)) {
+    std::cerr << solver.points().cols() << " vertices of the model, no mesh; ";
+  } else {
+    std::cerr << report.vertices << " vertices, " << report.cells
+              << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report)
+              << ", ";
+  }
+  std::cerr << report.seconds.solve << " s; minimum weight " << delivered.min_weight << ", reproduction error "
             << delivered.max_reproduction_error;
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
@@ -147,6 +152,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   domain->excludes(vertices)->excludes(embed);
   command->callback([arguments, command, &exit_status] {
     validate(arguments->settings.options);
+    arguments->settings.needs_domain = !arguments->save_domain.empty();
     refuse_unread_options(*command, arguments->settings);
     check_outputs(*arguments);
     const auto cage = load_cage(arguments->settings.cage);

@@ -168,4 +168,28 @@ std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& pla
   return canvas.encode();
 }
 
+std::string draw_panels(const DrawnModel& model, const std::vector<ModelPanel>& panels,
+                        Index control_point, const ObliqueView& view,
+                        const WeightPictureOptions& options) {
+  validate(options);
+  std::vector<ModelPlace> places;
+  for (const auto& panel : panels) {
+    places.push_back(panel.place);
+    check(model, {places.front(), panel.place}, {panel.values, control_point});
+  }
+  if (places.empty()) throw InputError("there is nothing to draw");
+  const Box content = common_box(places, view);
+  const auto sheet = plan_sheet(content, static_cast<int>(panels.size()), options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const auto& [label, place, values] = panels[k];
+    const auto& frame = sheet.frames[k];
+    paint_model(canvas, {model, place, values, values.size() > 0 ? control_point : -1, view,
+                         PixelMap(content, frame), Vector<2>::Zero(), 0.7 * unit});
+    paint_label(canvas, {frame.center().x(), frame.low.y()}, label, unit);
+  }
+  return canvas.encode();
+}
+
 }  // namespace flbc::draw

@@ -41,4 +41,17 @@ std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& pla
                                   const ObliqueView& view,
                                   const WeightPictureOptions& options = {});
 
+//! One of several pictures of the same model.
+struct ModelPanel {
+  std::string label;
+  ModelPlace place;
+  Eigen::VectorXd values;  //!< P, weights; empty: a plain surface
+};
+
+//! Draws panels in rows, in the same scale and frame, with a label above each.
+//! \param control_point  of the values \throws as draw_model()
+std::string draw_panels(const DrawnModel& model, const std::vector<ModelPanel>& panels,
+                        Index control_point, const ObliqueView& view,
+                        const WeightPictureOptions& options = {});
+
 }  // namespace flbc::draw

@@ -233,4 +233,41 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
   return canvas.encode();
 }
 
+std::string draw_panels(const FacetList<2>& facets, const CellList<2>& triangles,
+                        const std::vector<PlanePanel>& panels, const PointList<2>& rest,
+                        Index control_point, const WeightPictureOptions& options) {
+  validate(options);
+  if (panels.empty()) throw InputError("there is nothing to draw");
+  PointList<2> all(2, 0);
+  for (const auto& [label, shape, values] : panels) {
+    check_shape(triangles, shape, panels.front().shape);
+    check_edges({shape.control_points, facets});
+    const auto before = all.cols();
+    all.conservativeResize(2, before + shape.points.cols() + shape.control_points.cols());
+    all.rightCols(all.cols() - before) << shape.points, shape.control_points;
+  }
+  const Box content = bounding_box(all);
+  const auto sheet = plan_sheet(content, static_cast<int>(panels.size()), options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const auto& [label, shape, values] = panels[k];
+    const auto& frame = sheet.frames[k];
+    const PixelMap map(content, frame);
+    const Cage<2> cage{shape.control_points, facets};
+    if (values.size() == 0) {
+      const PointList<2> pixels = map(shape.points);
+      canvas.draw_segments(outline_of(pixels, triangles), 2.4 * unit, kInk, 0.8F);
+      paint_checker(canvas, pixels, triangles, rest);
+      paint_cage(canvas, cage, map, -1, unit);
+    } else {
+      check_weight(values, static_cast<Index>(shape.points.cols()), control_point, cage.size());
+      paint_function(canvas, map, cage, {shape.points, triangles}, values, control_point, options,
+                     unit);
+    }
+    paint_label(canvas, {frame.center().x(), frame.low.y()}, label, unit);
+  }
+  return canvas.encode();
+}
+
 }  // namespace flbc::draw

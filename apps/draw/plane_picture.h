@@ -59,4 +59,19 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
                              const Eigen::VectorXd& values, Index control_point,
                              const WeightPictureOptions& options = {});
 
+//! One of several pictures of the same shape.
+struct PlanePanel {
+  std::string label;
+  DrawnShape shape;
+  Eigen::VectorXd values;  //!< P; empty: squares, which are deformed with the shape
+};
+
+//! Draws panels in rows, in the same scale and frame, with a label above each.
+//! \param facets  2 x m, of the cage \param triangles  3 x T, of the shape
+//! \param rest  2 x P, where the squares are square \param control_point  of the values
+//! \throws as draw_deformation()
+std::string draw_panels(const FacetList<2>& facets, const CellList<2>& triangles,
+                        const std::vector<PlanePanel>& panels, const PointList<2>& rest,
+                        Index control_point, const WeightPictureOptions& options = {});
+
 }  // namespace flbc::draw

@@ -56,6 +56,9 @@ std::string after_name(std::string help) {
 std::string value_of(const OptionEntry& option) {
   if (option.value.empty()) return "";
   std::string text = option.choices.empty() ? italic(option.value) : bold(option.value);
+  for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 1)) {
+    text.insert(at + 1, "\\:");  // lines may break there
+  }
   if (option.repeated && !option.optional_value) text += " ...";
   return option.optional_value ? " [" + text + "]" : " " + text;
 }

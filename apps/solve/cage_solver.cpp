@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,6 +15,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/names.h"
+#include "flbc/pointwise.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
@@ -125,6 +127,12 @@ void CageSolver<Dim>::fill_cage(bool quiet) {
 
 template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
+  if (is_meshless(settings_)) {
+    const ProgressBar bar(quiet, "locating the model vertices in the cage");
+    placement_ =
+        naming(settings_.model, [&] { return place_points(cage_, model_, settings_.outside); });
+    return;
+  }
   const auto start = std::chrono::steady_clock::now();
   if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
   if (settings_.domain.empty()) {
@@ -150,8 +158,24 @@ void CageSolver<Dim>::announce() const {
 }
 
 template <int Dim>
+void CageSolver<Dim>::solve_without_mesh() {
+  const auto start = std::chrono::steady_clock::now();
+  rows_ = weights_of_model();
+  auto& report = solution_.report;
+  report.method = settings_.options.method;
+  report.control_points = cage_.size();
+  report.objective = std::numeric_limits<double>::quiet_NaN();
+  report.seconds.solve =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
   const auto& options = settings_.options;
+  if (is_meshless(settings_)) {
+    const ProgressBar bar(quiet, "computing weights");
+    return solve_without_mesh();
+  }
   if (!quiet) announce();
   ProgressBar bar(quiet, "setting up: boundary values, distances", options);
   HistoryRecorder recorder(options);
@@ -177,6 +201,10 @@ const PointList<Dim>& CageSolver<Dim>::points() const {
 
 template <int Dim>
 SparseWeights CageSolver<Dim>::weights_of_model() const {
+  if (is_pointwise(settings_.options.method)) {
+    return naming(settings_.model,
+                  [&] { return pointwise_coordinates(cage_, placement_, settings_.options); });
+  }
   auto rows = weights_at(cage_, domain_, domain_weights(), placement_);
   if (!settings_.embed) return rows;
   return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
@@ -196,7 +224,8 @@ double CageSolver<Dim>::objective() const {
 template <int Dim>
 nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   auto json = report_json(report(), settings_, {Dim, mesh_seconds(), mesher(), delivered});
-  if (std::isnan(report().objective) && report().parts.empty()) json["objective"] = objective();
+  const bool has_objective = !std::isnan(report().objective) || is_meshless(settings_);
+  if (!has_objective && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(settings_.outside)},
                        {"on_cage", beside_json(placement_.on_cage)},

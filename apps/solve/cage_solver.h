@@ -57,6 +57,7 @@ class CageSolver {
   void fill_cage(bool quiet);
   // Says how long a long solve may take.
   void announce() const;
+  void solve_without_mesh();
   SparseWeights weights_of_model() const;
   double objective() const;
 

@@ -3,9 +3,15 @@
 
 #include "flbc/errors.h"
 #include "flbc/names.h"
+#include "flbc/pointwise.h"
 #include "help/options.h"
 
 namespace flbc::app {
+
+bool is_meshless(const SolveSettings& settings) {
+  return is_pointwise(settings.options.method) && !settings.model.empty() && !settings.needs_domain;
+}
+
 void add_mesher_options(CLI::App& command, MesherSettings& settings) {
   const auto take = [&settings](const std::string& word) {
     for (const Mesher mesher : {Mesher::kAuto, Mesher::kCgal, Mesher::kTetgen, Mesher::kNetgen}) {
@@ -29,7 +35,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const Method method = settings.options.method;
   const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
-  if (method == Method::kHarmonic || method == Method::kMeanValue) {
+  if (!is_local(method)) {
     for (const char* option : {"--phi", "--smoothness", "--distances", "--linear-solver",
                                "--precision", "--coarse-to-fine", "--active", "--tolerance",
                                "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
@@ -41,6 +47,11 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
     refuse("--coarse-to-fine", name + " does not use it");
   }
   if (!gradients) refuse("--recovery", name + " does not use it");
+  if (is_meshless(settings)) {
+    for (const char* option : {"--domain", "--vertices", "--embed", "--mesher", "--mesh-timeout"}) {
+      refuse(option, name + " needs no mesh for the weights of a model");
+    }
+  }
   if (settings.model.empty()) refuse("--outside", "no model is given");
   if (!settings.domain.empty()) {
     refuse("--mesher", "--domain gives the mesh");

@@ -18,7 +18,8 @@ struct SolveSettings {
   std::string cage;
   std::string domain;  //!< mesh of the interior; empty: one is made
   std::string model;   //!< whose vertices get weights; empty: those of the mesh do
-  bool embed = false;  //!< the model's vertices become vertices of the mesh
+  bool needs_domain = false;  //!< a mesh is made even if the method needs none
+  bool embed = false;         //!< the model's vertices become vertices of the mesh
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;                            //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
@@ -26,6 +27,9 @@ struct SolveSettings {
   std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
   SolverOptions options{};  //!< but for the penalty, which depends on the mesh
 };
+
+//! Whether the weights are those of a model by a method that needs no mesh, and none is made.
+bool is_meshless(const SolveSettings& settings);
 
 //! Adds --mesher and --mesh-timeout to a command. \param settings  outlives it
 void add_mesher_options(CLI::App& command, MesherSettings& settings);

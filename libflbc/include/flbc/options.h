@@ -21,7 +21,10 @@ enum class Method {
               //!< (docs/benchmarks/paper_details.md)
   kLbc2014,   //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
   kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
-  kMeanValue  //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
+  kMeanValue,   //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
+  kMaxEntropy,  //!< maximum entropy coordinates (Hormann and Sukumar 2008), for comparison
+  kMaxLikelihood,  //!< maximum likelihood coordinates (Chang et al. 2023), for comparison
+  kBlended  //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
 };
 
 //! Enforcement of w >= 0. Without it, the optimum on a mesh may be negative, in 3D noticeably.
@@ -75,7 +78,7 @@ struct GradientOptions {
 };
 
 //! Options of solve(). The defaults suit every cage. The method chooses options that are not set.
-//! Methods kHarmonic and kMeanValue read only threads and non_negative.
+//! Methods for comparison read only threads and non_negative.
 struct SolverOptions {
   //! Solver method, or other coordinates for comparison.
   Method method = Method::kAuto;
@@ -145,8 +148,8 @@ struct SolverOptions {
   //! Iterations between two evaluations of the residuals, >= 1.
   int check_interval = 10;
 
-  //! Whether to compute a lower bound of the optimal objective; an error for kHarmonic and
-  //! kMeanValue.
+  //! Whether to compute a lower bound of the optimal objective; an error for
+  //! methods for comparison.
   bool certify = false;
 
   //! Whether to return sparse weights (Solution::sparse_weights). With an active set, no n x V
@@ -163,6 +166,10 @@ struct SolverOptions {
 //! Checks options. solve() and Solver call it first.
 //! \throws OptionError naming the field and its valid range
 void validate(const SolverOptions& options);
+
+//! Whether a method minimizes the objective of local barycentric coordinates; if not, it is one for
+//! comparison.
+bool is_local(Method method);
 
 //! Sets the smoothness to kDeformationSmoothness if it is not set and the method supports it.
 void make_smooth(SolverOptions& options);

@@ -54,6 +54,12 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
+//! The same without a mesh, for coordinates that need none (pointwise.h): all places have cell -1.
+//! Time is proportional to the number of points times the number of facets.
+template <int Dim>
+Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            OutsidePoints policy = OutsidePoints::kFail);
+
 //! Finds the nearest points of a cage.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, finite, in the units of the cage
@@ -73,5 +79,14 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
 template <int Dim, class Weights>
 Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
                    const Placement<Dim>& placement);
+
+//! The same from weights of the inner points themselves.
+//! \param inside  n x P: the weights of points that are in neither `on_cage` nor `outside`; other
+//! columns are not used
+//! \param placement  with or without a mesh
+//! \return n x P
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
+                         const Placement<Dim>& placement);
 
 }  // namespace flbc

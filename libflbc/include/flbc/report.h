@@ -77,7 +77,7 @@ struct SolveReport {
   double penalty = 0;            //!< final penalty, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same in the scale of the literature (published_penalty())
   //! Objective of the weights, sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN if
-  //! phi is not available: for kHarmonic and kMeanValue, unless the given problem has it.
+  //! phi is not available: for methods for comparison, unless the given problem has it.
   double objective = 0;
   Certificate certificate{};                 //!< if requested or used as the criterion; same units
   double state_scalars_per_cell = 0;         //!< size of the iteration state

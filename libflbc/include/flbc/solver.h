@@ -62,8 +62,8 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 
 //! Solves a problem from make_problem(). Several solves with different options may share it.
 //! Parameters and errors are as above.
-//! \param problem  made with options.phi and options.smoothness; kHarmonic and kMeanValue need
-//! neither
+//! \param problem  made with options.phi and options.smoothness; methods for
+//! comparison need neither
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});

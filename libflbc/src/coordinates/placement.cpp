@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
@@ -12,6 +13,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/weight_columns.h"
+#include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -135,13 +137,30 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
       "model with cage_from_model()");
 }
 
+// Lists the points that are not inside, and moves them onto the cage where that is due.
+template <int Dim>
+void place_beside(const Cage<Dim>& cage, const PointList<Dim>& points,
+                  const std::vector<Index>& beside, Placement<Dim>& placement) {
+  const double size = bounding_box_diagonal(cage.points);
+  for (const auto& point : nearest_on_cage(cage, points, beside)) {
+    const bool is_near = point.distance <= kBoundaryTolerance * size;
+    (is_near ? placement.on_cage : placement.outside).push_back(point);
+    if (is_near || placement.policy == OutsidePoints::kNearest) {
+      placement.points.col(point.point) = place_on_cage(cage, point);
+    }
+  }
+  if (placement.policy == OutsidePoints::kFail && !placement.outside.empty()) {
+    refuse_outside(placement, points, size);
+  }
+}
+
 // Evaluates the weights of one placed point at a time.
-template <int Dim, class Weights>
+// \tparam Inside  Eigen::VectorXd(Index point), for points inside
+template <int Dim, class Inside>
 class WeightsAt {
  public:
-  WeightsAt(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
-            const Placement<Dim>& placement)
-      : cage_(cage), mesh_(mesh), weights_(weights), placement_(placement) {
+  WeightsAt(const Cage<Dim>& cage, const Placement<Dim>& placement, Inside inside)
+      : cage_(cage), placement_(placement), inside_(std::move(inside)) {
     for (const auto& beside : placement.on_cage) beside_[beside.point] = {&beside, false};
     const bool extends = placement.policy == OutsidePoints::kExtend;
     for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, extends};
@@ -149,9 +168,9 @@ class WeightsAt {
   }
 
   Eigen::VectorXd operator()(Index point) const {
-    const auto& place = placement_.places[point];
-    if (place.cell >= 0) return interpolate(mesh_, weights_, place);
-    const auto& [beside, extends] = beside_.at(point);
+    const auto found = beside_.find(point);
+    if (found == beside_.end()) return inside_(point);
+    const auto& [beside, extends] = found->second;
     Eigen::VectorXd result = Eigen::VectorXd::Zero(cage_.size());
     for (int k = 0; k < Dim; ++k) {
       result[cage_.facets(k, beside->facet)] = beside->coordinates[k];
@@ -191,9 +210,8 @@ class WeightsAt {
   }
 
   const Cage<Dim>& cage_;
-  const DomainMesh<Dim>& mesh_;
-  const Weights& weights_;
   const Placement<Dim>& placement_;
+  Inside inside_;
   std::unordered_map<Index, Beside> beside_;
   std::map<Index, AffineFit<Dim>> fits_;
 };
@@ -234,35 +252,62 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   for (Index p = 0; p < num_points; ++p) {
     if (placement.places[p].cell < 0) beside.push_back(p);
   }
-  for (const auto& point : nearest_on_cage(cage, points, beside)) {
-    const bool is_near = point.distance <= kBoundaryTolerance * size;
-    (is_near ? placement.on_cage : placement.outside).push_back(point);
-    if (is_near || policy == OutsidePoints::kNearest) {
-      placement.points.col(point.point) = place_on_cage(cage, point);
-    }
+  place_beside(cage, points, beside, placement);
+  return placement;
+}
+
+template <int Dim>
+Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            OutsidePoints policy) {
+  const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
+  const auto num_points = static_cast<Index>(points.cols());
+  std::vector<char> is_beside(static_cast<std::size_t>(num_points));
+#pragma omp parallel for schedule(static)
+  for (Index p = 0; p < num_points; ++p) {
+    is_beside[p] = locator.locate(points.col(p)) == Containment::kOutside;
   }
-  if (policy == OutsidePoints::kFail && !placement.outside.empty()) {
-    refuse_outside(placement, points, size);
+  std::vector<Index> beside;
+  for (Index p = 0; p < num_points; ++p) {
+    if (is_beside[p]) beside.push_back(p);
   }
+  Placement<Dim> placement;
+  placement.policy = policy;
+  placement.points = points;
+  placement.places.resize(static_cast<std::size_t>(num_points));
+  place_beside(cage, points, beside, placement);
   return placement;
 }
 
 template <int Dim, class Weights>
 Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
                    const Placement<Dim>& placement) {
+  const auto inside = [&](Index p) { return interpolate(mesh, weights, placement.places[p]); };
   return weights_of_points<Weights>(cage.size(), static_cast<Index>(placement.places.size()),
-                                    WeightsAt<Dim, Weights>(cage, mesh, weights, placement));
+                                    WeightsAt<Dim, decltype(inside)>(cage, placement, inside));
+}
+
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
+                         const Placement<Dim>& placement) {
+  const auto column = [&](Index p) { return Eigen::VectorXd(inside.col(p)); };
+  return weights_of_points<SparseWeights>(
+      cage.size(), static_cast<Index>(placement.places.size()),
+      WeightsAt<Dim, decltype(column)>(cage, placement, column));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                     \
   template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&, \
                                    const Placement<Dim>&);                                        \
   template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                     \
-                                    const SparseWeights&, const Placement<Dim>&);
+                                    const SparseWeights&, const Placement<Dim>&);                 \
+  template SparseWeights weights_at(const Cage<Dim>&, const WeightMatrix&,                        \
+                                    const Placement<Dim>&);                                       \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                  \
+                                       const PointList<Dim>&, OutsidePoints);                     \
+  template Placement<Dim> place_points(const Cage<Dim>&, const PointList<Dim>&, OutsidePoints);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
 FLBC_INSTANTIATE_FUNCTION(nearest_on_cage)
-FLBC_INSTANTIATE_FUNCTION(place_points)
 
 }  // namespace flbc

@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
-#include "flbc/mean_value.h"
+#include "flbc/pointwise.h"
 #include "mesh/cell_geometry.h"
 #include "solver/methods/active_set/active_set.h"
 #include "solver/methods/gradient/gradient_iteration.h"
@@ -253,8 +253,8 @@ Weights MethodRun<Dim>::solve(const SolverOptions& options, const Reporter& repo
   Weights weights;
   if (options.method == Method::kHarmonic) {
     weights.dense = harmonic_coordinates(*problem_);
-  } else if (options.method == Method::kMeanValue) {
-    weights.dense = mean_value_coordinates(problem_->cage, problem_->mesh.points);
+  } else if (is_pointwise(options.method)) {
+    weights.dense = pointwise_coordinates(problem_->cage, problem_->mesh.points, options.method);
   } else {
     weights = iterate(options, reporter, report, std::move(start));
   }

@@ -60,7 +60,7 @@ bool gains_by_coarse_start(const Sizes& sizes, const SolverOptions& options) {
 }  // namespace
 
 bool minimizes(Method method) {
-  return method != Method::kHarmonic && method != Method::kMeanValue;
+  return is_local(method);
 }
 
 bool smooths(Method method) {

@@ -39,6 +39,19 @@ void validate(const CoarseLevels& levels) {
 
 }  // namespace
 
+bool is_local(Method method) {
+  switch (method) {
+    case Method::kAuto:
+    case Method::kValue:
+    case Method::kGradient:
+    case Method::kPaper:
+    case Method::kLbc2014:
+      return true;
+    default:
+      return false;
+  }
+}
+
 void validate(const SolverOptions& options) {
   const auto require_positive = [](const char* field, const std::optional<double>& value) {
     require(!value || (std::isfinite(*value) && *value > 0), field, value.value_or(0), "positive");

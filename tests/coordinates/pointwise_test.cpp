@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/pointwise.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "base/parallel.h"
+#include "coordinates/polygon_triangulation.h"
+#include "flbc/blended.h"
+#include "flbc/cage_facts.h"
+#include "flbc/errors.h"
+#include "flbc/maximum_entropy.h"
+#include "flbc/maximum_likelihood.h"
+#include "flbc/mean_value.h"
+#include "flbc/quality.h"
+#include "support/code_cages.h"
+#include "support/dimensions.h"
+#include "support/hollow_sample.h"
+#include "support/sample_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+template <int Dim>
+std::vector<Method> non_negative_methods() {
+  std::vector<Method> all{Method::kMaxEntropy, Method::kMaxLikelihood};
+  if (Dim == 2) all.push_back(Method::kBlended);
+  return all;
+}
+
+template <int Dim>
+std::vector<Sample<Dim>> cages() {
+  std::vector<Sample<Dim>> all{make_hollow_sample<Dim>()};
+  for (const auto shape :
+       {Shape::kSimplex, Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
+    all.push_back(make_sample<Dim>(shape, 3));
+  }
+  return all;
+}
+
+template <int Dim>
+PointList<Dim> centers(const DomainMesh<Dim>& mesh) {
+  PointList<Dim> points = PointList<Dim>::Zero(Dim, mesh.num_cells());
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    for (int k = 0; k <= Dim; ++k) points.col(s) += mesh.points.col(mesh.cells(k, s)) / (Dim + 1);
+  }
+  return points;
+}
+
+// A regular polygon, or the regular octahedron.
+template <int Dim>
+Cage<Dim> regular_cage() {
+  Cage<Dim> cage;
+  if constexpr (Dim == 2) {
+    cage.points.resize(2, 7);
+    cage.facets.resize(2, 7);
+    for (Index k = 0; k < 7; ++k) {
+      cage.points.col(k) << std::cos(2 * kPi * k / 7), std::sin(2 * kPi * k / 7);
+      cage.facets.col(k) << k, (k + 1) % 7;
+    }
+  } else {
+    cage.points.resize(3, 6);
+    cage.points << 1, -1, 0, 0, 0, 0,  //
+        0, 0, 1, -1, 0, 0,             //
+        0, 0, 0, 0, 1, -1;
+    cage.facets.resize(3, 8);
+    cage.facets << 0, 2, 1, 3, 2, 1, 3, 0,  //
+        2, 1, 3, 0, 0, 2, 1, 3,             //
+        4, 4, 4, 4, 5, 5, 5, 5;
+  }
+  return cage;
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, NonNegativeAndReproduceInEveryCage) {
+  for (const auto& sample : cages<Dim>()) {
+    for (const auto method : non_negative_methods<Dim>()) {
+      SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
+      for (const auto& points : {sample.mesh.points, centers(sample.mesh)}) {
+        const auto weights = pointwise_coordinates(sample.cage, points, method);
+        const auto quality = measure_quality(sample.cage.points, points, weights);
+        EXPECT_LT(quality.max_partition_error, 1e-13);
+        EXPECT_LT(quality.max_reproduction_error, 1e-12);
+        EXPECT_GE(weights.minCoeff(), 0);
+      }
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, AreBarycentricInASimplex) {
+  const auto sample = make_sample<Dim>(Shape::kSimplex, 6);
+  const auto points = centers(sample.mesh);
+  Eigen::Matrix<double, Dim + 1, Dim + 1> system;
+  system << sample.cage.points, Eigen::RowVectorXd::Ones(Dim + 1);
+  Eigen::MatrixXd right(Dim + 1, points.cols());
+  right << points, Eigen::RowVectorXd::Ones(points.cols());
+  const Eigen::MatrixXd expected = system.inverse() * right;
+  for (const auto method : non_negative_methods<Dim>()) {
+    const auto weights = pointwise_coordinates(sample.cage, points, method);
+    EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, EqualAtTheCenterOfARegularCage) {
+  const auto cage = regular_cage<Dim>();
+  const PointList<Dim> center = PointList<Dim>::Zero(Dim, 1);
+  for (const auto method : {Method::kMeanValue, Method::kMaxEntropy, Method::kMaxLikelihood}) {
+    const auto weights = pointwise_coordinates(cage, center, method);
+    EXPECT_LT((weights.array() - 1.0 / cage.size()).abs().maxCoeff(), 1e-13);
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
+  for (const auto& sample : cages<Dim>()) {
+    const auto& cage = sample.cage;
+    for (const auto method : non_negative_methods<Dim>()) {
+      SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
+      EXPECT_EQ(pointwise_coordinates(cage, cage.points, method),
+                WeightMatrix::Identity(cage.size(), cage.size()));
+      for (Index f = 0; f < cage.facets.cols(); ++f) {
+        Eigen::VectorXd expected = Eigen::VectorXd::Zero(cage.size());
+        for (int k = 0; k < Dim; ++k) expected[cage.facets(k, f)] = 1 + 0.37 * k;
+        expected /= expected.sum();
+        const Vector<Dim> place = cage.points * expected;
+        const auto on_facet = pointwise_coordinates<Dim>(cage, PointList<Dim>(place), method);
+        EXPECT_LT((on_facet - expected).cwiseAbs().maxCoeff(), 1e-12);
+        for (int k = 3; k <= 11; ++k) {
+          for (const double side : {-1.0, 1.0}) {
+            Vector<Dim> normal;
+            if constexpr (Dim == 2) {
+              const Vector<2> edge =
+                  cage.points.col(cage.facets(1, f)) - cage.points.col(cage.facets(0, f));
+              normal << -edge.y(), edge.x();
+            } else {
+              const Vector<3> first =
+                  cage.points.col(cage.facets(1, f)) - cage.points.col(cage.facets(0, f));
+              const Vector<3> second =
+                  cage.points.col(cage.facets(2, f)) - cage.points.col(cage.facets(0, f));
+              normal = first.cross(second);
+            }
+            const double distance = std::pow(10.0, -k);
+            const PointList<Dim> near = place + side * distance * normal.normalized();
+            if (k < 6 && !points_outside<Dim>(cage, near).empty()) continue;
+            const auto there = pointwise_coordinates<Dim>(cage, near, method);
+            EXPECT_LT((there - expected).cwiseAbs().maxCoeff(), 200 * distance + 1e-11)
+                << "facet " << f << " distance " << side * distance;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, FollowRotationScaleAndOrientation) {
+  for (const auto& sample : cages<Dim>()) {
+    const auto points = centers(sample.mesh);
+    Eigen::Matrix<double, Dim, Dim> rotation = Eigen::Matrix<double, Dim, Dim>::Identity();
+    rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+    // The blend depends on which vertices on a common circle are used.
+    for (const auto method : {Method::kMaxEntropy, Method::kMaxLikelihood}) {
+      const auto weights = pointwise_coordinates(sample.cage, points, method);
+      for (const double scale : {1e-25, 3.0, 1e25}) {
+        auto moved = reversed(sample.cage);
+        moved.points = scale * (rotation * moved.points);
+        const PointList<Dim> moved_points = scale * (rotation * points);
+        EXPECT_LT((pointwise_coordinates(moved, moved_points, method) - weights)
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  1e-9)
+            << sample.name << " at scale " << scale;
+      }
+    }
+  }
+}
+
+// At the maximum of entropy, log(w_i / m_i) is an affine function of c_i.
+TEST_IN_2D_AND_3D(PointwiseTest, EntropyIsLargestRelativeToItsPriors) {
+  for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kStar}) {
+    const auto sample = make_sample<Dim>(shape, 2);
+    const auto& cage = sample.cage;
+    const auto points = centers(sample.mesh);
+    const auto weights = maximum_entropy_coordinates(cage, points);
+    const auto area = [](const Vector<Dim>& a, const Vector<Dim>& b) {
+      Eigen::Matrix<double, Dim, 2> both;
+      both << a, b;
+      return std::sqrt((both.transpose() * both).determinant()) / 2;
+    };
+    for (Index p = 0; p < points.cols(); ++p) {
+      Eigen::VectorXd relative = weights.col(p).array().log();
+      for (Index f = 0; f < cage.facets.cols(); ++f) {
+        std::vector<Vector<Dim>> seen;
+        for (int k = 0; k < Dim; ++k) {
+          seen.push_back(cage.points.col(cage.facets(k, f)) - points.col(p));
+        }
+        const double rho = Dim == 2
+                               ? seen[0].norm() + seen[1].norm() - (seen[0] - seen[1]).norm()
+                               : area(seen[0], seen[1]) + area(seen[1], seen[2 % Dim]) +
+                                     area(seen[2 % Dim], seen[0]) -
+                                     area(seen[1] - seen[0], seen[2 % Dim] - seen[0]);
+        const double unit =  // in 3D relative to the triangle
+            Dim == 2 ? 1 : area(seen[1] - seen[0], seen[2 % Dim] - seen[0]);
+        for (int k = 0; k < Dim; ++k) relative[cage.facets(k, f)] += std::log(rho / unit);
+      }
+      Eigen::MatrixXd affine(cage.size(), Dim + 1);
+      affine << cage.points.transpose(), Eigen::VectorXd::Ones(cage.size());
+      const Eigen::VectorXd fit = affine * affine.colPivHouseholderQr().solve(relative);
+      EXPECT_LT((relative - fit).cwiseAbs().maxCoeff(), 1e-7) << sample.name << " point " << p;
+    }
+  }
+}
+
+// The weights mu_i of the smoothed vectors u_i by a search along the gradient.
+TEST(PointwiseTest2D, LikelihoodByAnotherImplementation) {
+  for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kStar}) {
+    const auto sample = make_sample<2>(shape, 2);
+    const auto& cage = sample.cage;
+    const auto n = cage.size();
+    const auto points = centers(sample.mesh);
+    const auto weights = maximum_likelihood_coordinates(cage, points);
+    for (Index p = 0; p < points.cols(); ++p) {
+      // Rows of a matrix express vectors by c_j - x.
+      const Eigen::MatrixXd offsets = (cage.points.colwise() - points.col(p)).transpose();
+      const auto unit_rows = [&](Eigen::MatrixXd rows) {
+        const Eigen::MatrixXd vectors = rows * offsets;
+        for (Index i = 0; i < rows.rows(); ++i) rows.row(i) /= vectors.row(i).norm();
+        return rows;
+      };
+      const Eigen::MatrixXd projected = unit_rows(Eigen::MatrixXd::Identity(n, n));
+      Eigen::MatrixXd edges = Eigen::MatrixXd::Zero(n, n);
+      Eigen::MatrixXd incident = Eigen::MatrixXd::Zero(n, n);
+      for (Index e = 0; e < n; ++e) {
+        for (int k = 0; k < 2; ++k) {
+          edges.row(e) += projected.row(cage.facets(k, e));
+          incident(cage.facets(k, e), e) = 1;
+        }
+      }
+      const Eigen::MatrixXd smoothed = unit_rows(incident * unit_rows(edges));
+      const Eigen::MatrixXd vectors = smoothed * offsets;
+      Vector<2> psi = Vector<2>::Zero();
+      Eigen::VectorXd mu = Eigen::VectorXd::Ones(n);
+      for (int step = 0; step < 20000; ++step) {
+        psi += 0.02 / n * (vectors.transpose() * mu) / mu.maxCoeff();
+        mu = (1 + (vectors * psi).array()).inverse();
+      }
+      Eigen::VectorXd expected = smoothed.transpose() * mu;
+      expected /= expected.sum();
+      EXPECT_LT((weights.col(p) - expected).cwiseAbs().maxCoeff(), 1e-6)
+          << sample.name << " point " << p;
+    }
+  }
+}
+
+TEST(PointwiseTest2D, BlendOfAQuadrilateralIsItsMeanValue) {
+  Cage<2> cage;
+  cage.points.resize(2, 4);
+  cage.points << 0, 3, 1, 0.2,  //
+      0, 0.3, 1, 2.5;            // concave at 2
+  cage.facets.resize(2, 4);
+  cage.facets << 0, 1, 2, 3,  //
+      1, 2, 3, 0;
+  PointList<2> points(2, 3);
+  points << 0.5, 1.5, 0.3,  //
+      0.5, 0.4, 1.8;
+  EXPECT_LT((blended_coordinates(cage, points) - mean_value_coordinates(cage, points))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-13);
+}
+
+TEST(PointwiseTest2D, BlendHasFewWeightsAndNoKinks) {
+  for (const auto& sample : cages<2>()) {
+    const auto points = centers(sample.mesh);
+    const auto weights = blended_coordinates(sample.cage, points);
+    for (Index p = 0; p < points.cols(); ++p) {
+      EXPECT_LE((weights.col(p).array() > 0).count(), 6) << sample.name;
+    }
+  }
+  // Along a line through several triangles, slopes change little between neighbors.
+  const auto cage = regular_cage<2>();
+  const Index count = 4001;
+  PointList<2> line(2, count);
+  for (Index k = 0; k < count; ++k) line.col(k) << -0.7 + 1.4 * k / count, 0.11 + 0.1 * k / count;
+  const auto weights = blended_coordinates(cage, line);
+  const Eigen::MatrixXd slopes =
+      (weights.rightCols(count - 1) - weights.leftCols(count - 1)) * count;
+  EXPECT_LT((slopes.rightCols(count - 2) - slopes.leftCols(count - 2)).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(PointwiseTest2D, TriangulationsFillThePolygonAndAreDelaunay) {
+  for (const auto& sample : cages<2>()) {
+    const auto& points = sample.cage.points;
+    const auto [triangles, opposite] = triangulate_polygon(sample.cage);
+    double area = 0;
+    for (Index t = 0; t < triangles.cols(); ++t) {
+      const Vector<2> a = points.col(triangles(0, t)), b = points.col(triangles(1, t)),
+                      c = points.col(triangles(2, t));
+      Eigen::Matrix2d edges;
+      edges << b - a, c - a;
+      EXPECT_GT(edges.determinant(), 0);
+      area += edges.determinant() / 2;
+      for (int k = 0; k < 3; ++k) {
+        if (opposite(k, t) < 0) continue;
+        const auto angle = [&](Index at) {
+          const Vector<2> u = points.col(triangles((k + 1) % 3, t)) - points.col(at);
+          const Vector<2> v = points.col(triangles((k + 2) % 3, t)) - points.col(at);
+          return std::acos(u.normalized().dot(v.normalized()));
+        };
+        EXPECT_LE(angle(triangles(k, t)) + angle(opposite(k, t)), kPi + 1e-7) << sample.name;
+      }
+    }
+    EXPECT_NEAR(area, measure_cage(sample.cage).measure, 1e-12 * area) << sample.name;
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, NamesThePointOutside) {
+  const auto cage = box_cage<Dim>(1);
+  PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);
+  points(0, 1) = 1.5;
+  for (const auto method : non_negative_methods<Dim>()) {
+    try {
+      pointwise_coordinates(cage, points, method);
+      FAIL() << "took a point outside";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("point 1 at (1.5, 0"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, RefusesMethodsThatNeedAMesh) {
+  const auto cage = box_cage<Dim>(1);
+  const PointList<Dim> points = PointList<Dim>::Zero(Dim, 1);
+  EXPECT_THROW(pointwise_coordinates(cage, points, Method::kHarmonic), OptionError);
+  if (Dim == 3) {
+    EXPECT_THROW(pointwise_coordinates(cage, points, Method::kBlended), OptionError);
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, PartsHaveWeightsOfTheirOwn) {
+  const auto left = box_cage<Dim>(1);
+  auto right = left;
+  right.points.row(0).array() += 5;
+  PointList<Dim> points = PointList<Dim>::Constant(Dim, 2, 0.3);
+  points(0, 1) += 5;
+  for (const auto method : {Method::kMeanValue, Method::kMaxEntropy}) {
+    const auto weights = pointwise_coordinates(join(left, right), points, method);
+    const PointList<Dim> first = points.leftCols(1);
+    const auto alone = pointwise_coordinates(left, first, method);
+    EXPECT_EQ(weights.col(0).head(left.size()), alone);
+    EXPECT_EQ(weights.col(0).tail(left.size()).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ(weights.col(1).head(left.size()).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, PlacedPointsFollowThePolicy) {
+  const auto cage = box_cage<Dim>(1);
+  PointList<Dim> points = PointList<Dim>::Constant(Dim, 3, 0.25);
+  points(0, 1) = 1.5;
+  points(0, 2) = 1 + 1e-8;
+  SolverOptions options;
+  options.method = Method::kMaxEntropy;
+  EXPECT_THROW(place_points(cage, points), InputError);
+  for (const auto policy : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
+    const auto placement = place_points(cage, points, policy);
+    EXPECT_EQ(placement.outside.size(), 1U);
+    EXPECT_EQ(placement.on_cage.size(), 1U);
+    const auto weights = pointwise_coordinates(cage, placement, options);
+    const PointList<Dim> first = points.leftCols(1);
+    EXPECT_EQ(weights.at(0), pointwise_coordinates(cage, first, options.method).col(0));
+    const PointList<Dim> made = cage.points * weights.dense();
+    EXPECT_LT((made - placement.points).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_NEAR(placement.points(0, 1), policy == OutsidePoints::kNearest ? 1 : 1.5, 1e-12);
+  }
+}
+
+TEST_IN_2D_AND_3D(PointwiseTest, SameBitsForAnyNumberOfThreads) {
+  const auto sample = make_sample<Dim>(Shape::kStar, 3);
+  const auto points = centers(sample.mesh);
+  for (const auto method : non_negative_methods<Dim>()) {
+    const ThreadScope one(1);
+    const auto alone = pointwise_coordinates(sample.cage, points, method);
+    const ThreadScope three(3);
+    EXPECT_EQ(pointwise_coordinates(sample.cage, points, method), alone);
+  }
+}
+
+}  // namespace
+}  // namespace flbc::testing
