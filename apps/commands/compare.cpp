@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc compare: several kinds of coordinates of a cage next to each other.
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -90,8 +92,8 @@ template <int Dim>
 struct Comparison {
   const CompareArguments& arguments;
   const Cage<Dim>& cage;
-  Shape<Dim> shape{};       // a model, or the mesh
-  PointList<Dim> pose{};    // of the control points; empty without one
+  Shape<Dim> shape{};     // a model, or the mesh
+  PointList<Dim> pose{};  // of the control points; empty without one
   DomainMesh<Dim> domain{};
   std::vector<Column<Dim>> columns{};
   Index control_point = 0;
@@ -156,28 +158,32 @@ void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto first_frame = std::chrono::steady_clock::now();
   const auto& pose = all.pose.cols() > 0 ? all.pose : all.cage.points;
   for (int k = 0; k < kFrames; ++k) deform<Dim>(column.rows, pose);
-  column.facts = {{"method", name_of(resolve(column.options).method)},
-                  {"smoothness", column.options.smoothness.value_or(0)},
-                  {"influences", quality.mean_influences},
-                  {"min_weight", check.weights->min_weight.value},
-                  {"sum_error", check.weights->partition.value},
-                  {"reproduction_error", check.weights->reproduction.value},
-                  {"local_extrema", extrema},
-                  {"deepest_extremum",
-                   std::max(mesh.deepest_minimum.value, mesh.highest_maximum.value)},
-                  {"gradient_jump", mesh.gradient_jump},
-                  {"seconds", seconds},
-                  {"seconds_per_frame", seconds_since(first_frame) / kFrames}};
+  column.facts = {
+      {"method", name_of(resolve(column.options).method)},
+      {"smoothness", column.options.smoothness.value_or(0)},
+      {"influences", quality.mean_influences},
+      {"min_weight", check.weights->min_weight.value},
+      {"sum_error", check.weights->partition.value},
+      {"reproduction_error", check.weights->reproduction.value},
+      {"local_extrema", extrema},
+      {"deepest_extremum", std::max(mesh.deepest_minimum.value, mesh.highest_maximum.value)},
+      {"gradient_jump", mesh.gradient_jump},
+      {"seconds", seconds},
+      {"seconds_per_frame", seconds_since(first_frame) / kFrames}};
 }
 
 // Rows of the table, the first with headings.
 template <int Dim>
 std::vector<std::vector<std::string>> table_of(const Comparison<Dim>& all) {
   constexpr std::pair<const char*, const char*> kFacts[] = {
-      {"influences", "influences, mean"}, {"min_weight", "smallest weight"},
-      {"sum_error", "sum - 1"},           {"reproduction_error", "reproduction error"},
-      {"local_extrema", "local extrema"}, {"deepest_extremum", "depth of extrema"},
-      {"gradient_jump", "gradient jump"}, {"seconds", "seconds"},
+      {"influences", "influences, mean"},
+      {"min_weight", "smallest weight"},
+      {"sum_error", "sum - 1"},
+      {"reproduction_error", "reproduction error"},
+      {"local_extrema", "local extrema"},
+      {"deepest_extremum", "depth of extrema"},
+      {"gradient_jump", "gradient jump"},
+      {"seconds", "seconds"},
       {"seconds_per_frame", "seconds per frame"}};
   std::vector<std::vector<std::string>> rows{{"coordinates"}};
   for (const auto& [key, heading] : kFacts) rows[0].emplace_back(heading);
@@ -185,7 +191,9 @@ std::vector<std::vector<std::string>> table_of(const Comparison<Dim>& all) {
     rows.push_back({column->name});
     for (const auto& [key, heading] : kFacts) {
       Facts text;
-      text << column->facts[key].template get<double>();
+      const auto& fact = column->facts[key];
+      fact.is_number_integer() ? text << fact.template get<std::int64_t>()
+                               : text << fact.template get<double>();
       rows.back().push_back(text.text());
     }
   }
@@ -259,11 +267,10 @@ std::string grid(const Comparison<3>& all, bool posed) {
                         column->rows.dense().row(all.control_point)});
     }
   }
-  return draw::draw_panels({gltf::triangles_of_points(all.shape.surface),
-                            load_shown_cage<3>(all.arguments.cage).edges},
-                           panels, all.control_point,
-                           draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
-                           options_of(all.arguments));
+  return draw::draw_panels(
+      {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
+      panels, all.control_point, draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
+      options_of(all.arguments));
 }
 
 template <int Dim>
@@ -290,8 +297,8 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   content.cage = load_shown_cage<Dim>(arguments.cage);
   content.points = column.points;
   content.surface = all.shape.surface;
-  content.weights = view::limit_influences<Dim>(all.cage.points, column.points,
-                                                column.rows.dense(), view::kMostInfluences);
+  content.weights = view::limit_influences<Dim>(all.cage.points, column.points, column.rows.dense(),
+                                                view::kMostInfluences);
   if (all.pose.cols() > 0) content.poses = {{arguments.pose, 1, all.pose}};
   return view::make_page(content);
 }
@@ -342,8 +349,8 @@ std::string page_of(const Comparison<Dim>& all) {
   page << "<p><label>Drag the cage with <select onchange=\"document.querySelector('iframe').src="
        << "'model_'+this.value+'.html'\">";
   for (const auto* column : all.succeeded()) page << "<option>" << column->name << "</option>";
-  page << "</select> coordinates</label></p>\n<iframe src=\"model_"
-       << all.succeeded().front()->name << ".html\" title=\"model\"></iframe>\n</html>\n";
+  page << "</select> coordinates</label></p>\n<iframe src=\"model_" << all.succeeded().front()->name
+       << ".html\" title=\"model\"></iframe>\n</html>\n";
   return page.str();
 }
 
@@ -355,6 +362,8 @@ void fill_cage(Comparison<Dim>& all, const PointList<Dim>& model) {
   all.domain = solver.domain();
   if (all.arguments.model.empty()) all.shape = shape_of(all.domain);
   const auto name = std::string(kDomain) + domain_extension<Dim>();
+  require_distinct({all.arguments.cage, all.arguments.model, all.arguments.pose},
+                   {all.path_of(name)});
   io::write_domain(all.path_of(name), all.domain);
   all.files.push_back(name);
 }
@@ -373,8 +382,8 @@ void solve_columns(Comparison<Dim>& all) {
     }
   }
   if (all.succeeded().empty()) {
-    throw InputError(all.arguments.cage + ": all methods failed; the first one: " +
-                     all.columns.front().failure);
+    throw InputError(all.arguments.cage +
+                     ": all methods failed; the first one: " + all.columns.front().failure);
   }
 }
 
@@ -437,7 +446,8 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("compare", "compare several kinds of coordinates of the same cage");
   command->footer(
-      "OUTDIR receives a table (table.txt, table.json), pictures of one coordinate function and of\n"
+      "OUTDIR receives a table (table.txt, table.json), pictures of one coordinate function and "
+      "of\n"
       "the pose by all methods, weights, and index.html, a page with all of these in which the\n"
       "cage can be moved. A method that fails is listed with the reason; the others continue.");
   command->add_option("CAGE", a.cage, "closed polylines (2D) or surface (3D)")->required();

@@ -17,15 +17,16 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
   for (const std::string dim : {"2d", "3d"}) {
     const auto folder = path("compared_" + dim);
     const std::string name = dim == "2d" ? "2d/figure" : "3d/limb";
-    expect("compare " + sample(name + "_cage.obj") + " " + sample(name + "_model.obj") + " --pose " +
-           sample(name + "_cage.obj") + " -q --vertices 800 -o " + folder);
+    expect("compare " + sample(name + "_cage.obj") + " " + sample(name + "_model.obj") +
+           " --pose " + sample(name + "_cage.obj") + " -q --vertices 800 -o " + folder);
     const auto report = nlohmann::json::parse(slurp(folder + "/table.json"));
     const auto& columns = report["columns"];
     EXPECT_EQ(columns.size(), dim == "2d" ? 7U : 6U);
     for (const auto& [method, facts] : columns.items()) {
       EXPECT_LT(facts["sum_error"], 1e-12) << method;
       EXPECT_LT(facts["reproduction_error"], 1e-11) << method;
-      EXPECT_EQ(facts["min_weight"] < -1e-3, method == "meanvalue") << method;
+      // Harmonic coordinates may be negative on a coarse mesh.
+      if (method != "harmonic") EXPECT_EQ(facts["min_weight"] < 0, method == "meanvalue") << method;
     }
     EXPECT_LT(columns["local"]["influences"], columns["harmonic"]["influences"]);
     EXPECT_LT(columns["local"]["influences"], columns["local_smooth"]["influences"]);
@@ -38,8 +39,8 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
 
 TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   const auto folder = path("compared");
-  expect("compare " + sample("3d/limb_cage.obj") + " -q --vertices 500 --methods blended,meanvalue" +
-         " -o " + folder);
+  expect("compare " + sample("3d/limb_cage.obj") +
+         " -q --vertices 500 --methods blended,meanvalue" + " -o " + folder);
   const auto report = nlohmann::json::parse(slurp(folder + "/table.json"));
   EXPECT_EQ(report["columns"].size(), 1U);
   EXPECT_NE(report["failures"]["blended"].get<std::string>().find("in 2D"), std::string::npos);

@@ -171,10 +171,9 @@ TEST_IN_2D_AND_3D(PointwiseTest, FollowRotationScaleAndOrientation) {
         auto moved = reversed(sample.cage);
         moved.points = scale * (rotation * moved.points);
         const PointList<Dim> moved_points = scale * (rotation * points);
-        EXPECT_LT((pointwise_coordinates(moved, moved_points, method) - weights)
-                      .cwiseAbs()
-                      .maxCoeff(),
-                  1e-9)
+        EXPECT_LT(
+            (pointwise_coordinates(moved, moved_points, method) - weights).cwiseAbs().maxCoeff(),
+            1e-9)
             << sample.name << " at scale " << scale;
       }
     }
@@ -200,11 +199,10 @@ TEST_IN_2D_AND_3D(PointwiseTest, EntropyIsLargestRelativeToItsPriors) {
         for (int k = 0; k < Dim; ++k) {
           seen.push_back(cage.points.col(cage.facets(k, f)) - points.col(p));
         }
-        const double rho = Dim == 2
-                               ? seen[0].norm() + seen[1].norm() - (seen[0] - seen[1]).norm()
-                               : area(seen[0], seen[1]) + area(seen[1], seen[2 % Dim]) +
-                                     area(seen[2 % Dim], seen[0]) -
-                                     area(seen[1] - seen[0], seen[2 % Dim] - seen[0]);
+        const double rho = Dim == 2 ? seen[0].norm() + seen[1].norm() - (seen[0] - seen[1]).norm()
+                                    : area(seen[0], seen[1]) + area(seen[1], seen[2 % Dim]) +
+                                          area(seen[2 % Dim], seen[0]) -
+                                          area(seen[1] - seen[0], seen[2 % Dim] - seen[0]);
         const double unit =  // in 3D relative to the triangle
             Dim == 2 ? 1 : area(seen[1] - seen[0], seen[2 % Dim] - seen[0]);
         for (int k = 0; k < Dim; ++k) relative[cage.facets(k, f)] += std::log(rho / unit);
@@ -262,7 +260,7 @@ TEST(PointwiseTest2D, BlendOfAQuadrilateralIsItsMeanValue) {
   Cage<2> cage;
   cage.points.resize(2, 4);
   cage.points << 0, 3, 1, 0.2,  //
-      0, 0.3, 1, 2.5;            // concave at 2
+      0, 0.3, 1, 2.5;           // concave at 2
   cage.facets.resize(2, 4);
   cage.facets << 0, 1, 2, 3,  //
       1, 2, 3, 0;

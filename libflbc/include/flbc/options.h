@@ -13,18 +13,18 @@ namespace flbc {
 
 //! Solver method, or other coordinates for comparison.
 enum class Method {
-  kAuto,      //!< recommended method, currently kValue
-  kValue,     //!< default method: weight-splitting ADMM in the metric of the continuous problem;
-              //!< fastest
-  kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
-  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
-              //!< (docs/benchmarks/paper_details.md)
-  kLbc2014,   //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
-  kHarmonic,  //!< harmonic coordinates (Joshi et al. 2007), for comparison
+  kAuto,        //!< recommended method, currently kValue
+  kValue,       //!< default method: weight-splitting ADMM in the metric of the continuous problem;
+                //!< fastest
+  kGradient,    //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
+  kPaper,       //!< FLBC 2019: gradient ADMM with the parameters of the paper
+                //!< (docs/benchmarks/paper_details.md)
+  kLbc2014,     //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
+  kHarmonic,    //!< harmonic coordinates (Joshi et al. 2007), for comparison
   kMeanValue,   //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
   kMaxEntropy,  //!< maximum entropy coordinates (Hormann and Sukumar 2008), for comparison
   kMaxLikelihood,  //!< maximum likelihood coordinates (Chang et al. 2023), for comparison
-  kBlended  //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
+  kBlended         //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
 };
 
 //! Enforcement of w >= 0. Without it, the optimum on a mesh may be negative, in 3D noticeably.

@@ -46,8 +46,8 @@ double excess(const Eigen::Matrix3d& seen) {
 }
 
 // Minimizes log Z by Newton steps. Near the cage, most weights are tiny at first, and full steps
-// are far too long: no step changes a ratio of weights by more than a constant factor, or passes the
-// minimum along its line by much.
+// are far too long: no step changes a ratio of weights by more than a constant factor, or passes
+// the minimum along its line by much.
 template <int Dim>
 class Dual {
  public:
@@ -101,19 +101,20 @@ class Dual {
 template <int Dim>
 WeightMatrix maximum_entropy_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points) {
   const double size = bounding_box_diagonal(cage.points);
-  return weights_in_cage<Dim>(
-      cage, points, [&](const Vector<Dim>& x, Eigen::Ref<Eigen::VectorXd> weights) {
-        const PointList<Dim> offsets = (cage.points.colwise() - x) / size;
-        Eigen::VectorXd priors = Eigen::VectorXd::Zero(cage.size());
-        for (Index f = 0; f < cage.facets.cols(); ++f) {
-          Eigen::Matrix<double, Dim, Dim> seen;
-          for (int k = 0; k < Dim; ++k) seen.col(k) = offsets.col(cage.facets(k, f));
-          const double prior = -std::log(excess(seen));
-          for (int k = 0; k < Dim; ++k) priors[cage.facets(k, f)] += prior;
-        }
-        weights = Dual<Dim>(offsets, priors).minimize();
-        return true;
-      });
+  return weights_in_cage<Dim>(cage, points,
+                              [&](const Vector<Dim>& x, Eigen::Ref<Eigen::VectorXd> weights) {
+                                const PointList<Dim> offsets = (cage.points.colwise() - x) / size;
+                                Eigen::VectorXd priors = Eigen::VectorXd::Zero(cage.size());
+                                for (Index f = 0; f < cage.facets.cols(); ++f) {
+                                  Eigen::Matrix<double, Dim, Dim> seen;
+                                  for (int k = 0; k < Dim; ++k)
+                                    seen.col(k) = offsets.col(cage.facets(k, f));
+                                  const double prior = -std::log(excess(seen));
+                                  for (int k = 0; k < Dim; ++k) priors[cage.facets(k, f)] += prior;
+                                }
+                                weights = Dual<Dim>(offsets, priors).minimize();
+                                return true;
+                              });
 }
 
 FLBC_INSTANTIATE_FUNCTION(maximum_entropy_coordinates)

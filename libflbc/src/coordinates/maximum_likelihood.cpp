@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The control points are projected onto the unit sphere around x and smoothed. The smoothed vector
-// u_i of a control point is the normalized sum, over its facets, of vectors toward the centers of the
-// projected facets: the integrals of the unit normal over them, in 2D divided by their lengths. The
-// weights mu_i of these vectors maximize the likelihood sum_i log mu_i subject to
-// sum_i mu_i u_i = 0. By duality mu_i = 1 / (1 + psi . u_i) up to a factor, where psi minimizes
-// -sum_i log(1 + psi . u_i). Each u_i is a combination of c_j - x with positive factors, so
-// that mu_i gives the weights w_j. Next to a facet these factors grow without bounds, so only its
-// corners keep weights.
+// u_i of a control point is the normalized sum, over its facets, of vectors toward the centers of
+// the projected facets: the integrals of the unit normal over them, in 2D divided by their lengths.
+// The weights mu_i of these vectors maximize the likelihood sum_i log mu_i subject to sum_i mu_i
+// u_i = 0. By duality mu_i = 1 / (1 + psi . u_i) up to a factor, where psi minimizes -sum_i log(1 +
+// psi . u_i). Each u_i is a combination of c_j - x with positive factors, so that mu_i gives the
+// weights w_j. Next to a facet these factors grow without bounds, so only its corners keep weights.
 #include "flbc/maximum_likelihood.h"
 
 #include <cmath>

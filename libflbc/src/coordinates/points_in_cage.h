@@ -66,8 +66,8 @@ WeightMatrix weights_in_cage(const Cage<Dim>& cage, const PointList<Dim>& points
       states[p] = State::kOutside;
     }
   }
-  const auto bad = std::find_if(states.begin(), states.end(),
-                                [](State state) { return state != State::kDone; });
+  const auto bad =
+      std::find_if(states.begin(), states.end(), [](State state) { return state != State::kDone; });
   if (bad == states.end()) return weights;
   const auto p = bad - states.begin();
   throw InputError("point " + std::to_string(p) + " at " + format_point(points.col(p)) +

@@ -43,10 +43,10 @@ class Triangulator {
  private:
   // Twice the area of a triangle; 0 if its corners are on a line up to rounding.
   double orientation(Index a, Index b, Index c) const {
-    constexpr double kRounding = 1e-13;
+    constexpr double kFlat = 1e-13;
     const Vector<2> u = points_.col(b) - points_.col(a), v = points_.col(c) - points_.col(a);
     const double area = u.x() * v.y() - u.y() * v.x();
-    return std::abs(area) > kRounding * u.norm() * v.norm() ? area : 0;
+    return std::abs(area) > kFlat * u.norm() * v.norm() ? area : 0;
   }
 
   // Whether two points are on different sides of a line, and neither is on it.

@@ -96,9 +96,9 @@ SparseWeights pointwise_coordinates(const Cage<Dim>& cage, const Placement<Dim>&
   return weights_at(cage, weights, placement);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template WeightMatrix pointwise_coordinates(const Cage<Dim>&, const PointList<Dim>&, Method);    \
-  template SparseWeights pointwise_coordinates(const Cage<Dim>&, const Placement<Dim>&,            \
+#define FLBC_INSTANTIATE(Dim)                                                                   \
+  template WeightMatrix pointwise_coordinates(const Cage<Dim>&, const PointList<Dim>&, Method); \
+  template SparseWeights pointwise_coordinates(const Cage<Dim>&, const Placement<Dim>&,         \
                                                const SolverOptions&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
