@@ -66,14 +66,15 @@ std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Di
 // Method::kValue on all pairs.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
-                                           const SolverOptions& options, double penalty,
-                                           bool half) {
+                                           const SolverOptions& options, double penalty, bool half,
+                                           bool looks) {
   compact::Settings settings;
   settings.penalty = penalty;
   settings.relaxation = *options.relaxation;
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
   settings.half = half && plan::half_precision(problem.mesh.num_cells(), options);
   settings.balances = !options.penalty;
+  settings.looks = looks && settings.balances;
   return make_in<compact::CompactSplitting>(options.precision, problem, metric_of(problem, options),
                                             settings);
 }
@@ -187,7 +188,8 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
                            : from.is_cold()
                                ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
                                : from.penalty;
-    iteration_ = make_value(*problem_, options, penalty, true);
+    // A finer mesh needs the penalty of the first iterations.
+    iteration_ = make_value(*problem_, options, penalty, true, !start.for_finer_mesh);
     iteration_->start(from);
     return;
   }
@@ -200,7 +202,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
 template <int Dim>
 void MethodRun<Dim>::continue_on_all_pairs(const SolverOptions& options) {
   const auto from = iteration_->state();
-  auto all = make_value(*problem_, options, options.penalty.value_or(from.penalty), false);
+  auto all = make_value(*problem_, options, options.penalty.value_or(from.penalty), false, true);
   all->start(from);
   iteration_ = std::move(all);
   is_active_ = false;

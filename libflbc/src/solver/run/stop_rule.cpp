@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "flbc/quality.h"
@@ -33,6 +34,7 @@ EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const Solver
 
 template <int Dim>
 void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
+  is_complete_ = iteration.is_certifiable();
   if (std::exchange(begun_, true)) return;
   history_(0, rows_of(iteration));
 }
@@ -40,7 +42,12 @@ void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
 template <int Dim>
 bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
                                 SolveReport& report) {
-  const auto differences = history_(report.iterations, rows_of(iteration));
+  auto differences = history_(report.iterations, rows_of(iteration));
+  // On an active set, control points come and go, and their rates say little.
+  if (!is_complete_ && !differences.empty()) {
+    const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
+    differences = {sum / static_cast<double>(differences.size())};
+  }
   report.primal_residual = estimate_(report.iterations, step.change / num_weights_, differences,
                                      step.violation * residual_scale_) /
                            *options_.tolerance;

@@ -70,6 +70,7 @@ class EstimatedError : public StopRule<Dim> {
   ErrorEstimate estimate_;
   WeightHistory history_;
   bool begun_ = false;
+  bool is_complete_ = true;  // whether the iteration has all pairs
 };
 
 //! Method::kGradient: the same for periodically recovered weights.

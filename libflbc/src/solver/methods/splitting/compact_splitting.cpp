@@ -277,7 +277,7 @@ void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   made_ = 0;
   balances_ = settings_.balances && start.is_cold();
   // With smoothness, runs end before it would matter.
-  next_look_ = settings_.balances && problem_.smoothness == 0 ? plan::kFirstLook : 0;
+  next_look_ = settings_.looks && problem_.smoothness == 0 ? plan::kFirstLook : 0;
   if (!start.is_cold()) {
     start_from_duals(start);
   } else if (settings_.harmonic_cold) {

@@ -22,6 +22,7 @@ struct Settings {
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
   bool half = false;             //!< stores P and the radii in half precision; for float only
+  bool looks = false;            //!< adapts the penalty to late residuals
   bool balances = false;         //!< adapts the penalty during the first iterations after a cold
                                  //!< start
   bool harmonic_cold = false;    //!< a cold start computes accurate harmonic coordinates, instead
