@@ -30,6 +30,7 @@ constexpr Wording kWordings[] = {
     {"relaxation must be in", "--relaxation must be in"},
     {"max_iterations must be at least", "--max-iterations must be at least"},
     {"threads must be in [1", "--threads must be in [1"},
+    {"this format holds 8; reduce them first", "this format holds 8; use flbc sparsify -k 8"},
     {" s (time_limit)", " s (--mesh-timeout)"},
     {"of its mesh; choose another mesher",
      "of its mesh; choose another --mesher, or leave out --embed"},

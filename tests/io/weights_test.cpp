@@ -177,7 +177,7 @@ TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
 
   weights(7, 1) = 0.1;
   expect_error<InputError>([&] { write_weights(path("w.lbw"), weights); },
-                           {"vertex 1 has 9 influences", "sparsify -k 8"});
+                           {"vertex 1 has 9 influences", "reduce them first"});
   expect_error<InputError>(
       [&] { write_weights(path("w.lbw"), WeightMatrix(WeightMatrix::Identity(65537, 1))); },
       {"65536 control points"});

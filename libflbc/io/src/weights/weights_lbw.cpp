@@ -92,7 +92,7 @@ void write_lbw(std::ostream& out, const SparseWeights& weights) {
     });
     if (influences.size() > kPerVertex) {
       throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(influences.size()) +
-                       " influences, but this format holds 8; reduce them with flbc sparsify -k 8");
+                       " influences, but this format holds 8; reduce them first");
     }
     std::sort(influences.begin(), influences.end(),
               [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });

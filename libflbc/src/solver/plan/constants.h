@@ -137,6 +137,7 @@ constexpr double kFall = 0.5;         //!< minimum future rate relative to the c
 constexpr double kPoincare = 0.06;
 constexpr double kPerIteration = 9e-4;
 constexpr int kFirstMeasured = 48;  //!< earlier differences still include the start and are large
+constexpr double kEarlySafety = 10;  //!< cold starts end before only with an estimate so small
 constexpr int kInterval = 32;       //!< between two measurements, relative to the iterations so far
 
 //! In 3D, early rates alone are unreliable; in 2D they were correct on every model.

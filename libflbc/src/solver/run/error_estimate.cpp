@@ -123,7 +123,9 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
   // Before, rates are unknown, and the weights of a cold start may still be about to move.
   const bool early = origin_ == Origin::kCold && iteration < kFirstMeasured;
-  if (early) return std::max(shown_, plan::kUnknownError * tolerance_);
+  if (early && kEarlySafety * shown_ > tolerance_) {
+    return std::max(shown_, plan::kUnknownError * tolerance_);
+  }
   if (!ends) return shown_;
   return std::max(shown_, hidden_ < 0 ? plan::kUnknownError * tolerance_ : hidden_);
 }
