@@ -134,10 +134,10 @@ std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
 
 template <int Dim>
 std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOptions& options,
-                                                              Origin origin) const {
+                                                              Origin origin, bool rough) const {
   switch (options.method) {
     case Method::kValue:
-      return std::make_unique<EstimatedError<Dim>>(*problem_, options, origin);
+      return std::make_unique<EstimatedError<Dim>>(*problem_, options, origin, rough);
     case Method::kGradient:
       return std::make_unique<RecoveredError<Dim>>(*problem_, options);
     default:
@@ -214,7 +214,7 @@ Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& re
   Stopwatch watch;
   constexpr int kNever = std::numeric_limits<int>::max();
   const bool begins = !iteration_;
-  const auto stop = make_stop_rule(options, origin_of(start.from));
+  const auto stop = make_stop_rule(options, origin_of(start.from), start.for_finer_mesh);
   GapCriterion gap(*options.gap);
   const RunContext<Dim> context{*problem_, options, *stop, gap, reporter};
   if (begins) begin(options, start);

@@ -58,7 +58,8 @@ class MethodRun {
   void begin(const SolverOptions& options, const WarmStart<Dim>& start);
   bool begin_on_active_set(const SolverOptions& options, const WarmStart<Dim>& start);
   void continue_on_all_pairs(const SolverOptions& options);
-  std::unique_ptr<StopRule<Dim>> make_stop_rule(const SolverOptions& options, Origin origin) const;
+  std::unique_ptr<StopRule<Dim>> make_stop_rule(const SolverOptions& options, Origin origin,
+                                                bool rough) const;
 
   const LbcProblem<Dim>* problem_;
   std::unique_ptr<Iteration<Dim>> iteration_;

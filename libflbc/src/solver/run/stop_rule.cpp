@@ -22,19 +22,21 @@ WeightHistory::ReadRow rows_of(const Iteration<Dim>& iteration) {
 
 template <int Dim>
 EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options,
-                                    Origin origin)
+                                    Origin origin, bool rough)
     : options_(options),
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
       residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
       estimate_(origin, Dim, *options.tolerance),
       history_(problem.boundary.interior_vertices(), problem.num_control_points(),
-               options.precision == Precision::kDouble) {
+               options.precision == Precision::kDouble),
+      rough_(rough) {
 }
 
 template <int Dim>
 void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
-  is_complete_ = iteration.is_certifiable();
+  // On an active set, control points come and go, and their rates say little.
+  has_rates_ = !rough_ && iteration.is_certifiable();
   if (std::exchange(begun_, true)) return;
   history_(0, rows_of(iteration));
 }
@@ -43,8 +45,7 @@ template <int Dim>
 bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
                                 SolveReport& report) {
   auto differences = history_(report.iterations, rows_of(iteration));
-  // On an active set, control points come and go, and their rates say little.
-  if (!is_complete_ && !differences.empty()) {
+  if (!has_rates_ && !differences.empty()) {
     const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
     differences = {sum / static_cast<double>(differences.size())};
   }

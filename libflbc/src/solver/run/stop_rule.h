@@ -56,8 +56,10 @@ class StopRule {
 template <int Dim>
 class EstimatedError : public StopRule<Dim> {
  public:
-  //! \param origin  of the first iteration
-  EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin);
+  //! \param origin  of the first iteration \param rough  whether the result is only a start for a
+  //! finer mesh, so control points need no rates of their own
+  EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin,
+                 bool rough = false);
 
   void begin(const Iteration<Dim>& iteration) override;
   int next(int) const override { return 1; }
@@ -70,7 +72,8 @@ class EstimatedError : public StopRule<Dim> {
   ErrorEstimate estimate_;
   WeightHistory history_;
   bool begun_ = false;
-  bool is_complete_ = true;  // whether the iteration has all pairs
+  const bool rough_;
+  bool has_rates_ = true;  // whether every control point has its own rate
 };
 
 //! Method::kGradient: the same for periodically recovered weights.
