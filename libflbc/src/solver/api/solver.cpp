@@ -50,7 +50,7 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 // A problem for a method that does not minimize has no phi.
 template <int Dim>
 void require_objective(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  if (!plan::minimizes(options.method)) return;
+  if (!is_local(options.method)) return;
   if (problem.phi.cols() != problem.mesh.num_cells()) {
     throw InputError(
         "the problem has no weight functions phi for the cells of its mesh; make_problem() "
@@ -371,7 +371,7 @@ class Solver<Dim>::State {
   void complete() {
     auto& problem = shape_->problem;
     const auto options = resolve(options_);
-    if (problem.phi.size() > 0 || !plan::minimizes(options.method)) return;
+    if (problem.phi.size() > 0 || !is_local(options.method)) return;
     const ThreadScope threads(num_threads(problem, options));
     Stopwatch watch;
     set_phi(problem, options.phi);
@@ -391,7 +391,7 @@ class Solver<Dim>::State {
         make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
     problem.smoothness = *options.smoothness;
     shape->run.emplace(problem);
-    if (!plan::minimizes(options.method)) return shape;
+    if (!is_local(options.method)) return shape;
     shape->distances = shape_->distances;
     auto distances = moving_distances_ ? (*moving_distances_)(problem, options, shape->distances)
                                        : distances_for(options.phi, problem);

@@ -27,7 +27,7 @@ struct CoarsePlan {
 };
 
 CoarsePlan plan_coarse(const plan::Sizes& sizes, const SolverOptions& options, bool has_mesher) {
-  if (!has_mesher || !plan::minimizes(options.method)) return {{}, {false, false}};
+  if (!has_mesher || !is_local(options.method)) return {{}, {false, false}};
   auto coarse = plan::coarse_sizes(sizes, options);
   const bool starts = !coarse.empty();
   const bool interpolates = plan::interpolates_distances(sizes, options, starts);
@@ -81,7 +81,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& opt
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& [problem, coarse, report, seconds] = result;
   problem.smoothness = *options.smoothness;
-  if (plan::minimizes(options.method)) {
+  if (is_local(options.method)) {
     coarse = make_coarse_problems(problem, begun_mesher, sizes, options, use);
     const StageScope scope(reporter.stage(Stage::kDistances));
     set_phi(problem, options.phi,

@@ -59,10 +59,6 @@ bool gains_by_coarse_start(const Sizes& sizes, const SolverOptions& options) {
 
 }  // namespace
 
-bool minimizes(Method method) {
-  return is_local(method);
-}
-
 bool smooths(Method method) {
   return method == Method::kAuto || method == Method::kValue || method == Method::kGradient;
 }

@@ -22,9 +22,6 @@ Sizes sizes_of(const LbcProblem<Dim>& problem) {
   return {Dim, problem.num_control_points(), problem.mesh.num_vertices()};
 }
 
-//! Whether a method minimizes the objective and therefore needs phi.
-bool minimizes(Method method);
-
 //! Whether a method supports the quadratic term of SolverOptions::smoothness.
 bool smooths(Method method);
 

@@ -73,7 +73,7 @@ void validate(const SolverOptions& options) {
         "another "
         "method");
   }
-  const bool iterative = plan::minimizes(options.method);
+  const bool iterative = is_local(options.method);
   if (options.certify && !iterative) {
     throw OptionError("certify needs a method that minimizes the objective; choose another method");
   }
@@ -84,7 +84,7 @@ void validate(const SolverOptions& options) {
   }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
-  if (smoothness > 0 && plan::minimizes(options.method) && !plan::smooths(options.method)) {
+  if (smoothness > 0 && is_local(options.method) && !plan::smooths(options.method)) {
     throw OptionError("smoothness is for the methods value and gradient only");
   }
   validate(options.coarse_levels);
