@@ -5,6 +5,7 @@
 
 #include "base/instantiate.h"
 #include "base/weight_columns.h"
+#include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
@@ -96,22 +97,18 @@ template <int Dim>
 std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                           const Placement<Dim>& placement) {
   auto places = placement.places;
-  std::vector<Index> beside;
+  std::vector<Index> missing;
   for (std::size_t p = 0; p < places.size(); ++p) {
-    if (places[p].cell < 0) beside.push_back(static_cast<Index>(p));
+    if (places[p].cell < 0) missing.push_back(static_cast<Index>(p));
   }
-  if (beside.empty()) return places;
-  PointList<Dim> nearest = PointList<Dim>::Zero(Dim, static_cast<Eigen::Index>(beside.size()));
-  const auto on_cage = nearest_on_cage(cage, placement.points, beside);
-  for (std::size_t b = 0; b < beside.size(); ++b) {
-    const auto& point = on_cage[b];
-    for (int k = 0; k < Dim; ++k) {
-      nearest.col(static_cast<Eigen::Index>(b)) +=
-          point.coordinates[k] * cage.points.col(cage.facets(k, point.facet));
-    }
+  if (missing.empty()) return places;
+  PointList<Dim> nearest(Dim, static_cast<Eigen::Index>(missing.size()));
+  Eigen::Index column = 0;
+  for (const auto& point : nearest_on_cage(cage, placement.points, missing)) {
+    nearest.col(column++) = place_on_cage(cage, point);
   }
   const auto found = locate_points(mesh, nearest);
-  for (std::size_t b = 0; b < beside.size(); ++b) places[beside[b]] = found[b];
+  for (std::size_t k = 0; k < missing.size(); ++k) places[missing[k]] = found[k];
   return places;
 }
 

@@ -96,6 +96,18 @@ class Dual {
   Eigen::VectorXd weights_;
 };
 
+// \param offsets  c_i - x in units of cage size \return log m_i
+template <int Dim>
+Eigen::VectorXd log_priors(const FacetList<Dim>& facets, const PointList<Dim>& offsets) {
+  Eigen::VectorXd priors = Eigen::VectorXd::Zero(offsets.cols());
+  for (const auto& facet : facets.colwise()) {
+    const Eigen::Matrix<double, Dim, Dim> seen = offsets(Eigen::all, facet);
+    const double prior = -std::log(excess(seen));
+    for (const Index i : facet) priors[i] += prior;
+  }
+  return priors;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -104,14 +116,7 @@ WeightMatrix maximum_entropy_coordinates(const Cage<Dim>& cage, const PointList<
   return weights_in_cage<Dim>(cage, points,
                               [&](const Vector<Dim>& x, Eigen::Ref<Eigen::VectorXd> weights) {
                                 const PointList<Dim> offsets = (cage.points.colwise() - x) / size;
-                                Eigen::VectorXd priors = Eigen::VectorXd::Zero(cage.size());
-                                for (Index f = 0; f < cage.facets.cols(); ++f) {
-                                  Eigen::Matrix<double, Dim, Dim> seen;
-                                  for (int k = 0; k < Dim; ++k)
-                                    seen.col(k) = offsets.col(cage.facets(k, f));
-                                  const double prior = -std::log(excess(seen));
-                                  for (int k = 0; k < Dim; ++k) priors[cage.facets(k, f)] += prior;
-                                }
+                                const auto priors = log_priors<Dim>(cage.facets, offsets);
                                 weights = Dual<Dim>(offsets, priors).minimize();
                                 return true;
                               });

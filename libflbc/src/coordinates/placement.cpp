@@ -15,6 +15,7 @@
 #include "base/weight_columns.h"
 #include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
+#include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
@@ -96,15 +97,6 @@ class AffineFitter {
 };
 
 constexpr double kRounding = 1e-12;  // fraction of cage size within which a point is in a cell
-
-template <int Dim>
-Vector<Dim> place_on_cage(const Cage<Dim>& cage, const PointBeside<Dim>& beside) {
-  Vector<Dim> place = Vector<Dim>::Zero();
-  for (int k = 0; k < Dim; ++k) {
-    place += beside.coordinates[k] * cage.points.col(cage.facets(k, beside.facet));
-  }
-  return place;
-}
 
 // Leaves cell -1 for points that are not inside.
 template <int Dim>
@@ -295,15 +287,14 @@ SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
       WeightsAt<Dim, decltype(column)>(cage, placement, column));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                     \
-  template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&, \
-                                   const Placement<Dim>&);                                        \
-  template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                     \
-                                    const SparseWeights&, const Placement<Dim>&);                 \
-  template SparseWeights weights_at(const Cage<Dim>&, const WeightMatrix&,                        \
-                                    const Placement<Dim>&);                                       \
-  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                  \
-                                       const PointList<Dim>&, OutsidePoints);                     \
+#define FLBC_INSTANTIATE(Dim)                                                                      \
+  template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&,  \
+                                   const Placement<Dim>&);                                         \
+  template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                      \
+                                    const SparseWeights&, const Placement<Dim>&);                  \
+  template SparseWeights weights_at(const Cage<Dim>&, const WeightMatrix&, const Placement<Dim>&); \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                   \
+                                       const PointList<Dim>&, OutsidePoints);                      \
   template Placement<Dim> place_points(const Cage<Dim>&, const PointList<Dim>&, OutsidePoints);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

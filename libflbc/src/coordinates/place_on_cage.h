@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! The place on the cage nearest to a point that is not inside.
+#pragma once
+
+#include "flbc/cage.h"
+#include "flbc/placement.h"
+
+namespace flbc {
+
+//! \param beside  as returned by nearest_on_cage()
+template <int Dim>
+Vector<Dim> place_on_cage(const Cage<Dim>& cage, const PointBeside<Dim>& beside) {
+  Vector<Dim> place = Vector<Dim>::Zero();
+  for (int k = 0; k < Dim; ++k) {
+    place += beside.coordinates[k] * cage.points.col(cage.facets(k, beside.facet));
+  }
+  return place;
+}
+
+}  // namespace flbc
