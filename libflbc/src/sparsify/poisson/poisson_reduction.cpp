@@ -193,7 +193,7 @@ class PoissonDescent {
       gather(plain_.col(point), best);
       best.cost = work.selection.qp().cost_of(best);
     }
-    find_allowed(point, work.may_enter);
+    if (exchanges_ || options_.threshold > 0) find_allowed(point, work.may_enter);
     find_supports_around(point, work);
     for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
     if (exchanges_) work.selection.exchange(most, least, work.may_enter, best);
