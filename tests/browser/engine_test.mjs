@@ -7,6 +7,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import puppeteer from "puppeteer-core";
+import { pixelsOf } from "./pixels.mjs";
 
 const [executablePath, folder] = process.argv.slice(2);
 const files = new Set(readdirSync(folder));
@@ -59,15 +60,8 @@ try {
     gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, result);
     return Array.from(result);
   }, points);
-  const darkPixels = (png) => tab.evaluate(async (data) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${data}`;
-    await image.decode();
-    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    context.drawImage(image, 0, 0);
-    const { data: pixels } = context.getImageData(0, 0, image.width, image.height);
-    return pixels.filter((value, k) => k % 4 === 0 && value < 250).length;
-  }, png);
+  const darkPixels = async (png) =>
+    (await pixelsOf(tab, png)).filter((pixel) => (pixel & 255) < 250).length;
   const canvas = await tab.$("canvas");
   assert.ok(await darkPixels(await canvas.screenshot({ encoding: "base64" })) > 5000, "nothing drawn");
   expectNear(await places(vertices("cage.obj")), vertices("model.obj"), "at rest");

@@ -6,6 +6,7 @@ import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import puppeteer from "puppeteer-core";
+import { pixelsOf } from "./pixels.mjs";
 
 const [executablePath, program, meshes, work] = process.argv.slice(2);
 const downloads = join(work, "downloads");
@@ -98,16 +99,7 @@ class Page {
     const stage = await this.tab.$("#canvas");
     const base64 = await stage.screenshot({ encoding: "base64" });
     if (file) writeFileSync(join(work, file), Buffer.from(base64, "base64"));
-    return this.tab.evaluate(async (data) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${data}`;
-      await image.decode();
-      const canvas = new OffscreenCanvas(image.width, image.height);
-      const context = canvas.getContext("2d");
-      context.drawImage(image, 0, 0);
-      const { data: pixels } = context.getImageData(0, 0, image.width, image.height);
-      return Array.from(new Uint32Array(pixels.buffer));
-    }, base64);
+    return pixelsOf(this.tab, base64);
   }
 
   async close() {

@@ -15,6 +15,7 @@
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "flbc/quality.h"
+#include "support/cages_of_all_kinds.h"
 #include "support/code_cages.h"
 #include "support/dimensions.h"
 #include "support/hollow_sample.h"
@@ -22,28 +23,6 @@
 
 namespace flbc::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-// Cages of all kinds with points inside, among them the centers of their cells.
-template <int Dim>
-std::vector<Sample<Dim>> cages() {
-  std::vector<Sample<Dim>> all{make_hollow_sample<Dim>()};
-  for (const auto shape :
-       {Shape::kSimplex, Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
-    all.push_back(make_sample<Dim>(shape, 3));
-  }
-  return all;
-}
-
-template <int Dim>
-PointList<Dim> centres(const DomainMesh<Dim>& mesh) {
-  PointList<Dim> points = PointList<Dim>::Zero(Dim, mesh.num_cells());
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int k = 0; k <= Dim; ++k) points.col(s) += mesh.points.col(mesh.cells(k, s)) / (Dim + 1);
-  }
-  return points;
-}
 
 // Points all around and inside.
 template <int Dim>
@@ -130,7 +109,7 @@ TEST_IN_2D_AND_3D(MeanValueTest, SumToOneAndReproduceEverywhere) {
   for (const auto& sample : cages<Dim>()) {
     SCOPED_TRACE(sample.name);
     for (const auto& points :
-         {sample.mesh.points, centres(sample.mesh), scattered_points(sample.cage, 500)}) {
+         {sample.mesh.points, centers(sample.mesh), scattered_points(sample.cage, 500)}) {
       const auto weights = mean_value_coordinates(sample.cage, points);
       const auto quality = measure_quality(sample.cage.points, points, weights);
       EXPECT_LT(quality.max_partition_error, 1e-13);
@@ -224,14 +203,14 @@ TEST_IN_2D_AND_3D(MeanValueTest, ContinuousAcrossThePlanesOfFacets) {
 TEST_IN_2D_AND_3D(MeanValueTest, NotNegativeInsideConvexCages) {
   for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
     const auto sample = make_sample<Dim>(shape, 5, 0.2);
-    EXPECT_GT(mean_value_coordinates(sample.cage, centres(sample.mesh)).minCoeff(), 0);
+    EXPECT_GT(mean_value_coordinates(sample.cage, centers(sample.mesh)).minCoeff(), 0);
   }
 }
 
 TEST(MeanValueTest2D, NegativeSomewhereInAConcavePolygon) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
     const auto sample = make_sample<2>(shape, 8);
-    const auto weights = mean_value_coordinates(sample.cage, centres(sample.mesh));
+    const auto weights = mean_value_coordinates(sample.cage, centers(sample.mesh));
     EXPECT_LT(weights.minCoeff(), -1e-3) << sample.name;
     EXPECT_GT(weights.minCoeff(), -1) << sample.name;
   }

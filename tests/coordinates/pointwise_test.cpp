@@ -20,6 +20,7 @@
 #include "flbc/maximum_likelihood.h"
 #include "flbc/mean_value.h"
 #include "flbc/quality.h"
+#include "support/cages_of_all_kinds.h"
 #include "support/code_cages.h"
 #include "support/dimensions.h"
 #include "support/hollow_sample.h"
@@ -28,32 +29,11 @@
 namespace flbc::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 template <int Dim>
 std::vector<Method> non_negative_methods() {
   std::vector<Method> all{Method::kMaxEntropy, Method::kMaxLikelihood};
   if (Dim == 2) all.push_back(Method::kBlended);
   return all;
-}
-
-template <int Dim>
-std::vector<Sample<Dim>> cages() {
-  std::vector<Sample<Dim>> all{make_hollow_sample<Dim>()};
-  for (const auto shape :
-       {Shape::kSimplex, Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
-    all.push_back(make_sample<Dim>(shape, 3));
-  }
-  return all;
-}
-
-template <int Dim>
-PointList<Dim> centers(const DomainMesh<Dim>& mesh) {
-  PointList<Dim> points = PointList<Dim>::Zero(Dim, mesh.num_cells());
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int k = 0; k <= Dim; ++k) points.col(s) += mesh.points.col(mesh.cells(k, s)) / (Dim + 1);
-  }
-  return points;
 }
 
 // A regular polygon, or the regular octahedron.
