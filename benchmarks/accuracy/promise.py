@@ -21,6 +21,9 @@ import numpy as np
 
 import flbc
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "awkward"))
+import shapes_3d  # noqa: E402
+
 TOLERANCES = (1e-5, 1e-6, 1e-7)
 
 
@@ -124,23 +127,10 @@ def extruded(points, height, layers=1):
 
 def sphere(rings, sectors, bumps=0, height=0.0, squash=1.0):
     """A sphere of rings x sectors + 2 control points."""
-    points, faces = [(0, 0, 1)], []
-    for r in range(1, rings + 1):
-        polar = math.pi * r / (rings + 1)
-        for s in range(sectors):
-            turn = 2 * math.pi * s / sectors
-            radius = 1 + height * math.sin(bumps * turn) * math.sin(bumps * polar)
-            points.append((radius * math.sin(polar) * math.cos(turn),
-                           radius * math.sin(polar) * math.sin(turn), radius * math.cos(polar)))
-    points.append((0, 0, -1))
-    last = len(points) - 1
-    for s in range(sectors):
-        following = (s + 1) % sectors
-        faces += [(0, 1 + s, 1 + following)]
-        for r in range(rings - 1):
-            a, b = 1 + r * sectors + s, 1 + r * sectors + following
-            faces += [(a, a + sectors, b + sectors), (a, b + sectors, b)]
-        faces += [(last, last - sectors + following, last - sectors + s)]
+    def radius(ring, sector):
+        turn, polar = 2 * math.pi * sector / sectors, math.pi * (ring + 1) / (rings + 1)
+        return 1 + height * math.sin(bumps * turn) * math.sin(bumps * polar)
+    points, faces = shapes_3d.sphere(rings, sectors, radius)
     return flbc.Cage(np.array(points) * (1, 1, squash), faces)
 
 
