@@ -16,6 +16,7 @@
 #include "files/load.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "help/wording.h"
@@ -26,6 +27,7 @@
 #include "run/inputs.h"
 #include "solve/cage_solver.h"
 #include "solve/progress_bar.h"
+#include "text/escaped.h"
 #include "view/model_page.h"
 
 namespace flbc::app {
@@ -133,7 +135,7 @@ SolveSettings settings_of(const CompareArguments& arguments) {
 template <int Dim>
 void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
   auto settings = settings_of<Dim>(all.arguments);
-  settings.domain = all.path_of(std::string(kDomain) + domain_extension<Dim>());
+  settings.domain = all.path_of(domain_file<Dim>());
   settings.options = column.options;
   const PointList<Dim> model = all.arguments.model.empty() ? PointList<Dim>() : all.shape.points;
   CageSolver<Dim> solver(all.cage, model, settings);
@@ -290,8 +292,8 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   const auto page = all.path_of("model.html");
   view::PageContent<Dim> content;
   content.title = column.name;
-  content.model_file = arguments.model.empty() ? kDomain + std::string(domain_extension<Dim>())
-                                               : path_beside(page, arguments.model);
+  content.model_file =
+      arguments.model.empty() ? domain_file<Dim>() : path_beside(page, arguments.model);
   content.weights_file = "weights_" + column.name + ".npy";
   content.cage_file = path_beside(page, arguments.cage);
   content.cage = load_shown_cage<Dim>(arguments.cage);
@@ -303,30 +305,16 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   return view::make_page(content);
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char letter : text) {
-    if (letter == '&') {
-      safe += "&amp;";
-    } else if (letter == '<') {
-      safe += "&lt;";
-    } else {
-      safe += letter;
-    }
-  }
-  return safe;
-}
-
 template <int Dim>
 std::string page_of(const Comparison<Dim>& all) {
   std::ostringstream page;
   page << "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n"
-       << "<title>Coordinates of " << escaped(all.arguments.cage) << "</title>\n"
+       << "<title>Coordinates of " << io::escaped(all.arguments.cage) << "</title>\n"
        << "<style>body{font:15px sans-serif;margin:2em}table{border-collapse:collapse}"
        << "td,th{border:1px solid #999;padding:4px 8px;text-align:right}"
        << "td:first-child{text-align:left}img{max-width:100%}"
        << "iframe{width:100%;height:80vh;border:1px solid #999}</style>\n"
-       << "<h1>Coordinates of " << escaped(all.arguments.cage) << "</h1>\n<table>\n";
+       << "<h1>Coordinates of " << io::escaped(all.arguments.cage) << "</h1>\n<table>\n";
   const char* cell = "th";
   for (const auto& row : table_of(all)) {
     page << "<tr>";
@@ -337,12 +325,11 @@ std::string page_of(const Comparison<Dim>& all) {
   page << "</table>\n";
   for (const auto& column : all.columns) {
     if (column.failure.empty()) continue;
-    page << "<p>" << column.name << " failed: " << escaped(column.failure) << "</p>\n";
+    page << "<p>" << column.name << " failed: " << io::escaped(column.failure) << "</p>\n";
   }
   for (const auto& file : all.files) {
     const auto name = file.template get<std::string>();
-    const bool is_picture = name.size() > 4 && name.substr(name.size() - 4) == ".png";
-    if (is_picture || name.substr(name.size() - 4) == ".svg") {
+    if (io::extension_of(name) == "png" || io::extension_of(name) == "svg") {
       page << "<p><img src=\"" << name << "\" alt=\"all coordinates next to each other\"></p>\n";
     }
   }
@@ -361,7 +348,7 @@ void fill_cage(Comparison<Dim>& all, const PointList<Dim>& model) {
   solver.make_domain(all.arguments.quiet);
   all.domain = solver.domain();
   if (all.arguments.model.empty()) all.shape = shape_of(all.domain);
-  const auto name = std::string(kDomain) + domain_extension<Dim>();
+  const auto name = domain_file<Dim>();
   require_distinct({all.arguments.cage, all.arguments.model, all.arguments.pose},
                    {all.path_of(name)});
   io::write_domain(all.path_of(name), all.domain);
@@ -391,10 +378,7 @@ template <int Dim>
 int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
   Comparison<Dim> all{arguments, cage};
   all.columns = columns_of<Dim>(arguments.methods);
-  if (arguments.control_point >= cage.size() || arguments.control_point < -1) {
-    throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
-                      "], not " + std::to_string(arguments.control_point));
-  }
+  if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   if (!arguments.pose.empty()) {
     all.pose = load_control_points<Dim>(arguments.pose);
     require_control_points(arguments.pose, all.pose.cols(), cage.size(), arguments.cage);
@@ -404,9 +388,7 @@ int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
     all.shape.points = std::move(model.points);
     all.shape.surface = std::move(model.surface);
   }
-  std::error_code error;
-  fs::create_directories(arguments.output, error);
-  if (error) throw IoError(arguments.output + ": cannot make this folder: " + error.message());
+  make_folder(arguments.output);
   fill_cage(all, all.shape.points);
   solve_columns(all);
   all.control_point = choose_control_point(all);

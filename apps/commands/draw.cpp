@@ -80,12 +80,6 @@ draw::ObliqueView parse_view(const std::string& text) {
       "'; choose from front|side|top|three-quarter, or give AZIMUTH,ELEVATION in degrees");
 }
 
-void check_control_point(Index control_point, Eigen::Index count) {
-  if (control_point >= 0 && control_point < count) return;
-  throw OptionError("--control-point must be in [0, " + std::to_string(count - 1) + "], not " +
-                    std::to_string(control_point));
-}
-
 std::vector<Index> all_of(Index count) {
   std::vector<Index> control_points(count);
   std::iota(control_points.begin(), control_points.end(), 0);
@@ -223,7 +217,7 @@ std::string picture_of_domain(const Cage<Dim>& cage, const DrawArguments& argume
 
 template <int Dim>
 void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
-  check_control_point(arguments.control_point, cage.size());
+  require_control_point(arguments.control_point, cage.size());
   write_text(arguments.output, arguments.model.empty() ? picture_of_domain(cage, arguments)
                                                        : picture_of_model(cage, arguments));
 }

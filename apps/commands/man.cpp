@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc man: manual pages, and the same as Markdown.
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "commands/commands.h"
+#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "help/command_table.h"
@@ -22,9 +22,7 @@ std::string page_of(const CommandTable& table, const std::string& name) {
 
 // Under the names by which they are installed.
 void write_all(const CommandTable& table, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw IoError(folder + ": cannot make this folder: " + error.message());
+  make_folder(folder);
   const auto put = [&](const std::string& name, const std::string& text) {
     io::write_file(folder + "/" + name, [&](std::ostream& file) { file << text; });
   };

@@ -30,13 +30,6 @@ void check_arguments(const RunArguments& arguments) {
   }
 }
 
-template <int Dim>
-void check_control_point(const Cage<Dim>& cage, Index control_point) {
-  if (control_point >= -1 && control_point < cage.size()) return;
-  throw OptionError("--control-point must be in [0, " + std::to_string(cage.size() - 1) +
-                    "], not " + std::to_string(control_point));
-}
-
 // Errors of a step begin with its name.
 template <class Action>
 void naming_step(const std::string& step, const Action& action) {
@@ -97,8 +90,7 @@ void print_summary(const Run<Dim>& run) {
   if (!run.inputs.splats) return;
   const auto file = [&](const std::string& name) { return run.folder.path_of(name); };
   std::cerr << "      flbc deform " << run.arguments.splats << " --domain "
-            << file(std::string(kDomain) + domain_extension<Dim>()) << " --weights "
-            << file(kWeights) << " --rest "
+            << file(domain_file<Dim>()) << " --weights " << file(kWeights) << " --rest "
             << (run.arguments.makes_cage ? file(kCage) : run.arguments.settings.cage)
             << " --pose POSE -o moved.ply\n";
 }
@@ -131,7 +123,7 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
              const io::ModelFile* cage_file = nullptr) {
   const auto& settings = arguments.settings;
   validate<Dim>(SparsifyOptions{arguments.max_influences});
-  check_control_point(cage, arguments.control_point);
+  if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   auto inputs = load_inputs(cage, arguments);
   const PointList<Dim> model = inputs.shape.points;
   CageSolver<Dim> solver(cage, model, settings);

@@ -52,8 +52,8 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
               << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report)
               << ", ";
   }
-  std::cerr << report.seconds.solve << " s; minimum weight " << delivered.min_weight << ", reproduction error "
-            << delivered.max_reproduction_error;
+  std::cerr << report.seconds.solve << " s; minimum weight " << delivered.min_weight
+            << ", reproduction error " << delivered.max_reproduction_error;
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }

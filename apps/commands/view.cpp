@@ -201,8 +201,9 @@ void add_view_command(CLI::App& app, int&) {
                    "poses of --pose per second (default: 24, or 1 for one pose)")
       ->check(in_range(1e-3, 1e6))
       ->needs(poses);
-  command->add_option("-k,--max-influences", a.max_influences,
-                      "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");
+  command->add_option(
+      "-k,--max-influences", a.max_influences,
+      "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");
   command->add_option("--texture", a.picture,
                       "texture for a model with texture coordinates: .png, .jpg");
   add_up_option(*command, a.up);

@@ -163,21 +163,12 @@ std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
                             const Eigen::VectorXd& values, const Eigen::VectorXd& others,
                             const std::array<std::string, 2>& labels, Index control_point,
                             const WeightPictureOptions& options) {
-  validate(options);
-  check_edges(cage);
   check_weight(values, mesh.num_vertices(), control_point, cage.size());
   check_weight(others, mesh.num_vertices(), control_point, cage.size());
   const auto [shown, names] = compare_functions(values, others, labels);
-  const Box content = bounding_box(cage.points);
-  const auto sheet = plan_sheet(content, 3, options);
-  Canvas canvas(sheet.width, sheet.height, options.format);
-  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
-  for (int k = 0; k < 3; ++k) {
-    const PixelMap map(content, sheet.frames[k]);
-    paint_function(canvas, map, cage, mesh, shown[k], control_point, options, unit);
-    paint_label(canvas, {sheet.frames[k].center().x(), sheet.frames[k].low.y()}, names[k], unit);
-  }
-  return canvas.encode();
+  std::vector<PlanePanel> panels;
+  for (int k = 0; k < 3; ++k) panels.push_back({names[k], {cage.points, mesh.points}, shown[k]});
+  return draw_panels(cage.facets, mesh.cells, panels, {}, control_point, options);
 }
 
 std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,

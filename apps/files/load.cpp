@@ -152,6 +152,18 @@ void require_writable(const std::string& path, std::initializer_list<io::Content
   require_writable_folder(path);
 }
 
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw IoError(path + ": cannot make this folder: " + error.message());
+}
+
+void require_control_point(Index control_point, Eigen::Index count) {
+  if (control_point >= 0 && control_point < count) return;
+  throw OptionError("--control-point must be in [0, " + std::to_string(count - 1) + "], not " +
+                    std::to_string(control_point));
+}
+
 void write_text(const std::string& path, const std::string& text) {
   const HeldSignals held;
   io::write_file(path, [&](std::ostream& file) { file << text; });

@@ -55,6 +55,12 @@ void require_writable(const std::string& path, std::initializer_list<io::Content
 //! Nothing is checked for an empty path.
 void require_writable_folder(const std::string& path);
 
+//! Makes a folder for results unless it is there. \throws IoError
+void make_folder(const std::string& path);
+
+//! Checks --control-point. \throws OptionError unless it is in [0, count)
+void require_control_point(Index control_point, Eigen::Index count);
+
 //! Writes a result of text; signals wait meanwhile. \throws IoError
 void write_text(const std::string& path, const std::string& text);
 

@@ -74,10 +74,8 @@ class RunFolder::Lock {
 
 RunFolder::RunFolder(std::string path, const RunFiles& files)
     : path_(std::move(path)), quiet_(files.quiet) {
-  std::error_code error;
   check_results(files, names_in_report(path_of(kReport)));
-  fs::create_directories(path_, error);
-  if (error) throw IoError(path_ + ": cannot make this folder: " + error.message());
+  make_folder(path_);
   if (access(path_.c_str(), W_OK | X_OK) != 0) {
     throw IoError(path_ + ": cannot write in this folder: " + std::strerror(errno));
   }

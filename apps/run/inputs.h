@@ -83,6 +83,12 @@ constexpr const char* domain_extension() {
   return Dim == 2 ? ".obj" : ".mesh";
 }
 
+//! Name of the mesh of the interior among the results.
+template <int Dim>
+std::string domain_file() {
+  return std::string(kDomain) + domain_extension<Dim>();
+}
+
 //! Everything that is read beside the cage.
 template <int Dim>
 struct RunInputs {

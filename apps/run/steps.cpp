@@ -40,7 +40,7 @@ void mesh_interior(Run<Dim>& run) {
                           run.arguments.settings.outside);
     });
   }
-  const auto name = std::string(kDomain) + domain_extension<Dim>();
+  const auto name = domain_file<Dim>();
   run.report["mesh"] = {{"file", name},
                         {"vertices", domain.num_vertices()},
                         {"cells", domain.num_cells()},

@@ -114,10 +114,10 @@ std::string describe(const ModelCage<Dim>& made) {
   return facts.text();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                      \
-  template ModelCage<Dim> make_cage(const std::string&, const ModelFacets<Dim>&,   \
-                                    CagingOptions, bool);                          \
-  template RepairedCage<Dim> repair_defects(const std::string&, const Cage<Dim>&); \
+#define FLBC_INSTANTIATE(Dim)                                                                   \
+  template ModelCage<Dim> make_cage(const std::string&, const ModelFacets<Dim>&, CagingOptions, \
+                                    bool);                                                      \
+  template RepairedCage<Dim> repair_defects(const std::string&, const Cage<Dim>&);              \
   template std::string describe(const ModelCage<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

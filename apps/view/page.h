@@ -62,7 +62,7 @@ struct PageContent {
   gltf::Surface surface{};  //!< of these points; without triangles points are shown
   WeightMatrix weights{};   //!< n x P, at most kMostInfluences in every column
   std::vector<ShownPose<Dim>> poses{};
-  int up = 1;  //!< 3D: axis that points up at first
+  int up = 1;                //!< 3D: axis that points up at first
   std::string picture{};     //!< data URI of a texture, or empty
   bool is_served = false;    //!< a program answers with weights for other cages
   bool moves_along = false;  //!< if so, the points move with the resting cage

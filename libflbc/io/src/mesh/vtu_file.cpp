@@ -4,35 +4,13 @@
 
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
+#include "text/escaped.h"
 
 namespace flbc::io {
 namespace {
 
 constexpr int kVtkTriangle = 5;
 constexpr int kVtkTetrahedron = 10;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 void open_array(TextWriter& writer, const char* type, const std::string& name, int components) {
   writer << "<DataArray type=\"" << type << "\" Name=\"" << escaped(name)
