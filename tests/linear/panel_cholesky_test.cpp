@@ -3,10 +3,13 @@
 
 #include <omp.h>
 
+#include <array>
 #include <cstring>
+#include <future>
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -331,6 +334,30 @@ TEST(SliceOfTest, CoversEveryColumnOnceAndStartsOnCacheLines) {
       EXPECT_EQ(next, stride);
     }
   }
+}
+
+// BLAS libraries need not be reentrant: OpenBLAS without threads returned wrong factors.
+TEST(SparseFactorTest, ThreadsFactorAtOnce) {
+  const Sparse matrix = random_matrix(300, 8, 1);
+  const auto values = [](const SparseFactor& factor) {
+    std::vector<double> lower;
+    for (const Supernode& supernode : factor.supernodes) {
+      for (Index k = 0; k < supernode.width; ++k) {
+        const double* const column = supernode.values + std::size_t(k) * supernode.num_rows;
+        lower.insert(lower.end(), column + k, column + supernode.num_rows);
+      }
+    }
+    return lower;
+  };
+  const auto expected = values(factor_sparse(matrix));
+  const auto count_others = [&] {
+    int others = 0;
+    for (int k = 0; k < 300; ++k) others += values(factor_sparse(matrix)) != expected;
+    return others;
+  };
+  std::array<std::future<int>, 4> threads;
+  for (auto& thread : threads) thread = std::async(std::launch::async, count_others);
+  for (auto& thread : threads) EXPECT_EQ(thread.get(), 0);
 }
 
 }  // namespace

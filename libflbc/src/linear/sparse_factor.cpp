@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/sparse_factor.h"
 
-#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <new>
 #include <string>
 
@@ -74,8 +74,9 @@ void check(const cholmod_common& common, Eigen::Index size) {
 }
 
 // OpenBLAS takes a buffer at its first use, and tries for ever if there is no room for it.
+// One thread at a time.
 void require_room_for_blas(std::size_t numbers_in_factor) {
-  static std::atomic<bool> has_room{false};
+  static bool has_room = false;
   if (has_room) return;
   constexpr std::size_t kBuffer = 160 << 20;
   const std::size_t size = kBuffer + numbers_in_factor * sizeof(double);
@@ -87,6 +88,9 @@ void require_room_for_blas(std::size_t numbers_in_factor) {
 }
 
 SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
+  // OpenBLAS without threads, which Debian has, returns wrong numbers when threads call it at once.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   const auto cholmod = std::make_shared<CholmodFactor>();
   cholmod_sparse view = view_lower_triangle(matrix);
   cholmod->factor = cholmod_analyze(&view, &cholmod->common);
