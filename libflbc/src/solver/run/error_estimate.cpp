@@ -149,10 +149,6 @@ double ErrorEstimate::operator()(int iteration, double change,
     if (!entries_.empty() && entries_.back().log_differences.size() != differences.size()) {
       entries_.clear();
     }
-    // Other differences than before, because another iteration has taken over.
-    if (!entries_.empty() && entries_.back().log_differences.size() != differences.size()) {
-      entries_.clear();
-    }
     auto& logs = entries_.emplace_back(Entry{iteration, {}}).log_differences;
     for (const double difference : differences)
       logs.push_back(std::log(std::max(difference, kTiny)));
