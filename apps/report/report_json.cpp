@@ -74,9 +74,14 @@ bool is_certified(const SolveReport& report) {
 }
 
 std::string describe_iterations(const SolveReport& report) {
-  return (report.parts.empty() ? "" : "at most ") + std::to_string(report.iterations) +
-         (report.criterion == Criterion::kGap ? " iterations, ended by the certified gap"
-                                              : " iterations");
+  std::ostringstream text;
+  text.precision(2);
+  text << (report.parts.empty() ? "" : "at most ") << report.iterations << " iterations";
+  if (report.criterion == Criterion::kGap) {
+    text << ", ended by the certified gap, at " << report.primal_residual
+         << " times the tolerance of the weights";
+  }
+  return text.str();
 }
 
 nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_point) {

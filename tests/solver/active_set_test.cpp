@@ -286,6 +286,25 @@ TYPED_TEST(ActiveSetTest, CertificateIsThatOfLastIterationsOnAllPairs) {
   EXPECT_LT(solution.report.certificate.relative_gap, 1e-2);
 }
 
+// The duals of all pairs need iterations, which must not be missing when the limit is reached.
+TYPED_TEST(ActiveSetTest, CertificateIsGoodAtTheIterationLimit) {
+  constexpr int kDim = TypeParam::value;
+  const auto problem = make_fine_problem<kDim>(Shape::kBox);
+  SolverOptions options;
+  options.tolerance = 1e-12;
+  options.precision = Precision::kDouble;
+  options.certify = true;
+  options.max_iterations = 600;
+  options.active_set = ActiveSet::kOff;
+  const auto all = solve(problem, options);
+  options.active_set = ActiveSet::kOn;
+  const auto restricted = solve(problem, options);
+  EXPECT_EQ(restricted.report.status, SolveStatus::kIterationLimit);
+  EXPECT_EQ(restricted.report.iterations, options.max_iterations);
+  EXPECT_LT(restricted.report.certificate.relative_gap,
+            10 * all.report.certificate.relative_gap + 1e-3);
+}
+
 TYPED_TEST(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   constexpr int kDim = TypeParam::value;
   const auto problem = make_fine_problem<kDim>(Shape::kStar);

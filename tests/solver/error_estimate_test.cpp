@@ -61,26 +61,30 @@ double next_of(ErrorEstimate& estimate, int iteration, double change, double dif
 
 constexpr double kNever = 0;  // a tolerance that is not reached: no residual is asked for
 
-// Calls `check(iteration, estimate / error)` whenever there is a fresh estimate.
+// Calls `check(iteration, estimate / error, allowed / error)` whenever there is a fresh estimate.
+// `allowed` is a bit more than a third of what would be left if the weights approached their limit
+// as 1 / k. The estimate assumes so much of every run, and must not be larger without reason.
 template <class Run>
-void follow(const Run& run, int last, const std::function<void(int, double)>& check) {
+void follow(const Run& run, int last, const std::function<void(int, double, double)>& check) {
   constexpr int kSpan = WeightHistory::kSpan;
   ErrorEstimate estimate(Origin::kCold, 3, kNever);
   for (int k = 1; k <= last; ++k) {
     const bool look = k >= kSpan && k % WeightHistory::kStep == 0;
     const double now =
         next_of(estimate, k, run.difference(k, k - 1), look ? run.difference(k, k - kSpan) : -1);
-    if (look && k > 2 * kSpan) check(k, now / run.error(k));
+    if (!look || k <= 2 * kSpan) continue;
+    const double allowed = 0.36 * std::pow(double(k) / kSpan, 2) * run.difference(k, k - kSpan);
+    check(k, now / run.error(k), allowed / run.error(k));
   }
 }
 
 TEST(ErrorEstimate, IsTheErrorOfADriftAndALittleMore) {
   for (const double factor : {0.98, 0.985, 0.99}) {
-    follow(MadeUpRun{{{0.1, factor}}}, 500, [&](int k, double ratio) {
+    follow(MadeUpRun{{{0.1, factor}}}, 500, [&](int k, double ratio, double allowed) {
       // Before it has shrunk much, it may as well shrink as a power of k.
       const bool shows = -std::log(factor) * k > 3.2;
       EXPECT_GT(ratio, 1.2) << factor << " at " << k;
-      EXPECT_LT(ratio, shows ? 1.6 : 12) << factor << " at " << k;
+      EXPECT_LT(ratio, std::max(allowed, shows ? 1.6 : 12)) << factor << " at " << k;
     });
   }
 }
@@ -88,23 +92,23 @@ TEST(ErrorEstimate, IsTheErrorOfADriftAndALittleMore) {
 // Powers of the length; the mean squared error shrinks with twice the power.
 TEST(ErrorEstimate, IsNotMuchTooSmallWhereErrorsShrinkAsAPower) {
   for (const double power : {0.5, 1.0, 2.0, 3.0}) {
-    follow(PowerRun{power}, 5000, [&](int k, double ratio) {
+    follow(PowerRun{power}, 5000, [&](int k, double ratio, double allowed) {
       if (k < 250) return;  // a span is too large a part of the iterations
       EXPECT_GT(ratio, power < 1 ? 0.2 : 0.28) << power << " at " << k;
-      EXPECT_LT(ratio, 3) << power << " at " << k;
+      EXPECT_LT(ratio, std::max(allowed, 3.0)) << power << " at " << k;
     });
   }
 }
 
 TEST(ErrorEstimate, FollowsASlowPartOnceItShows) {
   for (const double slow : {0.995, 0.998, 0.9995}) {
-    follow(MadeUpRun{{{1, 0.93}, {0.05, slow}}}, 3000, [&](int k, double ratio) {
+    follow(MadeUpRun{{{1, 0.93}, {0.05, slow}}}, 3000, [&](int k, double ratio, double allowed) {
       if (k < 250) return;
       // It shrinks to a third within 1 / rate iterations; farther than one and a half times the
       // iterations there have been is not looked.
       const double seen = std::min(1.0, std::pow(-1.5 * k * std::log(slow), 2));
       EXPECT_GT(ratio, 0.9 * seen) << slow << " at " << k;
-      EXPECT_LT(ratio, 10) << slow << " at " << k;
+      EXPECT_LT(ratio, std::max(allowed, 10.0)) << slow << " at " << k;
     });
   }
 }
@@ -119,10 +123,11 @@ TEST(ErrorEstimate, IsNotMuchTooSmallWhereSlowPartsRemain) {
       for (double rate = 0.1; rate > slowest; rate /= 1.3, amplitude *= decay) {
         run.modes.push_back({amplitude, std::exp(-rate)});
       }
-      follow(run, 400, [&](int k, double ratio) {
+      follow(run, 400, [&](int k, double ratio, double allowed) {
         EXPECT_GT(ratio, 1.0 / 3) << slowest << " with " << decay << " at " << k;
         // While the error shrinks to nothing within a span, the difference is the error before.
-        EXPECT_LT(ratio, k < 100 ? 40 : 10) << slowest << " with " << decay << " at " << k;
+        EXPECT_LT(ratio, std::max(allowed, k < 100 ? 40.0 : 10.0))
+            << slowest << " with " << decay << " at " << k;
       });
     }
   }
@@ -132,10 +137,10 @@ TEST(ErrorEstimate, SeesThroughOscillations) {
   for (const double period : {20.0, 40.0, 80.0}) {
     const auto factor = std::polar(0.98, 2 * 3.14159265358979 / period);
     follow(MadeUpRun{{{1, factor}, {0.5, std::conj(factor) * 0.99}, {0.02, 0.985}}}, 400,
-           [&](int k, double ratio) {
+           [&](int k, double ratio, double allowed) {
              EXPECT_GT(ratio, 1.0 / 3) << period << " at " << k;
              // Early changes count as if the error shrank as a power, of which nothing oscillates.
-             EXPECT_LT(ratio, k <= 104 ? 500 : 50) << period << " at " << k;
+             EXPECT_LT(ratio, std::max(allowed, k <= 104 ? 500.0 : 50.0)) << period << " at " << k;
            });
   }
 }
@@ -179,7 +184,8 @@ TEST(ErrorEstimate, KeepsTheLastEstimateBetweenTwoLooks) {
 // Weights of one control point creep in a slit, while those of 19 others settle.
 TEST(ErrorEstimate, SeesAControlPointThatCreeps) {
   const MadeUpRun fast{{{1, 0.9}}}, slow{{{0.01, 0.998}}};
-  ErrorEstimate of_each(Origin::kCold, 2, kNever), of_all(Origin::kCold, 2, kNever);
+  // Not from a cold start, which assumes that all weights creep.
+  ErrorEstimate of_each(Origin::kNearby, 2, kNever), of_all(Origin::kNearby, 2, kNever);
   for (int k = 32; k <= 120; k += 8) {
     std::vector<double> differences(20, fast.difference(k, k - 32));
     differences[7] = slow.difference(k, k - 32);
@@ -188,7 +194,7 @@ TEST(ErrorEstimate, SeesAControlPointThatCreeps) {
     const double error = (19 * fast.error(k) + slow.error(k)) / 20;
     const double each = of_each(k, 0, differences);
     const double all = of_all(k, 0, {sum / 20});
-    EXPECT_GT(each, 0.1 * error) << k;
+    EXPECT_GT(each, 0.05 * error) << k;
     // The mean of all differences would miss it.
     if (k >= 112) {
       EXPECT_LT(all, 0.01 * error) << k;

@@ -327,5 +327,32 @@ INSTANTIATE_TEST_SUITE_P(Models, LongTolerance3d,
                                            Model{"arm", "3d/arm_cage.obj", 2500}),
                          name_of);
 
+// ---- slow weights -------------------------------------------------------------------------------
+
+// Radii alternate: spikes and notches.
+Cage<2> star(Index spikes, double inner) {
+  auto cage = regular_polygon(2 * spikes);
+  for (Index i = 1; i < 2 * spikes; i += 2) cage.points.col(i) *= inner;
+  return cage;
+}
+
+// The first penalty is too large for weights in spikes, and they hardly move. Runs ended at 11
+// times the tolerance, after 71 iterations.
+TEST(Tolerance, HoldsInManySpikes) {
+  const auto cage = star(24, 0.3);
+  const auto mesh = mesh_of(cage, 2000);
+  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
+  SolverOptions exactly;
+  exactly.tolerance = 1e-9;
+  exactly.precision = Precision::kDouble;
+  const auto exact = solve(problem, exactly);
+  ASSERT_EQ(exact.report.status, SolveStatus::kConverged);
+  for (const double tolerance : {1e-5, 1e-6}) {
+    const auto solution = solve(problem, with_tolerance(tolerance));
+    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+    EXPECT_LT(mean_squared_difference(mesh, solution.weights, exact.weights), 2 * tolerance);
+  }
+}
+
 }  // namespace
 }  // namespace flbc::testing

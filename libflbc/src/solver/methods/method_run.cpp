@@ -224,9 +224,14 @@ Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& re
     stop->not_before(plan::kUntilDualsAreThere);
     if (start.for_finer_mesh) last = plan::kUntilDualsAreThere;
   }
-  // Certificates need the duals of all pairs.
-  const int certified = is_active_ && *options.gap > 0 ? plan::kFirstCertified - 1 : kNever;
-  bool ended = run(*iteration_, context, report, std::min(last, certified));
+  // Certificates need the duals of all pairs, which need iterations to grow.
+  int on_active_set = kNever;
+  if (is_active_ && *options.gap > 0) on_active_set = plan::kFirstCertified - 1;
+  if (is_active_ && (*options.gap > 0 || options.certify)) {
+    on_active_set =
+        std::min(on_active_set, std::max(0, options.max_iterations - plan::kUntilDualsAreThere));
+  }
+  bool ended = run(*iteration_, context, report, std::min(last, on_active_set));
   iteration_->describe(report);
   if (report.iterations == last) ended = true;
   if (is_active_ && (!ended || options.certify)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "solver/plan/constants.h"
@@ -63,8 +64,8 @@ double ErrorEstimate::spans_left(double rate) const {
   return rate > 0 ? 1 / std::expm1(rate * span_) : kInfinity;
 }
 
-// Decay rate of difference norms of a control point per iteration, by regression over iterations
-// first .. last. Infinite with fewer than two differences.
+// Decay rate of difference norms of a control point, or of all, per iteration, by regression over
+// iterations first .. last. Infinite with fewer than two differences.
 double ErrorEstimate::rate(std::size_t i, double first, double last) const {
   double count = 0, mean_k = 0, mean_y = 0;
   const auto counts = [&](const Entry& entry) {
@@ -88,7 +89,8 @@ double ErrorEstimate::rate(std::size_t i, double first, double last) const {
   return -0.5 * covariance / variance;
 }
 
-// The remaining error of a control point, squared, relative to its last squared difference.
+// The remaining error of a control point, or of all, squared, relative to the last squared
+// difference.
 double ErrorEstimate::rest(std::size_t i) const {
   using namespace plan::error_estimate;
   const double now = entries_.back().iteration;
@@ -114,20 +116,31 @@ double ErrorEstimate::rest(std::size_t i) const {
 // Whether the residual confirms an estimate that would end the run.
 double ErrorEstimate::confirmed(int iteration, double residual) {
   using namespace plan::error_estimate;
+  const bool cold = origin_ == Origin::kCold;
   if (residual >= 0) {
-    const double fading = origin_ == Origin::kCold ? kPerIteration * iteration : 0;
-    hidden_ = std::max(kPoincare, fading) * residual;
+    hidden_ = std::max(kPoincare, cold ? kPerIteration * iteration : 0) * residual;
     next_measured_ = iteration + iteration / kInterval;
   }
-  const bool ends = shown_ <= tolerance_ && iteration >= kFirstMeasured;
+  // The weights of a cold start may still be about to move.
+  const double safety = cold && iteration < early_ ? kEarlySafety : 1;
+  const bool ends = safety * shown_ <= tolerance_ && (cold || iteration >= kFirstMeasured);
   wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
-  // Before, rates are unknown, and the weights of a cold start may still be about to move.
-  const bool early = origin_ == Origin::kCold && iteration < kFirstMeasured;
-  if (early && kEarlySafety * shown_ > tolerance_) {
-    return std::max(shown_, plan::kUnknownError * tolerance_);
-  }
-  if (!ends) return shown_;
-  return std::max(shown_, hidden_ < 0 ? plan::kUnknownError * tolerance_ : hidden_);
+  const double unknown = plan::kUnknownError * tolerance_;
+  if (!ends) return safety > 1 ? std::max(shown_, unknown) : shown_;
+  return std::max(shown_, hidden_ < 0 ? unknown : hidden_);
+}
+
+// The sum of the squared errors of all control points, from their last differences and the sum of
+// these.
+double ErrorEstimate::extrapolated(const std::vector<double>& differences, double sum) const {
+  using namespace plan::error_estimate;
+  double of_each = 0;
+  for (std::size_t i = 0; i < differences.size(); ++i) of_each += rest(i) * differences[i];
+  const double of_all = rest(differences.size()) * sum;
+  const double mean = std::pow(of_each, kShareOfEach) * std::pow(of_all, 1 - kShareOfEach);
+  if (origin_ != Origin::kCold) return mean;
+  // Weights that creep as 1/k have k / span times their last difference before them.
+  return std::max(mean, kCreepSafety * square(entries_.back().iteration / double(span_)) * sum);
 }
 
 // A lower bound from the initial power-law decay, which rates do not capture, and from single
@@ -146,15 +159,16 @@ double ErrorEstimate::operator()(int iteration, double change,
   if (!std::isfinite(residual)) return residual;
   if (!differences.empty()) {
     // Other differences than before, because another iteration has taken over.
-    if (!entries_.empty() && entries_.back().log_differences.size() != differences.size()) {
+    if (!entries_.empty() && entries_.back().log_differences.size() != differences.size() + 1) {
       entries_.clear();
     }
     auto& logs = entries_.emplace_back(Entry{iteration, {}}).log_differences;
     for (const double difference : differences)
       logs.push_back(std::log(std::max(difference, kTiny)));
-    double error = 0;
-    for (std::size_t i = 0; i < differences.size(); ++i) error += rest(i) * differences[i];
-    shown_ = std::max(error / static_cast<double>(differences.size()), least(iteration, change));
+    const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
+    logs.push_back(std::log(std::max(sum, kTiny)));
+    shown_ = std::max(extrapolated(differences, sum) / static_cast<double>(differences.size()),
+                      least(iteration, change));
   } else if (entries_.empty()) {
     shown_ = (origin_ == Origin::kCold ? 1 : 2) * plan::error_estimate::kOfChange * change;
   }

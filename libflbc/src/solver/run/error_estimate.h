@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flbc/types.h"
+#include "solver/plan/constants.h"
 
 namespace flbc {
 
@@ -63,8 +64,15 @@ enum class Origin {
 //! from span to span, the remaining error is rho / (1 - rho) times the last one. The rate is a
 //! regression over the last iterations, because differences oscillate. If the rate falls, because
 //! slow parts of the error remain, it is assumed to fall further. If it is low for the number of
-//! iterations, power-law decay is also assumed. Every control point is extrapolated with its own
-//! rate: weights in a slit or a thin finger may creep when the mean over all has settled.
+//! iterations, power-law decay is also assumed.
+//!
+//! Every control point is extrapolated with its own rate, because weights in a slit or a thin
+//! finger may creep when the sum over all has settled. But single rates are noisy, and the estimate
+//! becomes too large. The sum is therefore extrapolated, too, and the estimate is a geometric mean
+//! of both.
+//!
+//! From a cold start, the estimate is no less than a fraction of what is left of weights that
+//! approach their limit as 1 / k, where k is the number of iterations.
 //!
 //! Duals may still grow while weights do not change, for example on round cages with nearly
 //! undetermined weights. The residual of the splitting detects this, but costs more than an
@@ -75,8 +83,10 @@ class ErrorEstimate {
  public:
   //! \param dim  of the domain \param tolerance  target mean squared error
   //! \param span  iterations that differences are taken over
-  ErrorEstimate(Origin origin, int dim, double tolerance, int span = WeightHistory::kSpan)
-      : origin_(origin), dim_(dim), tolerance_(tolerance), span_(span) {}
+  //! \param early  a cold start ends before this iteration only with a much smaller estimate
+  ErrorEstimate(Origin origin, int dim, double tolerance, int span = WeightHistory::kSpan,
+                int early = plan::error_estimate::kFirstMeasured)
+      : origin_(origin), dim_(dim), tolerance_(tolerance), span_(span), early_(early) {}
 
   //! Whether the next iteration should measure its residual.
   bool wants_residual() const { return wants_residual_; }
@@ -95,18 +105,20 @@ class ErrorEstimate {
  private:
   struct Entry {
     int iteration;
-    std::vector<double> log_differences;  // of each control point
+    std::vector<double> log_differences;  // of each control point, then of their sum
   };
   double rate(std::size_t i, double first, double last) const;
   double spans_left(double rate) const;
   double rest(std::size_t i) const;
   double least(int iteration, double change) const;
+  double extrapolated(const std::vector<double>& differences, double sum) const;
   double confirmed(int iteration, double residual);
 
   Origin origin_;
   int dim_;
   double tolerance_;
   int span_;
+  int early_;
   double shown_ = 0;    // by the weights
   double hidden_ = -1;  // from them, when last measured
   int next_measured_ = 0;

@@ -27,7 +27,8 @@ EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const Solver
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
       residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
-      estimate_(origin, Dim, *options.tolerance),
+      estimate_(origin, Dim, *options.tolerance, WeightHistory::kSpan,
+                rough ? plan::error_estimate::kFirstMeasured : plan::kFirstLook),
       history_(problem.boundary.interior_vertices(), problem.num_control_points(),
                options.precision == Precision::kDouble),
       rough_(rough) {

@@ -209,6 +209,7 @@ Step CompactSplitting<Scalar, Dim>::iterate_and_look() {
   if (ratio < plan::kLeastViolation) {
     const double factor = std::max(ratio / plan::kLeastViolation, plan::kMostLowered);
     set_penalty(std::min(penalty_, std::max(factor * penalty_, plan::kSmallestPenalty)));
+    settled_ = made_ + plan::kAfterLook;
   } else if (ratio > plan::kMostViolation) {
     const double factor = std::min(ratio / plan::kMostViolation, plan::kMostRaised);
     set_penalty(std::max(penalty_, std::min(factor * penalty_, plan::kLargestPenalty)));
@@ -274,7 +275,7 @@ void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
-  made_ = 0;
+  made_ = settled_ = 0;
   balances_ = settings_.balances && start.is_cold();
   // With smoothness, runs end before it would matter.
   next_look_ = settings_.looks && problem_.smoothness == 0 ? plan::kFirstLook : 0;
@@ -400,7 +401,7 @@ void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_d
 template <class Scalar, int Dim>
 int CompactSplitting<Scalar, Dim>::adapt(int made, double error, bool) {
   if (stores_half() && plan::trembles(made, error)) store_in_single();
-  return 0;
+  return std::max(0, settled_ - made_);
 }
 
 template <class Scalar, int Dim>

@@ -90,7 +90,7 @@ class CompactSplitting final : public Iteration<Dim> {
   Step iterate_and_adapt(double ratio, double largest = std::numeric_limits<double>::infinity());
 
   //! Switches the storage of duals to single precision, because half precision makes them
-  //! fluctuate.
+  //! fluctuate. Delays the end of a run until the weights have followed a lowered penalty.
   int adapt(int made, double error, bool ends) override;
   void store_in_single();
   bool stores_half() const { return loops_ == &kernel_.half; }
@@ -160,6 +160,7 @@ class CompactSplitting final : public Iteration<Dim> {
   int made_ = 0;  // iterations since the start
   bool balances_ = false;
   int next_look_ = 0;  // iteration that looks at its residuals; 0 = never
+  int settled_ = 0;    // iteration in which a lowered penalty has taken effect
   // state, by rows: interior vertices in the order of the solver, then the boundary
   AlignedArray<Scalar> a_;
   AlignedArray<Scalar> W_;
