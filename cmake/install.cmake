@@ -36,6 +36,8 @@ if(TARGET flbc_app)
     RENAME flbc COMPONENT program)
   install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
     COMPONENT program)
+  install(FILES engines/deform.glsl engines/deform.wgsl engines/webgl.html
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/flbc/engines COMPONENT program)
 endif()
 
 # ---- headers -------------------------------------------------------------------------------------
