@@ -215,12 +215,12 @@ def read_weights(path: Path) -> Weights:
 
 
 def write_weights(path: Path, weights: Weights) -> None:
-    """Writes weights exactly.
+    """Writes weights exactly; .lbw holds single precision.
 
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .txt, or .mtx.
+        .npy, .dmat, .txt, .mtx, or .lbw, which holds at most 8 influences per vertex.
     weights : array_like or sparse matrix, shape (P, n)
 
     Raises
