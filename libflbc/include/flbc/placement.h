@@ -54,6 +54,13 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
+//! The same with a locator that serves many calls.
+//! \param locator  of the mesh
+template <int Dim>
+Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                            const CellLocator<Dim>& locator, const PointList<Dim>& points,
+                            OutsidePoints policy = OutsidePoints::kFail);
+
 //! The same without a mesh, for coordinates that need none (pointwise.h): all places have cell -1.
 //! Time is proportional to the number of points times the number of facets.
 template <int Dim>

@@ -229,8 +229,14 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
 template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const PointList<Dim>& points, OutsidePoints policy) {
+  return place_points(cage, mesh, CellLocator<Dim>(mesh), points, policy);
+}
+
+template <int Dim>
+Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                            const CellLocator<Dim>& locator, const PointList<Dim>& points,
+                            OutsidePoints policy) {
   const double size = bounding_box_diagonal(cage.points);
-  const CellLocator<Dim> locator(mesh);
   const auto num_points = static_cast<Index>(points.cols());
   Placement<Dim> placement;
   placement.policy = policy;
@@ -295,6 +301,9 @@ SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
   template SparseWeights weights_at(const Cage<Dim>&, const WeightMatrix&, const Placement<Dim>&); \
   template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                   \
                                        const PointList<Dim>&, OutsidePoints);                      \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                   \
+                                       const CellLocator<Dim>&, const PointList<Dim>&,             \
+                                       OutsidePoints);                                             \
   template Placement<Dim> place_points(const Cage<Dim>&, const PointList<Dim>&, OutsidePoints);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

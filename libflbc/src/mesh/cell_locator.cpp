@@ -14,42 +14,63 @@
 
 namespace flbc {
 
-// A uniform grid with about one cell of the mesh per box; each box lists the cells whose bounding
-// box meets it.
+// A uniform grid; each box lists the cells that meet it, ascending.
 template <int Dim>
 struct CellLocator<Dim>::Grid {
   using Box = Eigen::Matrix<Index, Dim, 1>;
 
-  Vector<Dim> low;
-  double width;
-  Box count;
-  VertexItems<Index, std::size_t> cells;                           // of every box
-  std::vector<Eigen::Matrix<double, Dim, Dim + 1>> hat_gradients;  // of every cell
+  // What a search reads of a cell, in one place.
+  struct Cell {
+    Vector<Dim> origin;                         // the first corner
+    Eigen::Matrix<double, Dim, Dim> gradients;  // of the hat functions of the other corners
+    Vector<Dim + 1> lengths;                    // of the gradients of all hat functions
 
-  explicit Grid(const DomainMesh<Dim>& mesh) {
+    Cell(const DomainMesh<Dim>& mesh, Index cell) : origin(mesh.points.col(mesh.cells(0, cell))) {
+      const auto all = cell_geometry(mesh, cell).hat_gradients;
+      gradients = all.template rightCols<Dim>();
+      lengths = all.colwise().norm().transpose();
+    }
+
+    Vector<Dim> first_gradient() const { return -gradients.rowwise().sum(); }
+
+    Vector<Dim + 1> coordinates(const Vector<Dim>& point) const {
+      const Vector<Dim> offset = point - origin;
+      Vector<Dim + 1> result;
+      result[0] = first_gradient().dot(offset) + 1;
+      result.template tail<Dim>() = gradients.transpose() * offset;
+      return result;
+    }
+  };
+
+  Vector<Dim> low;
+  double width, boxes_per_length;
+  Box count;
+  VertexItems<Index, std::size_t> cells_of_box;
+  std::vector<Cell> cells;
+
+  Grid(const DomainMesh<Dim>& mesh, double boxes_per_cell) {
     low = mesh.points.rowwise().minCoeff();
     const Vector<Dim> extent = mesh.points.rowwise().maxCoeff() - low;
-    width = std::pow(extent.prod() / mesh.num_cells(), 1.0 / Dim);
+    width = std::pow(extent.prod() / (boxes_per_cell * mesh.num_cells()), 1.0 / Dim);
     // Boxes of mean cell size would be too many if the domain is flat.
     const auto num_boxes = [&] { return ((extent / width).array() + 1).prod(); };
-    while (num_boxes() > 8.0 * mesh.num_cells() + 64) width *= 2;
-    count = (extent / width).template cast<Index>().array() + 1;
-    cells = items_by_vertex<Index, std::size_t>(
+    while (num_boxes() > 8 * boxes_per_cell * mesh.num_cells() + 64) width *= 2;
+    boxes_per_length = 1 / width;
+    count = (extent * boxes_per_length).template cast<Index>().array() + 1;
+    cells.reserve(mesh.num_cells());
+    for (Index s = 0; s < mesh.num_cells(); ++s) cells.emplace_back(mesh, s);
+    cells_of_box = items_by_vertex<Index, std::size_t>(
         static_cast<std::size_t>(count.template cast<double>().prod()), [&](const auto& visit) {
           for (Index s = 0; s < mesh.num_cells(); ++s) {
             for_boxes_of(mesh, s, [&](std::size_t box) { visit(box, s); });
           }
         });
-    hat_gradients.reserve(mesh.num_cells());
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      hat_gradients.push_back(cell_geometry(mesh, s).hat_gradients);
-    }
   }
 
   // Points outside are moved into the outermost boxes.
   Box box_of(const Vector<Dim>& point) const {
     const Vector<Dim> place =
-        ((point - low) / width).cwiseMax(0.0).cwiseMin(count.template cast<double>());
+        ((point - low) * boxes_per_length).cwiseMax(0.0).cwiseMin(count.template cast<double>());
     return place.template cast<Index>().cwiseMin((count.array() - 1).matrix());
   }
 
@@ -59,19 +80,31 @@ struct CellLocator<Dim>::Grid {
     return number;
   }
 
+  // The boxes that the cell meets, and maybe some next to its edges.
   template <class Visit>
   void for_boxes_of(const DomainMesh<Dim>& mesh, Index cell, const Visit& visit) const {
     const Eigen::Matrix<double, Dim, Dim + 1> corners =
         mesh.points(Eigen::all, mesh.cells.col(cell));
+    // How much each coordinate grows from the center of a box to its corners, with some room for
+    // rounding.
+    Vector<Dim + 1> growth;
+    growth[0] = cells[cell].first_gradient().cwiseAbs().sum();
+    growth.template tail<Dim>() = cells[cell].gradients.cwiseAbs().colwise().sum().transpose();
+    growth *= 0.51 * width;
     for_boxes_between(box_of(corners.rowwise().minCoeff()), box_of(corners.rowwise().maxCoeff()),
-                      visit);
+                      [&](const Box& box) {
+                        const Vector<Dim> center =
+                            low + width * (box.template cast<double>().array() + 0.5).matrix();
+                        if (((cells[cell].coordinates(center) + growth).array() >= 0).all())
+                          visit(number_of(box));
+                      });
   }
 
   template <class Visit>
   void for_boxes_between(const Box& first, const Box& last, const Visit& visit) const {
     Box box = first;
     while (box[Dim - 1] <= last[Dim - 1]) {
-      visit(number_of(box));
+      visit(box);
       int d = 0;
       while (d < Dim - 1 && box[d] == last[d]) {
         box[d] = first[d];
@@ -83,8 +116,8 @@ struct CellLocator<Dim>::Grid {
 };
 
 template <int Dim>
-CellLocator<Dim>::CellLocator(const DomainMesh<Dim>& mesh)
-    : mesh_(mesh), grid_(std::make_unique<Grid>(mesh)) {
+CellLocator<Dim>::CellLocator(const DomainMesh<Dim>& mesh, double boxes_per_cell)
+    : grid_(std::make_unique<Grid>(mesh, boxes_per_cell)) {
 }
 
 template <int Dim>
@@ -94,25 +127,25 @@ template <int Dim>
 Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double tolerance) const {
   Location<Dim> best;
   double least_outside = tolerance;
-  const Vector<Dim> margin = Vector<Dim>::Constant(tolerance);
-  const auto consider = [&](Index cell) {
+  const auto consider = [&](Index number) {
     if (best.cell >= 0 && least_outside == 0) return;  // found
-    const auto& hat_gradients = grid_->hat_gradients[cell];
-    Location<Dim> location;
-    location.cell = cell;
-    location.coordinates =
-        hat_gradients.transpose() * (point - mesh_.points.col(mesh_.cells(0, cell)));
-    location.coordinates[0] += 1;
-    const double outside = distance_beyond<Dim>(location.coordinates, hat_gradients);
+    const auto& cell = grid_->cells[number];
+    const auto coordinates = cell.coordinates(point);
+    if ((coordinates + tolerance * cell.lengths).minCoeff() < 0) return;
+    // Multiplied by the heights over the facets, which are the inverse lengths.
+    const double outside = std::max(0.0, -(coordinates.array() / cell.lengths.array()).minCoeff());
     if (outside < least_outside || (best.cell < 0 && outside <= tolerance)) {
       least_outside = outside;
-      best = location;
+      best = {number, coordinates};
     }
   };
-  grid_->for_boxes_between(grid_->box_of(point - margin), grid_->box_of(point + margin),
-                           [&](std::size_t box) {
-                             for (const Index cell : grid_->cells.of(box)) consider(cell);
-                           });
+  const Vector<Dim> margin = Vector<Dim>::Constant(tolerance);
+  grid_->for_boxes_between(
+      grid_->box_of(point - margin), grid_->box_of(point + margin), [&](const auto& box) {
+        for (const Index cell : grid_->cells_of_box.of(grid_->number_of(box))) {
+          consider(cell);
+        }
+      });
   return best;
 }
 

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/evaluator.h"
+
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/shape_checks.h"
+#include "coordinates/place_on_cage.h"
+#include "flbc/deform.h"
+
+namespace flbc {
+namespace {
+
+constexpr Index kParallelPoints = 2000;
+constexpr double kBoxesPerCell = 8;  // for many points
+
+// The outside points of a placement as a placement of their own.
+template <int Dim>
+Placement<Dim> outside_of(const Placement<Dim>& placement) {
+  Placement<Dim> result;
+  result.policy = placement.policy;
+  result.outside = placement.outside;
+  result.places.resize(placement.outside.size());
+  result.points.resize(Dim, static_cast<Eigen::Index>(placement.outside.size()));
+  for (std::size_t k = 0; k < placement.outside.size(); ++k) {
+    auto& point = result.outside[k].point;
+    result.points.col(static_cast<Eigen::Index>(k)) = placement.points.col(point);
+    point = static_cast<Index>(k);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+struct Evaluator<Dim>::Parts {
+  Cage<Dim> cage;
+  DomainMesh<Dim> mesh;
+  SparseWeights weights;
+  OutsidePoints outside;
+  int threads;
+  CellLocator<Dim> locator{mesh, kBoxesPerCell};
+};
+
+template <int Dim>
+Evaluator<Dim>::Evaluator(Cage<Dim> cage, DomainMesh<Dim> mesh, SparseWeights weights,
+                          OutsidePoints outside, int threads) {
+  check_size(weights, cage.size(), mesh.num_vertices());
+  parts_.reset(new Parts{std::move(cage), std::move(mesh), std::move(weights), outside, threads});
+}
+
+template <int Dim>
+Evaluator<Dim>::~Evaluator() = default;
+template <int Dim>
+Evaluator<Dim>::Evaluator(Evaluator&&) noexcept = default;
+
+template <int Dim>
+const Cage<Dim>& Evaluator<Dim>::cage() const {
+  return parts_->cage;
+}
+
+template <int Dim>
+Placement<Dim> Evaluator<Dim>::place(const PointList<Dim>& points) const {
+  const ThreadScope scope(parts_->threads);
+  return place_points(parts_->cage, parts_->mesh, parts_->locator, points, parts_->outside);
+}
+
+template <int Dim>
+SparseWeights Evaluator<Dim>::weights(const Placement<Dim>& placement) const {
+  const ThreadScope scope(parts_->threads);
+  return weights_at(parts_->cage, parts_->mesh, parts_->weights, placement);
+}
+
+template <int Dim>
+PosedDomain<Dim> Evaluator<Dim>::pose(const PointList<Dim>& control_points) const {
+  return {control_points, deform(parts_->weights, control_points, parts_->threads)};
+}
+
+template <int Dim>
+PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
+                                    const PosedDomain<Dim>& pose) const {
+  const ThreadScope scope(parts_->threads);
+  const auto count = static_cast<Index>(placement.places.size());
+  PointList<Dim> moved(Dim, count);
+  const auto& cells = parts_->mesh.cells;
+#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
+  for (Index p = 0; p < count; ++p) {
+    const auto& [cell, coordinates] = placement.places[p];
+    if (cell < 0) continue;
+    Vector<Dim> sum = coordinates[0] * pose.vertices.col(cells(0, cell));
+    for (int k = 1; k <= Dim; ++k) sum += coordinates[k] * pose.vertices.col(cells(k, cell));
+    moved.col(p) = sum;
+  }
+  const Cage<Dim> posed_cage{pose.control_points, parts_->cage.facets};
+  for (const auto& point : placement.on_cage) {
+    moved.col(point.point) = place_on_cage(posed_cage, point);
+  }
+  if (placement.policy == OutsidePoints::kExtend && !placement.outside.empty()) {
+    const auto extended =
+        deform(weights(outside_of(placement)), pose.control_points, parts_->threads);
+    for (std::size_t k = 0; k < placement.outside.size(); ++k) {
+      moved.col(placement.outside[k].point) = extended.col(static_cast<Eigen::Index>(k));
+    }
+  } else {
+    for (const auto& point : placement.outside) {
+      moved.col(point.point) = place_on_cage(posed_cage, point);
+    }
+  }
+  return moved;
+}
+
+template class Evaluator<2>;
+template class Evaluator<3>;
+
+}  // namespace flbc
