@@ -14,9 +14,9 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
 
-# For code that becomes part of a shared library or of the Python module.
+# For code that becomes part of a shared library, of the Python module, or of a plugin.
 function(flbc_position_independent target)
-  if(BUILD_SHARED_LIBS OR FLBC_BUILD_PYTHON)
+  if(BUILD_SHARED_LIBS OR FLBC_BUILD_PYTHON OR FLBC_WITH_OPENFOAM)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   endif()

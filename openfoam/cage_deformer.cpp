@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cage_deformer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "Pstream.H"
+#include "Time.H"
+#include "polyMeshGeometry.H"
+#include "primitiveMeshTools.H"
+#include "syncTools.H"
+#include "unitConversion.H"
+
+#include "flbc/errors.h"
+#include "flbc/evaluator.h"
+#include "flbc/io/cage_io.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
+#include "flbc/io/weights_io.h"
+
+namespace flbc::foam {
+namespace {
+
+// Control points that move by less, relative to the cage size, count as fixed: files round.
+constexpr double kFixed = 1e-9;
+
+std::string in_case(const Foam::polyMesh& mesh, Foam::fileName file) {
+  file.expand();
+  return file.isAbsolute() ? file : mesh.time().globalPath() / file;
+}
+
+// In 2D, z is not read and does not move.
+template <int Dim>
+Vector<Dim> to_vector(const Foam::point& point) {
+  return Eigen::Map<const Vector<Dim>>(point.v_);
+}
+
+io::AnyCage read_cage(const std::string& file) {
+  return io::to_cage(io::read_polygons(file), file);
+}
+
+// Points of the patches, also where another rank has the face.
+Foam::boolList points_of_patches(const Foam::polyMesh& mesh, const Foam::dictionary& dict) {
+  Foam::boolList found(mesh.nPoints(), false);
+  const auto names = dict.lookupOrDefault<Foam::wordRes>("fixedPatches", Foam::wordRes());
+  for (const auto& name : names) {
+    const auto patches = mesh.boundaryMesh().findIndices(Foam::keyType(name), true);
+    if (patches.empty()) {
+      FatalIOErrorInFunction(dict)
+          << "fixedPatches: the mesh has no patch " << name << "; choose from "
+          << mesh.boundaryMesh().names() << Foam::exit(Foam::FatalIOError);
+    }
+    for (const Foam::label patch : patches) {
+      for (const Foam::label p : mesh.boundaryMesh()[patch].meshPoints()) found[p] = true;
+    }
+  }
+  Foam::syncTools::syncPointList(mesh, found, Foam::orEqOp<bool>(), false);
+  return found;
+}
+
+// Whether a segment meets a facet.
+template <int Dim>
+bool cuts(const Cage<Dim>& cage, Eigen::Index facet, const Vector<Dim>& from,
+          const Vector<Dim>& to) {
+  constexpr double kRounding = 1e-9, kParallel = 1e-12;
+  const Vector<Dim> corner = cage.points.col(cage.facets(0, facet));
+  Eigen::Matrix<double, Dim, Dim> system;
+  for (int k = 1; k < Dim; ++k) system.col(k - 1) = cage.points.col(cage.facets(k, facet)) - corner;
+  system.col(Dim - 1) = from - to;
+  // OpenFOAM ends programs that divide by zero.
+  if (std::abs(system.determinant()) <= kParallel * system.colwise().norm().prod()) return false;
+  const Vector<Dim> place = system.inverse() * (from - corner);
+  return (place.array() > -kRounding).all() && place[Dim - 1] < 1 + kRounding &&
+         place.template head<Dim - 1>().sum() < 1 + kRounding;
+}
+
+}  // namespace
+
+//! The displacements of points.
+class CageDeformer::Motion {
+ public:
+  virtual ~Motion() = default;
+  //! \param part  in [0, 1], between the poses `pose` and `pose` + 1
+  virtual void add_to(Foam::pointField& points, std::size_t pose, double part) const = 0;
+};
+
+template <int Dim>
+class CageDeformer::MotionIn : public Motion {
+ public:
+  MotionIn(const Foam::polyMesh& mesh, const Foam::pointField& points, Cage<Dim> cage,
+           const Foam::dictionary& dict, const std::vector<TimedPose>& poses)
+      : evaluator_(std::move(cage),
+                   io::read_domain<Dim>(in_case(mesh, dict.get<Foam::fileName>("domain"))),
+                   io::read_sparse_weights(in_case(mesh, dict.get<Foam::fileName>("weights"))),
+                   OutsidePoints::kNearest, Foam::Pstream::parRun() ? 1 : 0) {
+    for (const auto& pose : poses) {
+      const auto file = in_case(mesh, pose.file);
+      const auto soup = io::read_polygons(file);
+      displacements_.push_back(io::to_points<Dim>(soup, file));
+      if (displacements_.back().cols() != evaluator_.cage().size()) {
+        throw InputError(file + ": has " + std::to_string(displacements_.back().cols()) +
+                         " control points, but the cage has " +
+                         std::to_string(evaluator_.cage().size()));
+      }
+      displacements_.back() -= evaluator_.cage().points;
+    }
+    place(points);
+    fix_cuts(mesh, points, poses);
+  }
+
+  void add_to(Foam::pointField& points, std::size_t pose, double part) const override {
+    PointList<Dim> shifts = displacements_[pose];
+    if (part > 0) shifts += part * (displacements_[pose + 1] - displacements_[pose]);
+    const auto moved = evaluator_.move(placement_, evaluator_.pose(shifts));
+    for (std::size_t k = 0; k < inside_.size(); ++k) {
+      for (int d = 0; d < Dim; ++d) {
+        points[inside_[k]][static_cast<Foam::direction>(d)] +=
+            moved(d, static_cast<Eigen::Index>(k));
+      }
+    }
+  }
+
+ private:
+  void place(const Foam::pointField& points) {
+    const auto& cage = evaluator_.cage().points;
+    const double margin = kBoundaryTolerance * bounding_box_diagonal(cage);
+    const Vector<Dim> low = cage.rowwise().minCoeff().array() - margin;
+    const Vector<Dim> high = cage.rowwise().maxCoeff().array() + margin;
+    std::vector<Foam::label> near;
+    forAll(points, p) {
+      const auto point = to_vector<Dim>(points[p]);
+      if (point == point.cwiseMax(low).cwiseMin(high)) near.push_back(p);
+    }
+    const auto list = [&](const std::vector<Foam::label>& of) {
+      PointList<Dim> result(Dim, static_cast<Eigen::Index>(of.size()));
+      for (std::size_t k = 0; k < of.size(); ++k) {
+        result.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[of[k]]);
+      }
+      return result;
+    };
+    std::vector<bool> is_outside(near.size(), false);
+    for (const auto& point : evaluator_.place(list(near)).outside) is_outside[point.point] = true;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      if (!is_outside[k]) inside_.push_back(near[k]);
+    }
+    placement_ = evaluator_.place(list(inside_));
+  }
+
+  // Where facets cut through the mesh, their control points must not move, because the points
+  // outside do not.
+  void fix_cuts(const Foam::polyMesh& mesh, const Foam::pointField& points,
+                const std::vector<TimedPose>& poses) {
+    const auto& cage = evaluator_.cage();
+    Foam::labelList is_cut(cage.size(), 0);
+    std::vector<bool> is_inside(static_cast<std::size_t>(points.size()), false);
+    for (const auto p : inside_) is_inside[static_cast<std::size_t>(p)] = true;
+    for (const auto& edge : mesh.edges()) {
+      if (is_inside[edge.start()] == is_inside[edge.end()]) continue;
+      const auto from = to_vector<Dim>(points[edge.start()]);
+      const auto to = to_vector<Dim>(points[edge.end()]);
+      for (Eigen::Index f = 0; f < cage.facets.cols(); ++f) {
+        if (!cuts<Dim>(cage, f, from, to)) continue;
+        for (const Index i : cage.facets.col(f)) is_cut[i] = 1;
+      }
+    }
+    Foam::Pstream::listCombineGather(is_cut, Foam::maxEqOp<Foam::label>());
+    Foam::Pstream::listCombineScatter(is_cut);
+    const double size = bounding_box_diagonal(cage.points);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      for (Index i = 0; i < cage.size(); ++i) {
+        if (is_cut[i] == 0) continue;
+        const double length = displacements_[k].col(i).norm();
+        if (length > kFixed * size) {
+          throw InputError(
+              poses[k].file + ": control point " + std::to_string(i) + " moves by " +
+              std::to_string(length) +
+              ", but its facets cut through the mesh; keep it where it is in the cage, "
+              "or enlarge the cage so that these facets are outside the mesh");
+        }
+        displacements_[k].col(i).setZero();
+      }
+    }
+  }
+
+  Evaluator<Dim> evaluator_;
+  std::vector<PointList<Dim>> displacements_;  // of the control points in each pose
+  std::vector<Foam::label> inside_;            // points that move
+  Placement<Dim> placement_;                   // of these
+};
+
+CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& points,
+                           const Foam::dictionary& dict, std::vector<TimedPose> poses)
+    : mesh_(mesh),
+      rest_(points),
+      poses_(std::move(poses)),
+      is_fixed_(points_of_patches(mesh, dict)) {
+  try {
+    if (poses_.empty()) throw InputError("there are no poses");
+    for (std::size_t k = 1; k < poses_.size(); ++k) {
+      if (poses_[k].time > poses_[k - 1].time) continue;
+      throw InputError("the times of poses must ascend");
+    }
+    auto cage = read_cage(in_case(mesh, dict.get<Foam::fileName>("cage")));
+    std::visit(
+        [&](auto& of_dimension) {
+          validate(of_dimension);
+          constexpr int kDim = std::decay_t<decltype(of_dimension.points)>::RowsAtCompileTime;
+          motion_ =
+              std::make_unique<MotionIn<kDim>>(mesh, points, std::move(of_dimension), dict, poses_);
+        },
+        cage);
+  } catch (const std::exception& error) {
+    FatalIOErrorInFunction(dict) << error.what() << Foam::exit(Foam::FatalIOError);
+  }
+}
+
+CageDeformer::~CageDeformer() = default;
+
+Foam::tmp<Foam::pointField> CageDeformer::positions(Foam::scalar time) const {
+  std::size_t pose = 0;
+  while (pose + 1 < poses_.size() && poses_[pose + 1].time <= time) ++pose;
+  double part = 0;
+  if (pose + 1 < poses_.size() && time > poses_[pose].time) {
+    part = (time - poses_[pose].time) / (poses_[pose + 1].time - poses_[pose].time);
+  }
+  auto result = Foam::tmp<Foam::pointField>::New(rest_);
+  auto& points = result.ref();
+  motion_->add_to(points, pose, part);
+  forAll(points, p) {
+    if (is_fixed_[p]) points[p] = rest_[p];
+  }
+  check_quality(points, time);
+  return result;
+}
+
+void CageDeformer::check_quality(const Foam::pointField& points, Foam::scalar time) const {
+  using namespace Foam;
+  polyMeshGeometry geometry(mesh_);
+  geometry.correct(points, identity(mesh_.nFaces()));
+  // Pyramids over the faces detect inverted cells of any shape.
+  scalarField owner_pyramids, neighbour_pyramids;
+  primitiveMeshTools::facePyramidVolume(mesh_, points, geometry.cellCentres(), owner_pyramids,
+                                        neighbour_pyramids);
+  label inverted = -1;
+  const auto note = [&](label cell) {
+    if (inverted < 0 || cell < inverted) inverted = cell;
+  };
+  forAll(owner_pyramids, f) {
+    if (owner_pyramids[f] <= 0) note(mesh_.faceOwner()[f]);
+    if (f < mesh_.nInternalFaces() && neighbour_pyramids[f] <= 0) note(mesh_.faceNeighbour()[f]);
+  }
+  const auto least_volume = gMin(geometry.cellVolumes());
+  const auto cosine = gMin(
+      primitiveMeshTools::faceOrthogonality(mesh_, geometry.faceAreas(), geometry.cellCentres())());
+  const auto skewness = gMax(primitiveMeshTools::faceSkewness(
+      mesh_, points, geometry.faceCentres(), geometry.faceAreas(), geometry.cellCentres())());
+  Info << "cage: time " << time << ", largest displacement " << gMax(mag(points - rest_)())
+       << ", smallest cell volume " << least_volume << ", largest non-orthogonality "
+       << radToDeg(std::acos(std::max(-1.0, std::min(1.0, cosine))))
+       << " degrees, largest skewness " << skewness << endl;
+  const label rank = inverted < 0 ? Pstream::nProcs() : Pstream::myProcNo();
+  const label first_rank = returnReduce(rank, minOp<label>());
+  if (first_rank == Pstream::nProcs()) return;
+  if (rank == first_rank) {
+    std::size_t pose = 0;
+    while (pose + 1 < poses_.size() && poses_[pose].time < time) ++pose;
+    FatalErrorInFunction << "the morph inverts cells; the first is cell " << inverted << " at "
+                         << geometry.cellCentres()[inverted] << " of processor " << first_rank
+                         << ", at time " << time << ", on the way to pose " << poses_[pose].file
+                         << "; the mesh was not moved" << exit(FatalError);
+  }
+  label wait = 0;
+  reduce(wait, sumOp<label>());  // until the first rank ends the run
+}
+
+}  // namespace flbc::foam

@@ -1,0 +1,106 @@
+"""cageMotion and cageDeformMesh agree with flbc deform, on any number of ranks."""
+
+import shutil
+import sys
+import tempfile
+import unittest
+
+if not all(map(shutil.which, ("blockMesh", "decomposePar", "moveDynamicMesh", "mpirun"))):
+    print("OpenFOAM or mpirun is not installed")
+    sys.exit(77)
+
+import numpy as np
+
+import channel
+
+FLBC, LIBRARY, UTILITY = sys.argv[1:4]
+
+
+class OpenFoamTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.case = case = channel.Case(cls.folder + "/channel", FLBC, LIBRARY)
+        cls.rest = case.points("constant")
+        np.save(case.path("rest.npy"), cls.rest)
+        case.run(FLBC, "deform", "rest.npy", "--domain", "domain.mesh", "--weights", "weights.npy",
+                 "--rest", "cage.obj", "--pose", "pose.obj", "--outside", "nearest", "-q", "-o",
+                 "moved.npy")
+        cls.inside = ((cls.rest[:, 0] >= 1) & (cls.rest[:, 0] <= 3) & (cls.rest[:, 1] <= 0.6))
+        cls.moved = np.where(cls.inside[:, None], np.load(case.path("moved.npy")), cls.rest)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def tearDown(self):
+        self.case.end_at(1)
+        self.case.move_to("pose.obj")
+        for time in ("0.25", "0.5", "0.75", "1"):
+            shutil.rmtree(self.case.path(time), ignore_errors=True)
+
+    def expect_moved(self, points):
+        self.assertLess(np.abs(points - self.moved).max(), 1e-12 * channel.SIZE)
+        self.assertTrue((points[~self.inside] == self.rest[~self.inside]).all())
+
+    def test_any_number_of_ranks(self):
+        self.assertGreater(np.abs(self.moved - self.rest).max(), 0.1)
+        serial = None
+        for ranks in (1, 2, 3, 4):
+            with self.subTest(ranks=ranks):
+                self.case.decompose(ranks)
+                self.case.run_ranks(ranks, "moveDynamicMesh")
+                points = self.case.points_of_ranks(ranks, "1")
+                self.expect_moved(points)
+                serial = points if serial is None else serial
+                self.assertTrue((points == serial).all())
+                self.tearDown()
+
+    def test_restart(self):
+        self.case.decompose(2)
+        self.case.end_at(0.5)
+        self.case.run_ranks(2, "moveDynamicMesh")
+        half = self.case.points_of_ranks(2, "0.5")
+        self.assertLess(np.abs(half - (self.rest + self.moved) / 2).max(), 1e-12 * channel.SIZE)
+        self.case.end_at(1)
+        self.assertNotIn("Time = 0.25\n", self.case.run_ranks(2, "moveDynamicMesh"))
+        self.expect_moved(self.case.points_of_ranks(2, "1"))
+
+    def test_fixed_patches(self):
+        self.case.move_to("pose.obj", "sides")
+        self.case.decompose(4)
+        self.case.run_ranks(4, "moveDynamicMesh")
+        points = self.case.points_of_ranks(4, "1")
+        on_sides = np.isclose(self.rest[:, 2], 0) | np.isclose(self.rest[:, 2], 1)
+        self.assertTrue((points[on_sides] == self.rest[on_sides]).all())
+        self.assertLess(np.abs(points - self.moved)[~on_sides].max(), 1e-12 * channel.SIZE)
+        self.case.move_to("pose.obj", "ceiling")
+        self.assertIn("no patch ceiling", self.case.run("moveDynamicMesh", fails=True))
+
+    def test_utility(self):
+        files = ["-cage", "cage.obj", "-domain", "domain.mesh", "-weights", "weights.npy"]
+        self.case.decompose(3)
+        self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj")
+        self.expect_moved(self.case.points_of_ranks(3, "0.25"))
+        self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj", "-overwrite")
+
+    def test_inverted_cells_are_refused(self):
+        channel.write_cage(self.case.path("bad.obj"), channel.control_points(1.2))
+        self.case.move_to("bad.obj")
+        self.case.decompose(2)
+        output = self.case.run_ranks(2, "moveDynamicMesh", fails=True)
+        self.assertRegex(output, r"the first is cell \d+ at .* of processor \d, at time [\d.]+, on "
+                                 r"the way to pose \"?bad.obj")
+        self.assertIn("the mesh was not moved", output)
+
+    def test_cuts_must_not_move(self):
+        pose = channel.control_points(0.2)
+        pose[0, 0] += 0.1
+        channel.write_cage(self.case.path("cut.obj"), pose)
+        self.case.move_to("cut.obj")
+        output = self.case.run("moveDynamicMesh", fails=True)
+        self.assertIn("control point 0 moves by 0.1", output)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
