@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands/commands.h"
+#include "files/deform_points.h"
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
@@ -37,6 +39,10 @@ struct DeformArguments {
   bool quiet = false;
 };
 
+bool moves_points(const DeformArguments& arguments) {
+  return io::extension_of(arguments.file.model) == "npy";
+}
+
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.cages.empty() && arguments.keyframes.empty()) {
     throw OptionError("no pose given; add --pose or --keyframes");
@@ -56,6 +62,19 @@ void check_arguments(const DeformArguments& arguments) {
   }
   if (arguments.domain.empty() && arguments.normals == kJacobian) {
     throw OptionError("--normals jacobian needs --domain, a mesh that has these weights");
+  }
+  if (moves_points(arguments)) {
+    if (arguments.domain.empty()) {
+      throw OptionError(arguments.file.model +
+                        ": points need --domain and --rest; --weights are those of the domain");
+    }
+    if (!arguments.displacement.empty() || arguments.file.shows_displacement ||
+        arguments.normals == kJacobian) {
+      throw OptionError(arguments.file.model +
+                        ": points have no normals and no colors; remove --displacement, "
+                        "--show-displacement, and --normals");
+    }
+    return require_writable(arguments.file.output, "npy");
   }
   require_formats(arguments.file);
   if (arguments.domain.empty() && moves_splats(arguments.file)) {
@@ -101,6 +120,17 @@ bool needs_jacobians(const DeformArguments& arguments) {
   return arguments.normals == kJacobian || moves_splats(arguments.file);
 }
 
+// The layout of files that are moved in batches: points, and clouds and models of the same kind
+// that gain nothing from being in memory.
+std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
+  const auto& [model, output, shows_displacement, is_anew] = arguments.file;
+  if (arguments.domain.empty() || needs_jacobians(arguments) || shows_displacement ||
+      !arguments.displacement.empty() || io::extension_of(model) != io::extension_of(output)) {
+    return {};
+  }
+  return io::find_point_layout(model);
+}
+
 // What moves the points of a model.
 template <int Dim>
 struct Binding {
@@ -108,15 +138,12 @@ struct Binding {
   DomainJacobians<Dim> jacobians;  // of no points, unless they are asked for
 };
 
-// Weights that fit the model and all poses, and that belong to them as far as is known.
+// Weights that fit the model or domain mesh and all poses, and that belong to them as far as is
+// known.
 template <int Dim>
-Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
-                         const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  const bool is_by_domain = !arguments.domain.empty();
-  DomainMesh<Dim> domain;
-  if (is_by_domain) domain = io::read_domain<Dim>(arguments.domain);
-  const auto& bound = is_by_domain ? domain.points : points;
-  const auto& file = is_by_domain ? arguments.domain : arguments.file.model;
+SparseWeights load_weights(const PointList<Dim>& bound, const PointList<Dim>& rest,
+                           const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+  const auto& file = arguments.domain.empty() ? arguments.file.model : arguments.domain;
   auto weights = io::read_sparse_weights(arguments.weights);
   const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
     check_sizes(weights, control_points.cols(), bound.cols(), {arguments.weights, name, file});
@@ -126,7 +153,15 @@ Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& res
   if (!arguments.rest.empty()) {
     check_reproduction(weights, rest, bound, {arguments.weights, arguments.rest, file});
   }
-  if (!is_by_domain) return {std::move(weights), {}};
+  return weights;
+}
+
+template <int Dim>
+Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
+                         const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
+  if (arguments.domain.empty()) return {load_weights(points, rest, poses, arguments), {}};
+  auto domain = io::read_domain<Dim>(arguments.domain);
+  auto weights = load_weights(domain.points, rest, poses, arguments);
   const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
   const auto placement = naming(
       arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
@@ -205,14 +240,47 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
 }
 
 template <int Dim>
+void deform_in_batches(const io::PointLayout& layout, const PointList<Dim>& rest,
+                       const std::vector<Pose<Dim>>& poses, const std::vector<std::string>& outputs,
+                       const DeformArguments& arguments) {
+  const auto& input = arguments.file.model;
+  if (layout.offsets.size() < Dim || (moves_points(arguments) && layout.offsets.size() > Dim)) {
+    throw InputError(input + ": has " + std::to_string(layout.offsets.size()) +
+                     " coordinates per point, but the cage is in " + std::to_string(Dim) + "D");
+  }
+  auto domain = io::read_domain<Dim>(arguments.domain);
+  auto weights = load_weights(domain.points, rest, poses, arguments);
+  const auto outside =
+      arguments.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : arguments.outside;
+  const Evaluator<Dim> evaluator(std::get<Cage<Dim>>(load_cage(arguments.rest)), std::move(domain),
+                                 std::move(weights), outside);
+  const auto start = std::chrono::steady_clock::now();
+  NewFiles files;
+  double largest = 0;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    files.expect(outputs[k]);
+    const PointMotion motion{input, layout, outputs[k], arguments.outside, arguments.quiet};
+    largest = std::max(largest, deform_points(motion, evaluator, poses[k].points));
+  }
+  files.keep();
+  if (arguments.quiet) return;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  std::cerr << arguments.file.output << ": " << layout.count << " vertices, " << poses.size()
+            << (poses.size() == 1 ? " pose, " : " poses, ") << seconds.count()
+            << " s; largest displacement " << largest << '\n';
+}
+
+template <int Dim>
 void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
-  require_formats_of<Dim>(arguments.file);
+  const auto layout = find_layout(arguments);
+  if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
   PointList<Dim> rest;
   if (!arguments.rest.empty()) rest = load_control_points<Dim>(arguments.rest);
   const auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
                                                  : load_keyframes<Dim>(arguments.keyframes, rest);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
+  if (layout) return deform_in_batches<Dim>(*layout, rest, poses, outputs, arguments);
 
   const MovableModel<Dim> model(arguments.file);
   const auto binding = bind_points(model.points(), rest, poses, arguments);
@@ -241,12 +309,14 @@ void add_deform_command(CLI::App& app, int&) {
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
+      "Points (.npy) and binary .ply files without normals may be of any size, with --domain:\n"
+      "they are moved in batches, and everything in the file except coordinates stays the same.\n"
       "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
       "displacement of a control point from rest, in the order of the control points.");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .om) or domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh)")
+                   "model (.obj .off .ply .stl .om), domain mesh (.vtu; 3D: .mesh .node .ele "
+                   ".msh), or points (.npy, with --domain)")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   auto* pose = command->add_option(

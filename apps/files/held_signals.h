@@ -26,6 +26,9 @@ class HeldSignals {
     if (came() != 0) raise(came());
   }
 
+  //! Whether one came.
+  bool has_signal() const { return came() != 0; }
+
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 

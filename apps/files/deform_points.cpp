@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files/deform_points.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "files/held_signals.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "solve/progress_bar.h"
+
+namespace flbc::app {
+namespace {
+
+template <int Dim>
+[[noreturn]] void refuse_point(const PointMotion& motion, const PointBeside<Dim>& point,
+                               std::int64_t first, const PointList<Dim>& batch) {
+  std::ostringstream message;
+  message << motion.input << ": point " << first + point.point << " at ("
+          << batch.col(point.point).transpose() << ") is outside the cage, " << point.distance
+          << " from it; add --outside nearest or --outside extend";
+  throw InputError(message.str());
+}
+
+}  // namespace
+
+template <int Dim>
+double deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
+                     const PointList<Dim>& control_points) {
+  const auto pose = evaluator.pose(control_points);
+  double largest = 0;
+  ProgressBar bar(motion.quiet, "moving points");
+  HeldSignals held;
+  const auto move = [&](const PointList<Dim>& batch, std::int64_t first) -> PointList<Dim> {
+    if (held.has_signal()) throw IoError(motion.output + ": not written, because of a signal");
+    const auto placement = evaluator.place(batch);
+    if (motion.outside == OutsidePoints::kFail && !placement.outside.empty()) {
+      refuse_point(motion, placement.outside.front(), first, batch);
+    }
+    auto moved = evaluator.move(placement, pose);
+    largest = std::max(largest, (moved - batch).colwise().norm().maxCoeff());
+    bar.show("moving points",
+             static_cast<double>(first + batch.cols()) / static_cast<double>(motion.layout.count));
+    return moved;
+  };
+  io::write_file(motion.output, [&](std::ostream& out) {
+    io::rewrite_points<Dim>(motion.input, motion.layout, out, move);
+  });
+  return largest;
+}
+
+template double deform_points(const PointMotion&, const Evaluator<2>&, const PointList<2>&);
+template double deform_points(const PointMotion&, const Evaluator<3>&, const PointList<3>&);
+
+}  // namespace flbc::app
