@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
+# "openfoam" also brings MPI and the headers of OpenFOAM.
 set -euo pipefail
 
 packages=(
@@ -14,13 +15,19 @@ packages=(
   mkdocs mkdocs-material libjs-katex codespell groff-base  # tests of pages
 )
 packages+=("$@")
+headers=/usr/src/openfoam
+needs_headers=
+if [[ " $* " == *" openfoam "* ]]; then
+  packages+=(openmpi-bin bzip2)
+  [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes
+fi
 
 missing=()
 for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
   [ "$status" = installed ] || missing+=("$package")
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
+[ ${#missing[@]} -gt 0 ] || [ "$needs_headers" ] || exit 0
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -30,7 +37,29 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
   as_root=(sudo)
 fi
-echo "Installing: ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "Installing: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+# The package has no headers, but the source package of the same version has.
+if [ "$needs_headers" ]; then
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  mkdir -p "$work/sources" "$work/lists/partial"
+  sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$work/sources/a.sources"
+  from_sources=(apt-get -qq -o Dir::Etc::sourcelist=/dev/null
+    -o Dir::Etc::sourceparts="$work/sources" -o Dir::State::lists="$work/lists"
+    -o APT::Sandbox::User=root)
+  cd "$work"
+  "${from_sources[@]}" update
+  "${from_sources[@]}" source --download-only openfoam
+  tar -xf openfoam_*.orig.tar.* --wildcards --strip-components=1 '*/src' '*/wmake'
+  for part in OpenFOAM OSspecific/POSIX meshTools finiteVolume dynamicMesh fileFormats surfMesh; do
+    wmake/wmakeLnInclude -s "src/$part" 2>/dev/null
+  done
+  "${as_root[@]}" mkdir -p $headers
+  "${as_root[@]}" cp -a src wmake $headers
+fi
