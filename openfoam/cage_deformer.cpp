@@ -2,6 +2,7 @@
 #include "cage_deformer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -43,6 +44,18 @@ Vector<Dim> to_vector(const Foam::point& point) {
 io::AnyCage read_cage(const std::string& file) {
   return io::to_cage(io::read_polygons(file), file);
 }
+
+// Measures the slowest rank.
+class Stopwatch {
+ public:
+  Foam::scalar seconds() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return Foam::returnReduce(passed.count(), Foam::maxOp<Foam::scalar>());
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 // Points of the patches, also where another rank has the face.
 Foam::boolList points_of_patches(const Foam::polyMesh& mesh, const Foam::dictionary& dict) {
@@ -127,6 +140,7 @@ class CageDeformer::MotionIn : public Motion {
 
  private:
   void place(const Foam::pointField& points) {
+    const Stopwatch watch;
     const auto& cage = evaluator_.cage().points;
     const double margin = kBoundaryTolerance * bounding_box_diagonal(cage);
     const Vector<Dim> low = cage.rowwise().minCoeff().array() - margin;
@@ -136,19 +150,26 @@ class CageDeformer::MotionIn : public Motion {
       const auto point = to_vector<Dim>(points[p]);
       if (point == point.cwiseMax(low).cwiseMin(high)) near.push_back(p);
     }
-    const auto list = [&](const std::vector<Foam::label>& of) {
-      PointList<Dim> result(Dim, static_cast<Eigen::Index>(of.size()));
-      for (std::size_t k = 0; k < of.size(); ++k) {
-        result.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[of[k]]);
-      }
-      return result;
-    };
-    std::vector<bool> is_outside(near.size(), false);
-    for (const auto& point : evaluator_.place(list(near)).outside) is_outside[point.point] = true;
+    PointList<Dim> candidates(Dim, static_cast<Eigen::Index>(near.size()));
     for (std::size_t k = 0; k < near.size(); ++k) {
-      if (!is_outside[k]) inside_.push_back(near[k]);
+      candidates.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[near[k]]);
     }
-    placement_ = evaluator_.place(list(inside_));
+    const auto all = evaluator_.place(candidates);
+    std::vector<bool> is_outside(near.size(), false);
+    for (const auto& point : all.outside) is_outside[point.point] = true;
+    std::vector<Index> number(near.size());
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      number[k] = static_cast<Index>(inside_.size());
+      if (is_outside[k]) continue;
+      inside_.push_back(near[k]);
+      placement_.places.push_back(all.places[k]);
+    }
+    placement_.on_cage = all.on_cage;
+    for (auto& point : placement_.on_cage) point.point = number[point.point];
+    const auto count = static_cast<Foam::label>(inside_.size());
+    const auto seconds = watch.seconds();
+    Foam::Info << "cage: " << Foam::returnReduce(count, Foam::sumOp<Foam::label>())
+               << " points are inside, placed in " << seconds << " s" << Foam::endl;
   }
 
   // Where facets cut through the mesh, their control points must not move, because the points
@@ -190,7 +211,7 @@ class CageDeformer::MotionIn : public Motion {
   Evaluator<Dim> evaluator_;
   std::vector<PointList<Dim>> displacements_;  // of the control points in each pose
   std::vector<Foam::label> inside_;            // points that move
-  Placement<Dim> placement_;                   // of these
+  Placement<Dim> placement_;                   // of these, without what only other policies need
 };
 
 CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& points,
@@ -228,12 +249,15 @@ Foam::tmp<Foam::pointField> CageDeformer::positions(Foam::scalar time) const {
   if (pose + 1 < poses_.size() && time > poses_[pose].time) {
     part = (time - poses_[pose].time) / (poses_[pose + 1].time - poses_[pose].time);
   }
+  const Stopwatch watch;
   auto result = Foam::tmp<Foam::pointField>::New(rest_);
   auto& points = result.ref();
   motion_->add_to(points, pose, part);
   forAll(points, p) {
     if (is_fixed_[p]) points[p] = rest_[p];
   }
+  const auto seconds = watch.seconds();
+  Foam::Info << "cage: points moved in " << seconds << " s" << Foam::endl;
   check_quality(points, time);
   return result;
 }
