@@ -58,10 +58,10 @@ motionSolverLibs ("%s");
 motionSolver cageMotion;
 cageMotionCoeffs
 {
-    cage "cage.obj";
-    domain "domain.mesh";
-    weights "weights.npy";
-    poses ((0 "cage.obj") (1 "%s"));
+    cage "%s";
+    domain "%s";
+    weights "%s";
+    poses ((0 "%s") (1 "%s"));
     fixedPatches (%s);
 }
 """
@@ -98,6 +98,16 @@ def write_cage(path, points):
             out.write("f %d %d %d\nf %d %d %d\n" % (a, b, c, a, c, d))
 
 
+def write_plane_cage(path, points):
+    """The side of the cage at its least z, as a 2D cage."""
+    n = len(X)
+    loop = list(range(1, n + 1)) + list(range(2 * n, n, -1))
+    with open(path, "w", encoding="ascii") as out:
+        for x, y, _ in points[:2 * n]:
+            out.write("v %r %r\n" % (float(x), float(y)))
+        out.write("l %s %d\n" % (" ".join(map(str, loop)), loop[0]))
+
+
 class Case:
     """A case in a folder, and the programs that work on it."""
 
@@ -126,8 +136,9 @@ class Case:
     def end_at(self, time):
         self.dictionary("system/controlDict", CONTROL % time)
 
-    def move_to(self, pose, fixed=""):
-        self.dictionary("constant/dynamicMeshDict", MOTION % (self.library, pose, fixed))
+    def move_to(self, pose, fixed="", rig=("cage.obj", "domain.mesh", "weights.npy")):
+        self.dictionary("constant/dynamicMeshDict",
+                        MOTION % (self.library, *rig, rig[0], pose, fixed))
 
     def run(self, *command, fails=False):
         """Runs a program in the case. Returns its output."""

@@ -82,7 +82,32 @@ class OpenFoamTest(unittest.TestCase):
         self.case.decompose(3)
         self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj")
         self.expect_moved(self.case.points_of_ranks(3, "0.25"))
+        self.tearDown()
+        self.case.decompose(3)
         self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj", "-overwrite")
+        self.expect_moved(self.case.points_of_ranks(3, "constant"))
+
+    def test_plane_cages_move_both_sides_alike(self):
+        case = self.case
+        rig = ("plane.obj", "plane_domain.obj", "plane.npy")
+        channel.write_plane_cage(case.path(rig[0]), channel.control_points())
+        channel.write_plane_cage(case.path("plane_pose.obj"), channel.control_points(0.2))
+        case.run(FLBC, "mesh", rig[0], "--vertices", "500", "-q", "-o", rig[1])
+        case.run(FLBC, "solve", rig[0], "--domain", rig[1], "-q", "-o", rig[2])
+        np.save(case.path("plane_rest.npy"), self.rest[:, :2])
+        case.run(FLBC, "deform", "plane_rest.npy", "--domain", rig[1], "--weights", rig[2],
+                 "--rest", rig[0], "--pose", "plane_pose.obj", "--outside", "nearest", "-q", "-o",
+                 "plane_moved.npy")
+        moved = self.rest.copy()
+        moved[self.inside, :2] = np.load(case.path("plane_moved.npy"))[self.inside]
+        self.assertGreater(np.abs(moved - self.rest).max(), 0.1)
+        case.move_to("plane_pose.obj", rig=rig)
+        case.decompose(2)
+        case.run_ranks(2, "moveDynamicMesh")
+        points = case.points_of_ranks(2, "1")
+        self.assertLess(np.abs(points - moved).max(), 1e-12 * channel.SIZE)
+        layers = points.reshape(channel.CELLS[2] + 1, -1, 3)
+        self.assertLess(np.ptp(layers[:, :, :2], axis=0).max(), 1e-14 * channel.SIZE)
 
     def test_inverted_cells_are_refused(self):
         channel.write_cage(self.case.path("bad.obj"), channel.control_points(1.2))
