@@ -15,6 +15,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "poses/moved_by.h"
 #include "poses/poses.h"
 #include "solve/domain_jacobians.h"
 #include "solve/weights_of_model.h"
@@ -29,6 +30,8 @@ constexpr const char* kJacobian = "jacobian";
 struct DeformArguments {
   MovedFile file;
   std::string weights;
+  std::string method;  // instead of weights
+  bool is_relative = false;
   std::vector<std::string> cages;
   std::string keyframes;
   std::string rest;
@@ -43,9 +46,22 @@ bool moves_points(const DeformArguments& arguments) {
   return io::extension_of(arguments.file.model) == "npy";
 }
 
+bool needs_jacobians(const DeformArguments& arguments) {
+  return arguments.normals == kJacobian || moves_splats(arguments.file);
+}
+
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.cages.empty() && arguments.keyframes.empty()) {
     throw OptionError("no pose given; add --pose or --keyframes");
+  }
+  if (arguments.weights.empty() && arguments.method.empty()) {
+    throw OptionError("no weights given; add --weights, or --method green");
+  }
+  if (arguments.rest.empty() && !arguments.method.empty()) {
+    throw OptionError("--method needs --rest, the cage whose coordinates move the model");
+  }
+  if (arguments.rest.empty() && arguments.is_relative) {
+    throw OptionError("--relative needs --rest, from which displacements are measured");
   }
   if (arguments.rest.empty() && !arguments.keyframes.empty()) {
     throw OptionError(
@@ -63,7 +79,13 @@ void check_arguments(const DeformArguments& arguments) {
   if (arguments.domain.empty() && arguments.normals == kJacobian) {
     throw OptionError("--normals jacobian needs --domain, a mesh that has these weights");
   }
+  if (arguments.is_relative && needs_jacobians(arguments)) {
+    throw OptionError("--relative moves points, but neither splats nor normals by the Jacobian");
+  }
   if (moves_points(arguments)) {
+    if (arguments.is_relative) {
+      throw OptionError(arguments.file.model + ": points cannot be moved with --relative");
+    }
     if (arguments.domain.empty()) {
       throw OptionError(arguments.file.model +
                         ": points need --domain and --rest; --weights are those of the domain");
@@ -116,16 +138,13 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
-bool needs_jacobians(const DeformArguments& arguments) {
-  return arguments.normals == kJacobian || moves_splats(arguments.file);
-}
-
 // The layout of files that are moved in batches: points, and clouds and models of the same kind
 // that gain nothing from being in memory.
 std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
   const auto& [model, output, shows_displacement, is_anew] = arguments.file;
-  if (arguments.domain.empty() || needs_jacobians(arguments) || shows_displacement ||
-      !arguments.displacement.empty() || io::extension_of(model) != io::extension_of(output)) {
+  if (arguments.domain.empty() || arguments.is_relative || needs_jacobians(arguments) ||
+      shows_displacement || !arguments.displacement.empty() ||
+      io::extension_of(model) != io::extension_of(output)) {
     return {};
   }
   return io::find_point_layout(model);
@@ -134,7 +153,7 @@ std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
 // What moves the points of a model.
 template <int Dim>
 struct Binding {
-  SparseWeights weights;
+  MovedBy<Dim> moved;
   DomainJacobians<Dim> jacobians;  // of no points, unless they are asked for
 };
 
@@ -150,24 +169,42 @@ SparseWeights load_weights(const PointList<Dim>& bound, const PointList<Dim>& re
   };
   if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
   for (const auto& pose : poses) check_cage(pose.name, pose.points);
-  if (!arguments.rest.empty()) {
+  if (!arguments.rest.empty() && !arguments.is_relative) {
     check_reproduction(weights, rest, bound, {arguments.weights, arguments.rest, file});
   }
   return weights;
 }
 
 template <int Dim>
+MovedBy<Dim> green_coordinates_of(const PointList<Dim>& points, const std::vector<Pose<Dim>>& poses,
+                                  const DeformArguments& arguments) {
+  const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
+  for (const auto& pose : poses) {
+    require_control_points(pose.name, pose.points.cols(), cage.size(), arguments.rest);
+  }
+  return naming(arguments.file.model, [&] { return by_green_coordinates(cage, points); });
+}
+
+template <int Dim>
 Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
                          const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  if (arguments.domain.empty()) return {load_weights(points, rest, poses, arguments), {}};
+  if (!arguments.method.empty()) return {green_coordinates_of(points, poses, arguments), {}};
+  const auto moved_by = [&](SparseWeights weights) {
+    return arguments.is_relative ? by_displacements(weights, rest, points)
+                                 : by_control_points<Dim>(std::move(weights));
+  };
+  if (arguments.domain.empty()) {
+    return {moved_by(load_weights(points, rest, poses, arguments)), {}};
+  }
   auto domain = io::read_domain<Dim>(arguments.domain);
-  auto weights = load_weights(domain.points, rest, poses, arguments);
+  const auto weights = load_weights(domain.points, rest, poses, arguments);
   const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
   const auto placement = naming(
       arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
   auto of_points = weights_at(cage, domain, weights, placement);
-  if (!needs_jacobians(arguments)) return {std::move(of_points), {}};
-  return {std::move(of_points), {cage, std::move(domain), weights, placement}};
+  auto moved = moved_by(std::move(of_points));
+  if (!needs_jacobians(arguments)) return {std::move(moved), {}};
+  return {std::move(moved), {cage, std::move(domain), weights, placement}};
 }
 
 // Removes the files of a sequence that were new, unless all were written.
@@ -200,7 +237,7 @@ void write_results(const MovableModel<Dim>& model, const Binding<Dim>& binding,
                    const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   NewFiles files;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const auto points = deform(binding.weights, poses[k].points);
+    const auto points = deform(binding.moved.weights, poses[k].points);
     const auto jacobians = binding.jacobians.at(poses[k].points);
     files.expect(outputs[k]);
     Eigen::VectorXd lengths;
@@ -276,18 +313,19 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
   PointList<Dim> rest;
   if (!arguments.rest.empty()) rest = load_control_points<Dim>(arguments.rest);
-  const auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
-                                                 : load_keyframes<Dim>(arguments.keyframes, rest);
+  auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
+                                           : load_keyframes<Dim>(arguments.keyframes, rest);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
   if (layout) return deform_in_batches<Dim>(*layout, rest, poses, outputs, arguments);
 
   const MovableModel<Dim> model(arguments.file);
   const auto binding = bind_points(model.points(), rest, poses, arguments);
+  for (auto& pose : poses) pose.points = binding.moved.vectors(pose.points);
   const auto start = std::chrono::steady_clock::now();
   Displacement displacement;
   if (!arguments.rest.empty()) {
-    displacement = measure_displacement(binding.weights, model.points(), poses);
+    displacement = measure_displacement(binding.moved.weights, model.points(), poses);
     if (!displacement.lengths.allFinite()) {
       throw InputError(poses[displacement.pose].name + ": displacements are not finite");
     }
@@ -318,15 +356,28 @@ void add_deform_command(CLI::App& app, int&) {
                    "model (.obj .off .ply .stl .om), domain mesh (.vtu; 3D: .mesh .node .ele "
                    ".msh), or points (.npy, with --domain)")
       ->required();
-  command->add_option("--weights", a.weights, describe_weight_file())->required();
+  auto* weights = command->add_option("--weights", a.weights, describe_weight_file());
+  auto* method =
+      command
+          ->add_option("--method", a.method,
+                       "coordinates of --rest to compute instead of --weights: green, Green "
+                       "coordinates, which also need normals and have no file of weights")
+          ->check(CLI::IsMember({"green"}))
+          ->type_name("green")
+          ->excludes(weights);
   auto* pose = command->add_option(
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
       ->excludes(pose);
   command->add_option("--rest", a.rest, "rest cage, to check that the weights belong to MODEL");
+  auto* relative = command->add_flag(
+      "--relative", a.is_relative,
+      "add weighted displacements to MODEL, for weights that do not reproduce it (method bbw)");
   auto* domain = command->add_option(
       "--domain", a.domain,
       "domain mesh that has these weights (domain_weights.npy of flbc run), instead of MODEL");
+  domain->excludes(method)->excludes(relative);
+  relative->excludes(method);
   add_choice(*command, "--outside", a.outside,
              "method for vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);

@@ -17,6 +17,9 @@ constexpr Wording kWordings[] = {
      "project",
      "--gap does not apply to weights that may be negative; choose --non-negative constraint or "
      "project"},
+    {"are not negative, so non_negative does not", "are not negative, so --non-negative does not"},
+    {"which solve() does not return; use green_coordinates() in C++",
+     "so they have no file of weights; use flbc deform --method green, or flbc compare"},
     {"cannot use non_negative as a constraint;", "cannot use --non-negative constraint;"},
     {"coarse_to_fine cannot be on", "--coarse-to-fine cannot be on"},
     {"linear_solver none is for", "--linear-solver none is for"},

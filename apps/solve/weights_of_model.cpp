@@ -58,7 +58,9 @@ void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest
        << " they put vertex " << worst << " of " << files.model << " at "
        << moved.col(worst).transpose().format(row) << ", not at "
        << points.col(worst).transpose().format(row) << "; the distance is " << error
-       << " of the cage size, but at most " << kReproduction << " is allowed";
+       << " of the cage size, but at most " << kReproduction
+       << " is allowed; weights by the method bbw reproduce no model and need flbc deform "
+          "--relative";
   throw InputError(text.str());
 }
 

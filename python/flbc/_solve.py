@@ -55,7 +55,8 @@ class SolverOptions(TypedDict, total=False):
 OPTIONS = """\
     method : str, default "auto"
         "value" (the default method), "gradient", "paper", "lbc2014", and for comparison
-        "harmonic", "meanvalue", "maxentropy", "maxlikelihood", or "blended" (2D).
+        "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D), or "bbw".
+        Weights by "bbw" do not reproduce points: add weighted displacements to them.
     tolerance : float, optional
         Target for the estimated mean squared error of the weights. Default: 1e-7, for
         "gradient" 1e-6.

@@ -65,12 +65,26 @@ def test_results_are_coordinates(flat, solid):
 
 
 @pytest.mark.parametrize(
-    "method", ["value", "gradient", "paper", "lbc2014", "harmonic", "meanvalue"]
+    "method",
+    ["value", "gradient", "paper", "lbc2014"]
+    + ["harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended"],
 )
 def test_every_method(flat, method):
     solution = flbc.solve(flat.cage, flat.mesh, method=method, tolerance=1e-4)
     assert solution.report["method"] == method
     assert abs(flbc.deform(solution.weights, flat.cage.points) - flat.mesh.points).max() < 1e-6
+
+
+def test_bounded_biharmonic_weights_are_bounded_and_do_not_reproduce(flat):
+    weights = flbc.solve(flat.cage, flat.mesh, method="bbw").weights
+    assert weights.min() >= 0 and weights.max() <= 1
+    assert abs(weights.sum(axis=1) - 1).max() < 1e-13
+    assert abs(flbc.deform(weights, flat.cage.points) - flat.mesh.points).max() > 1e-3
+
+
+def test_green_coordinates_are_refused(flat):
+    with pytest.raises(ValueError, match="normals of facets"):
+        flbc.solve(flat.cage, flat.mesh, method="green")
 
 
 def test_certificate(flat):

@@ -24,7 +24,10 @@ enum class Method {
   kMeanValue,   //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
   kMaxEntropy,  //!< maximum entropy coordinates (Hormann and Sukumar 2008), for comparison
   kMaxLikelihood,  //!< maximum likelihood coordinates (Chang et al. 2023), for comparison
-  kBlended         //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
+  kBlended,        //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
+  kBiharmonic,     //!< bounded biharmonic weights (Jacobson et al. 2011), for comparison
+  kGreen  //!< Green coordinates (Lipman et al. 2008), which also need normals: green.h; solve()
+          //!< refuses them
 };
 
 //! Enforcement of w >= 0. Without it, the optimum on a mesh may be negative, in 3D noticeably.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "flbc/biharmonic.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/pointwise.h"
@@ -260,6 +261,8 @@ Weights MethodRun<Dim>::solve(const SolverOptions& options, const Reporter& repo
   Weights weights;
   if (options.method == Method::kHarmonic) {
     weights.dense = harmonic_coordinates(*problem_);
+  } else if (options.method == Method::kBiharmonic) {
+    weights.dense = bounded_biharmonic_weights(*problem_);
   } else if (is_pointwise(options.method)) {
     weights.dense = pointwise_coordinates(problem_->cage, problem_->mesh.points, options.method);
   } else {

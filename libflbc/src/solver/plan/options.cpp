@@ -73,6 +73,15 @@ void validate(const SolverOptions& options) {
         "another "
         "method");
   }
+  if (options.method == Method::kGreen) {
+    throw OptionError(
+        "Green coordinates also have weights for normals of facets, which solve() does not return; "
+        "use green_coordinates() in C++");
+  }
+  if (options.method == Method::kBiharmonic && options.non_negative == NonNegative::kProject) {
+    throw OptionError(
+        "bounded biharmonic weights are not negative, so non_negative does not apply");
+  }
   const bool iterative = is_local(options.method);
   if (options.certify && !iterative) {
     throw OptionError("certify needs a method that minimizes the objective; choose another method");
