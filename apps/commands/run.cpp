@@ -23,6 +23,11 @@ namespace {
 
 void check_arguments(const RunArguments& arguments) {
   validate(arguments.settings.options);
+  if (arguments.settings.options.method == Method::kBiharmonic) {
+    throw OptionError(
+        "--method bbw: flbc run needs weights that reproduce the model, which bounded biharmonic "
+        "weights do not; use flbc solve and flbc deform --relative, or flbc compare");
+  }
   if (arguments.settings.outside == OutsidePoints::kExtend) {
     throw OptionError(
         "--outside extend: skins cannot have negative weights; use nearest, or flbc solve and flbc "
@@ -127,8 +132,8 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   auto inputs = load_inputs(cage, arguments);
   const PointList<Dim> model = inputs.shape.points;
   CageSolver<Dim> solver(cage, model, settings);
-  RunFolder folder(arguments.output,
-                   {inputs.files, names_of_results(inputs), arguments.force, arguments.quiet});
+  RunFolder folder(arguments.output, {inputs.files, names_of_results(inputs), arguments.force,
+                                      arguments.quiet, "run", kReport});
   Run<Dim> run{arguments, cage, cage_file, inputs, solver, folder};
   run.report = {{"command", "run"},      {"version", FLBC_VERSION}, {"dim", Dim},
                 {"cage", settings.cage}, {"model", settings.model}, {"inputs", inputs.files}};

@@ -4,6 +4,7 @@
 
 #include "flbc/version.h"
 #include "report/check_report.h"
+#include "report/properties.h"
 
 namespace flbc::app {
 namespace {
@@ -115,6 +116,7 @@ Json weights_json(const CheckReport<Dim>& report) {
       {"reproduction", to_json(check.reproduction)},   {"lagrange", to_json(check.lagrange)},
       {"linearity", to_json(check.linearity)},         {"influences", to_json(check.influences)}};
   if (check.mesh) json["mesh"] = mesh_json(*check.mesh);
+  json["properties"] = properties_of(check);
   json["violations"] = report.violations;
   return json;
 }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <iomanip>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <ostream>
 
 #include "flbc/check.h"
 #include "report/check_report.h"
 #include "report/facts.h"
+#include "report/properties.h"
 
 namespace flbc::app {
 namespace {
@@ -192,6 +194,8 @@ void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
   print_line(out, "influences above 1e-4, maximum", number(check.influences.value), "",
              place(check.influences));
   if (check.mesh) print_on_mesh(out, *check.mesh, check.quality);
+  out << "As in the table of flbc compare:\n"
+      << to_text(property_table({{report.weights_file, properties_of(check)}}));
 }
 
 void print_creases(std::ostream& out, const CreaseCheck& creases) {

@@ -26,15 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCommand = "run";
-
-// Empty if there is no report, or none of flbc run.
-std::vector<std::string> names_in_report(const std::string& path) {
+// Empty if there is no report, or none of this command.
+std::vector<std::string> names_in_report(const std::string& path, const std::string& command) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return {};
   try {
     const auto report = nlohmann::json::parse(io::read_file(path));
-    if (report.at("command") != kCommand) return {};
+    if (report.at("command") != command) return {};
     return report.at("files").get<std::vector<std::string>>();
   } catch (const std::exception&) {
     return {};
@@ -54,15 +52,15 @@ constexpr int kColumn = 20;
 // Nobody has to remove it: the system drops it with the process.
 class RunFolder::Lock {
  public:
-  explicit Lock(const std::string& path)
+  Lock(const std::string& path, const std::string& command)
       : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (descriptor_ < 0) {
       throw IoError(path + ": cannot open this folder: " + std::strerror(errno));
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
     close(descriptor_);
-    throw IoError(
-        path + ": another flbc run is writing to this folder; wait for it, or use another folder");
+    throw IoError(path + ": another flbc " + command +
+                  " is writing to this folder; wait for it, or use another folder");
   }
   ~Lock() { close(descriptor_); }
   Lock(const Lock&) = delete;
@@ -73,17 +71,17 @@ class RunFolder::Lock {
 };
 
 RunFolder::RunFolder(std::string path, const RunFiles& files)
-    : path_(std::move(path)), quiet_(files.quiet) {
-  check_results(files, names_in_report(path_of(kReport)));
+    : path_(std::move(path)), report_(files.report), quiet_(files.quiet) {
+  check_results(files, names_in_report(path_of(report_), files.command));
   make_folder(path_);
   if (access(path_.c_str(), W_OK | X_OK) != 0) {
     throw IoError(path_ + ": cannot write in this folder: " + std::strerror(errno));
   }
-  lock_ = std::make_shared<Lock>(path_);
-  const auto old = names_in_report(path_of(kReport));
+  lock_ = std::make_shared<Lock>(path_, files.command);
+  const auto old = names_in_report(path_of(report_), files.command);
   check_results(files, old);  // again: another run may have ended just now
   remove_old(files, old);
-  write_report({{"command", kCommand}, {"unfinished", true}, {"files", files.names}});
+  write_report({{"command", files.command}, {"unfinished", true}, {"files", files.names}});
 }
 
 void RunFolder::check_results(const RunFiles& files, const std::vector<std::string>& old) const {
@@ -93,9 +91,8 @@ void RunFolder::check_results(const RunFiles& files, const std::vector<std::stri
     require_distinct(files.inputs, {result});
     const bool is_own = std::find(old.begin(), old.end(), name) != old.end();
     if (files.force || is_own || !fs::exists(result, error)) continue;
-    throw OptionError(result +
-                      ": exists and is not from an earlier flbc run; use another folder, or "
-                      "--force to replace it");
+    throw OptionError(result + ": exists and is not from an earlier flbc " + files.command +
+                      "; use another folder, or --force to replace it");
   }
 }
 
@@ -141,14 +138,14 @@ void RunFolder::tell(const std::string& name, const std::string& facts) const {
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {
   auto names = names_;
-  names.emplace_back(kReport);
+  names.emplace_back(report_);
   report["files"] = names;
   write_report(report);
-  if (!facts.empty()) tell(kReport, facts);
+  if (!facts.empty()) tell(report_, facts);
 }
 
 void RunFolder::write_report(const nlohmann::ordered_json& report) const {
-  write_text(path_of(kReport), to_text(report));
+  write_text(path_of(report_), to_text(report));
 }
 
 }  // namespace flbc::app

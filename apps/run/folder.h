@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The folder that flbc run fills.
+//! The folder that flbc run or flbc compare fills.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,8 @@ struct RunFiles {
   std::vector<std::string> names{};   //!< of all files that may be made
   bool force = false;                 //!< these replace files that no earlier run has made
   bool quiet = false;                 //!< nothing is printed
+  std::string command{};              //!< that makes them, without flbc
+  std::string report{};               //!< name of its report, which lists the files
 };
 
 //! Files appear whole or not at all, each as soon as its step has made it. The report lists them:
@@ -56,6 +58,7 @@ class RunFolder {
   class Lock;
 
   std::string path_;
+  std::string report_;
   std::shared_ptr<Lock> lock_;  // while it lives, no other run writes here
   bool quiet_;
   std::vector<std::string> names_;

@@ -163,10 +163,13 @@ std::string pack_offsets(const SparseWeights& weights, const PointList<Dim>& res
 }
 
 template <int Dim>
-Json pack_points(const SparseWeights& weights, const PointList<Dim>& rest) {
+Json pack_points(const PageContent<Dim>& content, const SparseWeights& weights) {
+  const auto& rest = content.cage.points;
   const Vector<Dim> center = page_center<Dim>(rest);
+  const PointList<Dim> offsets = content.points.colwise() - center;
   return {{"center", std::vector<double>(center.begin(), center.end())},
-          {"offsets", pack_offsets<Dim>(weights, rest, center)}};
+          {"offsets", content.is_relative ? pack<float>(offsets.reshaped())
+                                          : pack_offsets<Dim>(weights, rest, center)}};
 }
 
 template <int Dim>
@@ -180,7 +183,7 @@ Json to_json(const PageContent<Dim>& content) {
               {"weights", content.weights_file},
               {"cage", content.cage_file}}},
             {"cage", pack_cage(content.cage)},
-            {"points", pack_points<Dim>(weights, content.cage.points)},
+            {"points", pack_points(content, weights)},
             {"weights", pack_weights(weights)},
             {"palette", pack_palette()},
             {"picture", content.picture}};

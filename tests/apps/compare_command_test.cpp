@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// flbc compare, and flbc solve with methods that need no mesh.
+// flbc compare, and other commands with kinds of coordinates for comparison.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -21,13 +21,16 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
            " --pose " + sample(name + "_cage.obj") + " -q --vertices 800 -o " + folder);
     const auto report = nlohmann::json::parse(slurp(folder + "/table.json"));
     const auto& columns = report["columns"];
-    EXPECT_EQ(columns.size(), dim == "2d" ? 7U : 6U);
+    EXPECT_EQ(columns.size(), dim == "2d" ? 9U : 8U);
     for (const auto& [method, facts] : columns.items()) {
       EXPECT_LT(facts["sum_error"], 1e-12) << method;
-      EXPECT_LT(facts["reproduction_error"], 1e-11) << method;
+      const double reproduction = facts["reproduction_error"];
+      EXPECT_EQ(reproduction > 1e-3, method == "bbw") << method;
+      EXPECT_EQ(reproduction > 1e-11, method == "bbw") << method;
       // Harmonic coordinates may be negative on a coarse mesh.
       if (method != "harmonic") {
-        EXPECT_EQ(facts["min_weight"] < 0, method == "meanvalue") << method;
+        const bool has_negative = method == "meanvalue" || method == "green";
+        EXPECT_EQ(facts["min_weight"] < 0, has_negative) << method;
       }
     }
     EXPECT_LT(columns["local"]["influences"], columns["harmonic"]["influences"]);
@@ -39,6 +42,34 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
   }
 }
 
+TEST_F(CompareCommand, TheMeshWithoutAModelHasTheRowOfCheck) {
+  const auto folder = path("compared");
+  const auto cage = sample("2d/figure_cage.obj");
+  expect("compare " + cage + " -q --vertices 500 --methods local,meanvalue -o " + folder);
+  const auto columns = nlohmann::json::parse(slurp(folder + "/table.json"))["columns"];
+  for (const std::string name : {"local", "local_smooth", "meanvalue"}) {
+    expect("check " + cage + " --domain " + folder + "/domain.obj --weights " + folder +
+           "/weights_" + name + ".npy --json " + path("check.json"));
+    const auto properties =
+        nlohmann::json::parse(slurp(path("check.json")))["weights"]["properties"];
+    EXPECT_EQ(properties.size(), 7U);
+    for (const auto& [key, value] : properties.items()) {
+      EXPECT_NEAR(value.get<double>(), columns[name][key].get<double>(), 1e-9) << name << key;
+    }
+  }
+}
+
+TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
+  const auto folder = path("compared");
+  const auto compare = "compare " + sample("2d/figure_cage.obj") +
+                       " -q --vertices 300 --methods meanvalue -o " + folder;
+  expect(compare);
+  expect(compare);
+  std::filesystem::remove(folder + "/table.json");
+  expect(compare, 1, "--force");
+  expect(compare + " --force");
+}
+
 TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   const auto folder = path("compared");
   expect("compare " + sample("3d/limb_cage.obj") +
@@ -47,6 +78,27 @@ TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   EXPECT_EQ(report["columns"].size(), 1U);
   EXPECT_NE(report["failures"]["blended"].get<std::string>().find("in 2D"), std::string::npos);
   EXPECT_NE(slurp(folder + "/table.txt").find("blended failed: "), std::string::npos);
+}
+
+TEST_F(CompareCommand, GreenCoordinatesAndBiharmonicWeightsDeformModels) {
+  const auto cage = sample("2d/figure_cage.obj");
+  const auto model = sample("2d/figure_model.obj");
+  const auto deform = "deform " + model + " -q --rest " + cage + " --pose " + cage + " -o " +
+                      path("moved.obj") + " --displacement " + path("lengths.csv");
+  expect("solve " + cage + " -q --vertices 500 --method bbw --model " + model + " -o " +
+         path("bbw.npy"));
+  const auto relative = " --relative --weights " + path("bbw.npy");
+  for (const std::string& way : {std::string(" --method green"), relative}) {
+    expect(deform + way);
+    EXPECT_LT(io::read_weights(path("lengths.csv")).maxCoeff(), 1e-10) << way;
+  }
+  expect(deform + " --weights " + path("bbw.npy"), 2, "--relative");
+  expect(deform, 1, "--method green");
+  expect("deform " + model + " --method green --pose " + cage + " -o " + path("m.obj"), 1,
+         "--rest");
+  expect("solve " + cage + " --method green -o " + path("w.npy"), 1, "flbc deform --method green");
+  expect("run " + cage + " --method green -o " + path("run"), 1, "flbc deform --method green");
+  expect("run " + cage + " --method bbw -o " + path("run"), 1, "flbc deform --relative");
 }
 
 TEST_F(CompareCommand, SolvesWithoutAMeshAsOnTheVerticesThemselves) {

@@ -41,6 +41,28 @@ function hookOf(viewer) {
   };
 }
 
+// Lets a page around this one, such as that of flbc compare, take control points and camera from
+// one page to the next.
+function answerPageAround(viewer) {
+  const { editor, camera } = viewer;
+  const around = window.parent;
+  if (around === window) return;
+  window.addEventListener("message", ({ data, source }) => {
+    if (source !== around || !data) return;
+    if (data.ask === "state") {
+      const { yaw, pitch, target, halfHeight, basis } = camera;
+      around.postMessage({ points: editor.points,
+                           view: { yaw, pitch, target, halfHeight, basis } }, "*");
+    } else if (data.points && data.points.length === editor.points.length) {
+      Object.assign(camera, data.view);
+      editor.begin();
+      editor.setPoints(data.points);
+      editor.end();
+    }
+  });
+  around.postMessage({ ask: "state" }, "*");
+}
+
 function start() {
   const json = JSON.parse(document.getElementById("content").textContent);
   const canvas = document.getElementById("canvas");
@@ -67,6 +89,7 @@ function start() {
   new ResizeObserver(() => viewer.redraw()).observe(canvas);
   window.flbc = hookOf(viewer);
   viewer.changed();
+  answerPageAround(viewer);
 }
 
 start();

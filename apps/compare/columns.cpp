@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kinds of coordinates of flbc compare: names, weights, and properties.
+#include <chrono>
+#include <iostream>
+
+#include "compare/comparison.h"
+#include "files/load.h"
+#include "flbc/check.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/io/mesh_io.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/names.h"
+#include "flbc/pointwise.h"
+#include "flbc/solver.h"
+#include "help/wording.h"
+#include "report/properties.h"
+#include "solve/cage_solver.h"
+#include "solve/make_domain.h"
+#include "solve/progress_bar.h"
+
+namespace flbc::app {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int Dim>
+void make_domain(Comparison<Dim>& all) {
+  const auto& arguments = all.arguments;
+  SolveSettings settings;
+  settings.cage = arguments.cage;
+  settings.model = arguments.model;
+  settings.vertices = arguments.vertices;
+  settings.meshing = arguments.meshing;
+  settings.needs_domain = true;
+  const PointList<Dim> model = all.shape.points;
+  CageSolver<Dim> solver(all.cage, model, settings);
+  solver.make_domain(arguments.quiet);
+  all.domain = solver.domain();
+  all.made_by = solver.mesher();
+  all.placement = solver.placement();
+  if (arguments.model.empty()) all.shape = shape_of(all.domain);
+  all.folder.add(domain_file<Dim>(), "",
+                 [&](const std::string& path) { io::write_domain(path, all.domain); });
+}
+
+template <int Dim>
+WeightMatrix weights_of_mesh(const Comparison<Dim>& all, const SolverOptions& options) {
+  if (is_pointwise(options.method)) {
+    return pointwise_coordinates(all.cage, all.domain.points, options.method);
+  }
+  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", options);
+  Observer observer;
+  observer.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    return true;
+  };
+  return solve(all.cage, all.domain, options, coarse_mesher<Dim>(all.made_by), observer).weights;
+}
+
+template <int Dim>
+SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& column) {
+  if (all.arguments.model.empty()) return SparseWeights(column.of_mesh);
+  if (is_pointwise(column.options.method)) {
+    return pointwise_coordinates(all.cage, all.placement, column.options);
+  }
+  return weights_at(all.cage, all.domain, SparseWeights(column.of_mesh), all.placement);
+}
+
+template <int Dim>
+void solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
+  const auto n = all.cage.size();
+  const auto of_mesh = by_green_coordinates(all.cage, all.domain.points);
+  column.of_mesh = of_mesh.weights.dense().topRows(n);
+  column.moved =
+      all.arguments.model.empty() ? of_mesh : by_green_coordinates(all.cage, all.placement.points);
+  column.rows = SparseWeights(column.moved.weights.dense().topRows(n));
+}
+
+// What holds for the deformation, of which weights of control points are only a part.
+template <int Dim>
+double reproduction_error(const Comparison<Dim>& all, const MovedBy<Dim>& moved) {
+  const auto rest = deform<Dim>(moved.weights, moved.vectors(all.cage.points));
+  return displacements<Dim>(all.points(), rest).maxCoeff() / bounding_box_diagonal(all.cage.points);
+}
+
+template <int Dim>
+void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
+  column.facts = {{"method", name_of(resolve(column.options).method)},
+                  {"smoothness", column.options.smoothness.value_or(0)}};
+  column.facts.update(properties_of(check_weights(all.cage, all.domain, column.of_mesh)));
+  if (column.has_normals()) {
+    column.facts["reproduction_error"] = reproduction_error(all, column.moved);
+  }
+  constexpr int kFrames = 5;
+  const auto& pose = all.pose.cols() > 0 ? all.pose : all.cage.points;
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < kFrames; ++k) deform<Dim>(column.moved.weights, column.moved.vectors(pose));
+  column.facts["seconds"] = seconds;
+  column.facts["seconds_per_frame"] = seconds_since(start) / kFrames;
+}
+
+template <int Dim>
+void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
+  const auto start = std::chrono::steady_clock::now();
+  if (column.has_normals()) {
+    solve_green(all, column);
+    return measure(all, seconds_since(start), column);
+  }
+  column.of_mesh = weights_of_mesh(all, column.options);
+  const double seconds = seconds_since(start);
+  column.rows = weights_of_shape(all, column);
+  column.moved = column.options.method == Method::kBiharmonic
+                     ? by_displacements(column.rows, all.cage.points, all.points())
+                     : by_control_points<Dim>(column.rows);
+  measure(all, seconds, column);
+}
+
+}  // namespace
+
+std::vector<std::string> comparable_methods() {
+  return {kLocal,       "harmonic",      "bbw",   "meanvalue",
+          "maxentropy", "maxlikelihood", "green", "blended"};
+}
+
+template <int Dim>
+std::vector<Column<Dim>> columns_of(std::vector<std::string> methods) {
+  if (methods.empty()) {
+    methods = comparable_methods();
+    if (Dim == 3) methods.pop_back();
+  }
+  std::vector<Column<Dim>> columns;
+  for (const auto& method : methods) {
+    Column<Dim> column{method};
+    if (method != kLocal) {
+      column.options.method = *value_named<Method>(method);
+      columns.push_back(column);
+      continue;
+    }
+    column.options.smoothness = 0;
+    columns.push_back(column);
+    column.name = "local_smooth";
+    column.options.smoothness = kDeformationSmoothness;
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+template <int Dim>
+void solve_columns(Comparison<Dim>& all) {
+  make_domain(all);
+  for (auto& column : all.columns) {
+    if (!all.arguments.quiet) std::cerr << "flbc: " << column.name << '\n';
+    try {
+      naming(all.arguments.cage, [&] { solve_column(all, column); });
+    } catch (const Error& error) {
+      column.failure = in_words_of_program(error.what());
+      continue;
+    }
+    if (column.has_normals()) continue;
+    all.folder.add(column.weights_file(), "",
+                   [&](const std::string& path) { io::write_weights(path, column.rows); });
+  }
+  if (all.succeeded().empty()) {
+    throw InputError(all.arguments.cage +
+                     ": all methods failed; the first one: " + all.columns.front().failure);
+  }
+}
+
+#define FLBC_INSTANTIATE(Dim)                                             \
+  template std::vector<Column<Dim>> columns_of(std::vector<std::string>); \
+  template void solve_columns(Comparison<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! What flbc compare compares: kinds of coordinates of one cage.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "flbc/meshing.h"
+#include "flbc/options.h"
+#include "poses/moved_by.h"
+#include "run/folder.h"
+#include "run/inputs.h"
+
+namespace flbc::app {
+
+constexpr const char* kLocal = "local";
+constexpr const char* kComparisonReport = "table.json";
+
+struct CompareArguments {
+  std::string cage, model, pose, output;
+  std::vector<std::string> methods;
+  Index vertices = 0;
+  Index control_point = -1;
+  MesherSettings meshing{};
+  std::string pictures = "png";
+  bool force = false;
+  bool quiet = false;
+};
+
+//! A kind of coordinates with its results.
+template <int Dim>
+struct Column {
+  std::string name;  //!< also in names of files
+  SolverOptions options{};
+  std::string failure{};      //!< if there are no results
+  Eigen::MatrixXd of_mesh{};  //!< weights of the control points, n x V
+  SparseWeights rows{};       //!< the same of the shape's points
+  MovedBy<Dim> moved{};       //!< how they move
+  nlohmann::ordered_json facts{};
+
+  std::string weights_file() const { return "weights_" + name + ".npy"; }
+  std::string page_file() const { return "model_" + name + ".html"; }
+  //! Green coordinates have further weights, which files and pages have no room for.
+  bool has_normals() const { return options.method == Method::kGreen; }
+};
+
+//! What is compared, and where it goes.
+template <int Dim>
+struct Comparison {
+  const CompareArguments& arguments;
+  const Cage<Dim>& cage;
+  RunFolder& folder;
+  Shape<Dim> shape{};     //!< a model, or the mesh
+  PointList<Dim> pose{};  //!< of the control points; empty without one
+  DomainMesh<Dim> domain{};
+  Mesher made_by = Mesher::kGiven;  //!< the mesh
+  Placement<Dim> placement{};       //!< of the model's points; empty without one
+  std::vector<Column<Dim>> columns{};
+  Index control_point = 0;  //!< that is drawn
+
+  //! The shape's points. Points of a model beside the cage are where their weights put them.
+  const PointList<Dim>& points() const {
+    return arguments.model.empty() ? domain.points : placement.points;
+  }
+  std::vector<const Column<Dim>*> succeeded() const {
+    std::vector<const Column<Dim>*> some;
+    for (const auto& column : columns) {
+      if (column.failure.empty()) some.push_back(&column);
+    }
+    return some;
+  }
+};
+
+//! The names of --methods, as they are given.
+std::vector<std::string> comparable_methods();
+
+//! A column for each method, but two for local coordinates: of smoothness 0 and of the default for
+//! models. \param methods  empty for all
+template <int Dim>
+std::vector<Column<Dim>> columns_of(std::vector<std::string> methods);
+
+//! Makes the mesh, finds the model in it, and computes all columns. A column that fails keeps the
+//! reason. \throws InputError if all fail, or if there is no mesh
+template <int Dim>
+void solve_columns(Comparison<Dim>& all);
+
+//! Draws one function by all methods, and the pose by all methods.
+template <int Dim>
+void draw_grids(Comparison<Dim>& all);
+
+//! Writes a page for dragging by each method.
+template <int Dim>
+void write_viewers(Comparison<Dim>& all);
+
+//! The page that shows the table and the pictures, and switches between the pages for dragging.
+//! \param pictures  names of files
+template <int Dim>
+std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::string>& pictures);
+
+//! The table as text, with the reasons of failures.
+template <int Dim>
+std::string comparison_text(const Comparison<Dim>& all);
+
+//! Names of the pictures, in the format of the arguments.
+std::vector<std::string> names_of_grids(const CompareArguments& arguments);
+
+}  // namespace flbc::app

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pictures of flbc compare: a panel for each kind of coordinates.
+#include "compare/comparison.h"
+#include "draw/model_picture.h"
+#include "draw/plane_picture.h"
+#include "draw/view.h"
+#include "flbc/deform.h"
+#include "view/model_page.h"
+
+namespace flbc::app {
+namespace {
+
+template <int Dim>
+PointList<Dim> posed_points(const Comparison<Dim>& all, const Column<Dim>& column) {
+  return deform<Dim>(column.moved.weights, column.moved.vectors(all.pose));
+}
+
+draw::WeightPictureOptions options_of(const CompareArguments& arguments) {
+  draw::WeightPictureOptions options;
+  options.width = 1800;
+  options.format = draw::picture_format("picture." + arguments.pictures);
+  return options;
+}
+
+// \param posed  in the pose instead of one function
+std::string grid(const Comparison<2>& all, bool posed) {
+  const auto triangles = gltf::triangles_of_points(all.shape.surface);
+  std::vector<draw::PlanePanel> panels;
+  for (const auto* column : all.succeeded()) {
+    if (posed) {
+      panels.push_back({column->name, {all.pose, posed_points(all, *column)}, {}});
+    } else {
+      panels.push_back({column->name,
+                        {all.cage.points, all.domain.points},
+                        column->of_mesh.row(all.control_point)});
+    }
+  }
+  return draw::draw_panels(all.cage.facets, posed ? triangles : all.domain.cells, panels,
+                           all.shape.points, all.control_point, options_of(all.arguments));
+}
+
+std::string grid(const Comparison<3>& all, bool posed) {
+  std::vector<draw::ModelPanel> panels;
+  for (const auto* column : all.succeeded()) {
+    if (posed) {
+      panels.push_back({column->name, {all.pose, posed_points(all, *column)}, {}});
+    } else {
+      panels.push_back({column->name,
+                        {all.cage.points, all.points()},
+                        column->rows.dense().row(all.control_point)});
+    }
+  }
+  return draw::draw_panels(
+      {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
+      panels, all.control_point, draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
+      options_of(all.arguments));
+}
+
+// The one that moves most, or else the one with the largest sum of weights.
+template <int Dim>
+Index choose_control_point(const Comparison<Dim>& all) {
+  if (all.arguments.control_point >= 0) return all.arguments.control_point;
+  Eigen::VectorXd moved = all.succeeded().front()->rows.dense().rowwise().sum();
+  if (all.pose.cols() > 0) {
+    const Eigen::VectorXd lengths = displacements<Dim>(all.cage.points, all.pose);
+    if (lengths.maxCoeff() > 0) moved = moved.cwiseProduct(lengths);
+  }
+  Eigen::Index chosen = 0;
+  moved.maxCoeff(&chosen);
+  return static_cast<Index>(chosen);
+}
+
+}  // namespace
+
+std::vector<std::string> names_of_grids(const CompareArguments& arguments) {
+  return {"functions." + arguments.pictures, "poses." + arguments.pictures};
+}
+
+template <int Dim>
+void draw_grids(Comparison<Dim>& all) {
+  all.control_point = choose_control_point(all);
+  const auto names = names_of_grids(all.arguments);
+  const bool has_surface = all.shape.surface.triangles.cols() > 0;
+  // On the boundary of a mesh in 3D, all functions are the same.
+  const bool shows_functions = Dim == 2 || (has_surface && !all.arguments.model.empty());
+  if (shows_functions) all.folder.add_text(names[0], "one coordinate function", grid(all, false));
+  if (all.pose.cols() > 0 && has_surface)
+    all.folder.add_text(names[1], "the pose", grid(all, true));
+}
+
+template void draw_grids(Comparison<2>&);
+template void draw_grids(Comparison<3>&);
+
+}  // namespace flbc::app

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/properties.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "report/facts.h"
+
+namespace flbc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::pair<const char*, const char*> kHeadings[] = {
+    {"influences", "influences, mean"},
+    {"min_weight", "smallest weight"},
+    {"sum_error", "sum - 1"},
+    {"reproduction_error", "reproduction error"},
+    {"local_extrema", "local extrema"},
+    {"deepest_extremum", "depth of extrema"},
+    {"gradient_jump", "gradient jump"},
+    {"seconds", "seconds"},
+    {"seconds_per_frame", "seconds per frame"}};
+
+std::string cell_of(const Json& properties, const char* key) {
+  if (!properties.contains(key)) return "-";
+  const auto& value = properties[key];
+  Facts text;
+  value.is_number_integer() ? text << value.get<std::int64_t>() : text << value.get<double>();
+  return text.text();
+}
+
+}  // namespace
+
+template <int Dim>
+Json properties_of(const WeightCheck<Dim>& check) {
+  Json properties{{"influences", check.quality.mean_influences},
+                  {"min_weight", check.min_weight.value},
+                  {"sum_error", check.partition.value},
+                  {"reproduction_error", check.reproduction.value}};
+  if (!check.mesh) return properties;
+  const auto& mesh = *check.mesh;
+  std::int64_t extrema = 0;
+  for (const auto* numbers : {&mesh.local_minima, &mesh.local_maxima}) {
+    extrema = std::accumulate(numbers->begin(), numbers->end(), extrema);
+  }
+  properties["local_extrema"] = extrema;
+  properties["deepest_extremum"] = std::max(mesh.deepest_minimum.value, mesh.highest_maximum.value);
+  properties["gradient_jump"] = mesh.gradient_jump;
+  return properties;
+}
+
+TextTable property_table(const std::vector<std::pair<std::string, Json>>& properties) {
+  TextTable table{{"coordinates"}};
+  for (const auto& [name, values] : properties) table.push_back({name});
+  for (const auto& [key, heading] : kHeadings) {
+    const bool is_known = std::any_of(properties.begin(), properties.end(),
+                                      [k = key](const auto& p) { return p.second.contains(k); });
+    if (!is_known) continue;
+    table[0].emplace_back(heading);
+    for (std::size_t k = 0; k < properties.size(); ++k) {
+      table[k + 1].push_back(cell_of(properties[k].second, key));
+    }
+  }
+  return table;
+}
+
+std::string to_text(const TextTable& table) {
+  std::string text;
+  for (const auto& row : table) {
+    std::string line;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      std::size_t width = 0;
+      for (const auto& other : table) width = std::max(width, other[k].size());
+      line += row[k] + std::string(width + 2 - row[k].size(), ' ');
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+template Json properties_of(const WeightCheck<2>&);
+template Json properties_of(const WeightCheck<3>&);
+
+}  // namespace flbc::app
