@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kinds of coordinates of flbc compare: names, weights, and properties.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
@@ -21,6 +22,19 @@
 
 namespace flbc::app {
 namespace {
+
+constexpr const char* kLocal = "local";
+constexpr const char* kBlended = "blended";
+
+// In the order of the table, with their titles in pictures.
+constexpr std::pair<const char*, const char*> kMethods[] = {{kLocal, "local"},
+                                                            {"harmonic", "harmonic"},
+                                                            {"bbw", "bounded biharmonic"},
+                                                            {"meanvalue", "mean value"},
+                                                            {"maxentropy", "maximum entropy"},
+                                                            {"maxlikelihood", "maximum likelihood"},
+                                                            {"green", "Green"},
+                                                            {kBlended, "blended"}};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -121,27 +135,28 @@ void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
 }  // namespace
 
 std::vector<std::string> comparable_methods() {
-  return {kLocal,       "harmonic",      "bbw",   "meanvalue",
-          "maxentropy", "maxlikelihood", "green", "blended"};
+  std::vector<std::string> names;
+  for (const auto& [name, title] : kMethods) names.emplace_back(name);
+  return names;
 }
 
 template <int Dim>
-std::vector<Column<Dim>> columns_of(std::vector<std::string> methods) {
-  if (methods.empty()) {
-    methods = comparable_methods();
-    if (Dim == 3) methods.pop_back();
-  }
+std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods) {
   std::vector<Column<Dim>> columns;
-  for (const auto& method : methods) {
-    Column<Dim> column{method};
-    if (method != kLocal) {
-      column.options.method = *value_named<Method>(method);
+  for (const auto& [name, title] : kMethods) {
+    const bool is_given = std::count(methods.begin(), methods.end(), name) > 0;
+    const bool is_possible = Dim == 2 || name != std::string(kBlended);
+    if (!(methods.empty() ? is_possible : is_given)) continue;
+    Column<Dim> column{name, title};
+    if (name != std::string(kLocal)) {
+      column.options.method = *value_named<Method>(name);
       columns.push_back(column);
       continue;
     }
     column.options.smoothness = 0;
     columns.push_back(column);
     column.name = "local_smooth";
+    column.title = "local, smooth";
     column.options.smoothness = kDeformationSmoothness;
     columns.push_back(column);
   }
@@ -169,8 +184,8 @@ void solve_columns(Comparison<Dim>& all) {
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)                                             \
-  template std::vector<Column<Dim>> columns_of(std::vector<std::string>); \
+#define FLBC_INSTANTIATE(Dim)                                                    \
+  template std::vector<Column<Dim>> columns_of(const std::vector<std::string>&); \
   template void solve_columns(Comparison<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -15,7 +15,6 @@
 
 namespace flbc::app {
 
-constexpr const char* kLocal = "local";
 constexpr const char* kComparisonReport = "table.json";
 
 struct CompareArguments {
@@ -32,7 +31,8 @@ struct CompareArguments {
 //! A kind of coordinates with its results.
 template <int Dim>
 struct Column {
-  std::string name;  //!< also in names of files
+  std::string name;   //!< also in names of files
+  std::string title;  //!< in pictures
   SolverOptions options{};
   std::string failure{};      //!< if there are no results
   Eigen::MatrixXd of_mesh{};  //!< weights of the control points, n x V
@@ -79,7 +79,7 @@ std::vector<std::string> comparable_methods();
 //! A column for each method, but two for local coordinates: of smoothness 0 and of the default for
 //! models. \param methods  empty for all
 template <int Dim>
-std::vector<Column<Dim>> columns_of(std::vector<std::string> methods);
+std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods);
 
 //! Makes the mesh, finds the model in it, and computes all columns. A column that fails keeps the
 //! reason. \throws InputError if all fail, or if there is no mesh

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures of flbc compare: a panel for each kind of coordinates.
+#include <algorithm>
+
 #include "compare/comparison.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
@@ -28,9 +30,9 @@ std::string grid(const Comparison<2>& all, bool posed) {
   std::vector<draw::PlanePanel> panels;
   for (const auto* column : all.succeeded()) {
     if (posed) {
-      panels.push_back({column->name, {all.pose, posed_points(all, *column)}, {}});
+      panels.push_back({column->title, {all.pose, posed_points(all, *column)}, {}});
     } else {
-      panels.push_back({column->name,
+      panels.push_back({column->title,
                         {all.cage.points, all.domain.points},
                         column->of_mesh.row(all.control_point)});
     }
@@ -39,21 +41,28 @@ std::string grid(const Comparison<2>& all, bool posed) {
                            all.shape.points, all.control_point, options_of(all.arguments));
 }
 
+// The poses are colored by how far they are from rest, relative to the farthest of all.
 std::string grid(const Comparison<3>& all, bool posed) {
   std::vector<draw::ModelPanel> panels;
+  double farthest = 0;
   for (const auto* column : all.succeeded()) {
+    draw::ModelPanel panel{column->title,
+                           {all.cage.points, all.points()},
+                           column->rows.dense().row(all.control_point)};
     if (posed) {
-      panels.push_back({column->name, {all.pose, posed_points(all, *column)}, {}});
-    } else {
-      panels.push_back({column->name,
-                        {all.cage.points, all.points()},
-                        column->rows.dense().row(all.control_point)});
+      panel.place = {all.pose, posed_points(all, *column)};
+      panel.values = displacements<3>(all.points(), panel.place.points);
+      farthest = std::max(farthest, panel.values.maxCoeff());
     }
+    panels.push_back(std::move(panel));
+  }
+  if (farthest > 0) {
+    for (auto& panel : panels) panel.values /= farthest;
   }
   return draw::draw_panels(
       {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
-      panels, all.control_point, draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
-      options_of(all.arguments));
+      panels, posed ? -1 : all.control_point,
+      draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation), options_of(all.arguments));
 }
 
 // The one that moves most, or else the one with the largest sum of weights.
@@ -85,7 +94,7 @@ void draw_grids(Comparison<Dim>& all) {
   const bool shows_functions = Dim == 2 || (has_surface && !all.arguments.model.empty());
   if (shows_functions) all.folder.add_text(names[0], "one coordinate function", grid(all, false));
   if (all.pose.cols() > 0 && has_surface)
-    all.folder.add_text(names[1], "the pose", grid(all, true));
+    all.folder.add_text(names[1], "the pose; in 3D, colors show displacements", grid(all, true));
 }
 
 template void draw_grids(Comparison<2>&);

@@ -64,10 +64,24 @@ PictureLayout plan_picture(const Box& content, const WeightPictureOptions& optio
   return layout;
 }
 
+namespace {
+
+// For a sheet of about 4:3; one more or less if that leaves fewer gaps in the last row.
+int columns_of_sheet(double aspect, int count) {
+  const int usual =
+      std::clamp(static_cast<int>(std::lround(std::sqrt(4.0 / 3 * aspect * count))), 1, count);
+  const auto gaps = [&](int columns) { return (columns - count % columns) % columns; };
+  for (const int columns : {usual + 1, usual - 1}) {
+    if (columns >= 1 && columns <= count && gaps(columns) < gaps(usual)) return columns;
+  }
+  return usual;
+}
+
+}  // namespace
+
 SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options) {
   const double aspect = std::clamp(content.size().y() / content.size().x(), 0.2, 5.0);
-  const int columns =
-      std::clamp(static_cast<int>(std::lround(std::sqrt(4.0 / 3 * aspect * count))), 1, count);
+  const int columns = columns_of_sheet(aspect, count);
   const int rows = (count + columns - 1) / columns;
   const double unit = pixel_unit(options);
   const double margin = 26 * unit;

@@ -62,8 +62,12 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
   command.option_defaults()->group("Solver");
-  add_choice(command, "--method", options.method,
-             "solver method (default: auto, which is value, the weight-splitting ADMM)");
+  auto* method =
+      add_choice(command, "--method", options.method,
+                 "solver method (default: auto, which is value, the weight-splitting ADMM)");
+  // Green coordinates are refused with the reason, so help does not offer them.
+  const auto offered = method->get_type_name();
+  method->type_name(offered.substr(0, offered.find("|green")));
   command.add_option("--smoothness", options.smoothness,
                      "remove kinks of the weights at the cost of more influences: 0 (none) to 0.03 "
                      "(default: 0; flbc run: 0.003)");
