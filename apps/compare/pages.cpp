@@ -113,8 +113,8 @@ template <int Dim>
 std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::string>& pictures) {
   std::ostringstream page;
   const auto title = "Coordinates of " + io::escaped(all.arguments.cage);
-  page << "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>" << title
-       << "</title>\n"
+  page << "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n"
+       << "<link rel=\"icon\" href=\"data:,\"><title>" << title << "</title>\n"
        << "<style>body{font:15px sans-serif;margin:2em}table{border-collapse:collapse}"
        << "td,th{border:1px solid #999;padding:4px 8px;text-align:right}"
        << "td:first-child{text-align:left}img{max-width:100%}"
