@@ -2,6 +2,7 @@
 // The table that flbc check prints.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -195,7 +196,8 @@ void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
              place(check.influences));
   if (check.mesh) print_on_mesh(out, *check.mesh, check.quality);
   out << "As in the table of flbc compare:\n"
-      << to_text(property_table({{report.weights_file, properties_of(check)}}));
+      << to_text(property_table({{std::filesystem::path(report.weights_file).filename().string(),
+                                  properties_of(check)}}));
 }
 
 void print_creases(std::ostream& out, const CreaseCheck& creases) {

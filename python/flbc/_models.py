@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequenc
 import numpy as np
 
 from . import _core
-from ._errors import InputError
+from ._errors import InputError, OptionError
 from ._shapes import Cage, as_cage, as_points, as_polygons, edges_of
 from ._solve import SolverOptions, checked, evaluate, mesh, solve, with_options
 from ._weights import as_poses, as_weights, corners_of, deform, measure, sparsify
@@ -232,6 +232,11 @@ def bind(
     """
     given = checked(options, "bind")
     given["sparse"] = True
+    if given.get("method") == "bbw":
+        raise OptionError(
+            "method 'bbw': a binding needs weights that reproduce the model, which bounded "
+            "biharmonic weights do not; choose another method"
+        )
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
     points = as_points(vertices, "vertices", cage.dim)
     if len(points) == 0:

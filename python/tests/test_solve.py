@@ -80,6 +80,8 @@ def test_bounded_biharmonic_weights_are_bounded_and_do_not_reproduce(flat):
     assert weights.min() >= 0 and weights.max() <= 1
     assert abs(weights.sum(axis=1) - 1).max() < 1e-13
     assert abs(flbc.deform(weights, flat.cage.points) - flat.mesh.points).max() > 1e-3
+    with pytest.raises(flbc.OptionError, match="reproduce the model"):
+        flbc.bind(flat.mesh.points, None, flat.cage, method="bbw")
 
 
 def test_green_coordinates_are_refused(flat):
