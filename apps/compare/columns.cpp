@@ -9,6 +9,7 @@
 #include "flbc/check.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/green.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
@@ -83,14 +84,17 @@ SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& co
   return weights_at(all.cage, all.domain, SparseWeights(column.of_mesh), all.placement);
 }
 
+// \return seconds for the vertices of the mesh
 template <int Dim>
-void solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
+double solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto n = all.cage.size();
-  const auto of_mesh = by_green_coordinates(all.cage, all.domain.points);
-  column.of_mesh = of_mesh.weights.dense().topRows(n);
-  column.moved =
-      all.arguments.model.empty() ? of_mesh : by_green_coordinates(all.cage, all.placement.points);
+  const auto start = std::chrono::steady_clock::now();
+  const auto of_mesh = green_coordinates(all.cage, all.domain.points);
+  const double seconds = seconds_since(start);
+  column.of_mesh = of_mesh.topRows(n);
+  column.moved = by_green_coordinates(all.cage, all.points());
   column.rows = SparseWeights(column.moved.weights.dense().topRows(n));
+  return seconds;
 }
 
 // What holds for the deformation, of which weights of control points are only a part.
@@ -118,11 +122,8 @@ void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
 
 template <int Dim>
 void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
+  if (column.has_normals()) return measure(all, solve_green(all, column), column);
   const auto start = std::chrono::steady_clock::now();
-  if (column.has_normals()) {
-    solve_green(all, column);
-    return measure(all, seconds_since(start), column);
-  }
   column.of_mesh = weights_of_mesh(all, column.options);
   const double seconds = seconds_since(start);
   column.rows = weights_of_shape(all, column);
