@@ -16,8 +16,8 @@ namespace flbc {
 //! As in the paper, L has rows for boundary vertices, which keep derivatives normal to the cage
 //! small. Without these rows, harmonic coordinates would have zero energy.
 //! \param problem  mesh and boundary values
-//! \return n x V, each column sums to 1; accurate to about 1e-4. The result does not depend on the
-//! number of threads
+//! \return n x V, each column sums to 1; accurate to 3e-6 on average and 1e-3 at a single vertex,
+//! measured on models. The result does not depend on the number of threads
 //! \throws SolverError if a linear system cannot be factored, or if the iteration does not converge
 template <int Dim>
 WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>& problem);
