@@ -28,6 +28,11 @@ def new_scene():
     return model, cage
 
 
+def add_pose(cage):
+    cage.shape_key_add(name='Basis', from_mix=False)
+    cage.shape_key_add(name='Pose', from_mix=False).value = 1
+
+
 def posed(cage, points):
     """Seconds until Blender has the model for this pose."""
     start = time.perf_counter()
@@ -69,10 +74,26 @@ def bound_by_addon(quality, influences, binds):
           f'{(weights > 1e-3).sum(1).mean():.1f} influences above 1e-3')
 
 
+def bound_by_nothing():
+    """What a frame takes without weights: the mesh is copied and gets normals."""
+    from local_barycentric_cage import compat
+    model, cage = new_scene()
+    add_pose(cage)
+    modifier = model.modifiers.new('cage', 'NODES')
+    modifier.node_group = group = bpy.data.node_groups.new('empty', 'GeometryNodeTree')
+    for add, name, kind in ((compat.add_input, 'Geometry', 'NodeSocketGeometry'),
+                            (compat.add_input, 'Cage', 'NodeSocketObject'),
+                            (compat.add_output, 'Geometry', 'NodeSocketGeometry')):
+        add(group, name, kind)
+    group.links.new(group.nodes.new('NodeGroupInput').outputs['Geometry'],
+                    group.nodes.new('NodeGroupOutput').inputs['Geometry'])
+    compat.set_input(modifier, 'Cage', cage)
+    print(f'empty node group: frame {measure(model, cage)[0]:.1f} ms')
+
+
 def bound_by_mesh_deform(precision):
     model, cage = new_scene()
-    cage.shape_key_add(name='Basis', from_mix=False)
-    cage.shape_key_add(name='Pose', from_mix=False).value = 1
+    add_pose(cage)
     modifier = model.modifiers.new('cage', 'MESH_DEFORM')
     modifier.object = cage
     modifier.precision = precision
@@ -85,6 +106,7 @@ def bound_by_mesh_deform(precision):
 
 
 print(f'{Path(MODEL).name}, Blender {bpy.app.version_string}')
+bound_by_nothing()
 for quality, influences, binds in (('DRAFT', '8', 5), ('GOOD', '8', 5), ('GOOD', '4', 5),
                                    ('EXACT', '8', 1)):
     bound_by_addon(quality, influences, binds)

@@ -49,12 +49,11 @@ class _Builder:
         return _socket(node.outputs, 'Vector')
 
 
-def _position_of(builder, geometry, index):
-    """The position of a point of a geometry."""
+def _sample(builder, geometry, value, index):
+    """A vector of a point of a geometry."""
     node = builder.node('GeometryNodeSampleIndex', data_type='FLOAT_VECTOR', domain='POINT')
     builder.link(geometry, node.inputs['Geometry'])
-    builder.link(builder.node('GeometryNodeInputPosition').outputs['Position'],
-                 _socket(node.inputs, 'Value'))
+    builder.link(value, _socket(node.inputs, 'Value'))
     builder.link(index, node.inputs['Index'])
     return _socket(node.outputs, 'Value')
 
@@ -76,18 +75,21 @@ def _fill(group, influences):
     info = builder.node('GeometryNodeObjectInfo', transform_space='RELATIVE')
     builder.link(inputs.outputs[CAGE], info.inputs['Object'])
     cage = info.outputs['Geometry']
+    # Times 1, because Blender 3.4 reads computed vectors faster than positions.
+    position = builder.vectors('SCALE',
+                               builder.node('GeometryNodeInputPosition').outputs['Position'])
     place = None
     for k in range(influences):
-        control_point = _position_of(builder, cage,
-                                     builder.attribute(mesh.index_name(k), 'INT'))
-        weight = builder.attribute(mesh.weight_name(k), 'FLOAT')
-        place = (builder.vectors('MULTIPLY_ADD', control_point, weight, place) if place
-                 else builder.vectors('MULTIPLY', control_point, weight))
+        # Not MULTIPLY_ADD, because it needs a vector of each weight.
+        part = builder.vectors('SCALE',
+                               _sample(builder, cage, position,
+                                       builder.attribute(mesh.index_name(k), 'INT')),
+                               builder.attribute(mesh.weight_name(k), 'FLOAT'))
+        place = builder.vectors('ADD', place, part) if place else part
     offset = builder.vectors('SUBTRACT', place, builder.attribute(mesh.REST, 'FLOAT_VECTOR'))
-    offset = builder.vectors('SCALE', offset,
-                             _has_count(builder, cage, inputs.outputs[COUNT]))
     move = builder.node('GeometryNodeSetPosition')
     builder.link(inputs.outputs['Geometry'], move.inputs['Geometry'])
+    builder.link(_has_count(builder, cage, inputs.outputs[COUNT]), move.inputs['Selection'])
     builder.link(offset, move.inputs['Offset'])
     builder.link(move.outputs['Geometry'], builder.node('NodeGroupOutput').inputs['Geometry'])
 
