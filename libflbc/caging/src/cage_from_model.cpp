@@ -15,6 +15,7 @@
 #include "base/messages.h"
 #include "caging/coarsening.h"
 #include "caging/enclosure.h"
+#include "caging/hull_volume.h"
 #include "caging/mirror_plane.h"
 #include "caging/simplified.h"
 #include "caging/solid_volume.h"
@@ -283,20 +284,25 @@ class Caging {
   }
 
   // As few control points as possible in a volume that is not much larger than that of the wrap. A
-  // compact model may have few; others need some to bend limbs.
+  // nearly convex model may have few; others need some to bend limbs.
   std::optional<ModelCage<3>> make_close(const WrapSize& size, double most_volume) const {
-    constexpr double kGrowth = 1.3, kFreeVolume = 2, kCompact = 0.5;
-    constexpr Index kLeast = 40, kLeastOfCompact = 8;
+    constexpr double kGrowth = 1.3, kFreeVolume = 2, kConvex = 0.65;
+    constexpr Index kLeast = 40, kLeastOfConvex = 8;
     const auto surface = wrap_of(size);
     const double volume = (plane_.is_there() ? 2 : 1) * signed_measure(surface);
     if (!(volume > 0 && volume <= most_volume)) return {};
     auto limits = limits_;
     limits.growth =
         std::min(std::max(kGrowth * volume, kFreeVolume * volume_), most_volume) / volume;
-    const bool is_compact = volume > kCompact * model_->box().volume();
-    const auto cage = reduced(surface, size.offset, is_compact ? kLeastOfCompact : kLeast, limits);
+    const bool is_convex = volume > kConvex * hull_volume(surface);
+    const auto cage = reduced(surface, size.offset, is_convex ? kLeastOfConvex : kLeast, limits);
     if (!cage) return {};
     return describe(*cage, size.offset);
+  }
+
+  double hull_volume(const Cage<3>& surface) const {
+    const auto whole = plane_.is_there() ? with_mirror_image(surface, plane_) : surface;
+    return flbc::hull_volume(whole.points);
   }
 
   // Half a surface needs no facets in the plane, because the origin is in it too.

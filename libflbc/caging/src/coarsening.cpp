@@ -123,10 +123,16 @@ std::vector<Vector<Dim>> Coarsening<Dim>::positions(const Quadric<Dim>& quadric,
 }
 
 template <int Dim>
+bool Coarsening<Dim>::allows(const Replacement<Dim>& change, const Vector<Dim>& position) const {
+  const double growth = this->growth(change, position);
+  return !(growth > 0 && measure_ + growth > most_) && check_.allows(change, position);
+}
+
+template <int Dim>
 std::optional<Vector<Dim>> Coarsening<Dim>::first_allowed(const Quadric<Dim>& quadric,
                                                           const Replacement<Dim>& change) const {
   for (const auto& position : positions(quadric, change)) {
-    if (check_.allows(change, position)) return position;
+    if (allows(change, position)) return position;
   }
   return {};
 }
@@ -158,7 +164,7 @@ bool Coarsening<Dim>::take(Candidate candidate) {
   if (!plan) return false;
   const auto change = replacement_of(*plan);
   const auto sum = quadric(candidate.a, candidate.b);
-  if (!candidate.is_tried || !check_.allows(change, candidate.position)) {
+  if (!candidate.is_tried || !allows(change, candidate.position)) {
     const auto position = first_allowed(sum, change);
     if (!position) return false;
     candidate.position = *position;
@@ -169,10 +175,7 @@ bool Coarsening<Dim>::take(Candidate candidate) {
       return false;
     }
   }
-  const double growth = this->growth(change, candidate.position);
-  is_full_ = growth > 0 && measure_ + growth > most_;
-  if (is_full_) return false;
-  measure_ += growth;
+  measure_ += growth(change, candidate.position);
   surface_.collapse(*plan, candidate.position);
   quadrics_[candidate.a] = sum;
   ++versions_[candidate.a];
@@ -185,7 +188,7 @@ template <int Dim>
 void Coarsening<Dim>::reduce_to(Index control_points, const std::function<void(double)>& progress) {
   const double first = num_control_points();
   bool has_progressed = true;
-  while (num_control_points() > control_points && has_progressed && !is_full_) {
+  while (num_control_points() > control_points && has_progressed) {
     has_progressed = false;
     candidates_ = {};
     for (Index a = 0; a < static_cast<Index>(versions_.size()); ++a) {
@@ -194,7 +197,7 @@ void Coarsening<Dim>::reduce_to(Index control_points, const std::function<void(d
         if (a < b) add_edge(a, b);
       }
     }
-    while (num_control_points() > control_points && !candidates_.empty() && !is_full_) {
+    while (num_control_points() > control_points && !candidates_.empty()) {
       const Candidate candidate = candidates_.top();
       candidates_.pop();
       if (!is_current(candidate) || !take(candidate)) continue;

@@ -108,6 +108,7 @@ class Coarsening {
   std::vector<Vector<Dim>> positions(const Quadric<Dim>& quadric,
                                      const Replacement<Dim>& change) const;
   Vector<Dim> outer_position(const Vector<Dim>& start, const Replacement<Dim>& change) const;
+  bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   std::optional<Vector<Dim>> first_allowed(const Quadric<Dim>& quadric,
                                            const Replacement<Dim>& change) const;
   bool is_current(const Candidate& candidate) const;
@@ -126,7 +127,6 @@ class Coarsening {
   std::priority_queue<Candidate> candidates_;
   double measure_ = 0;  // Dim! times the area or volume inside the closed surface or its half
   double most_;         // of this
-  bool is_full_ = false;
 };
 
 }  // namespace flbc
