@@ -6,8 +6,11 @@
 #include <string>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "flbc/quality.h"
+#include "solver/run/thread_choice.h"
 
 namespace flbc {
 namespace {
@@ -22,6 +25,17 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
                                                  : objective(problem, weights.dense));
   };
   return progress;
+}
+
+// Iterates with as many threads as the machine has cores to spare.
+template <int Dim>
+Step iterate(Iteration<Dim>& iteration, int count, bool measure, ThreadChoice& choice) {
+  const ThreadScope scope(choice.threads());
+  const double on_core = seconds_on_core();
+  Stopwatch watch;
+  const Step step = iteration.iterate(count, measure);
+  choice.note(count, watch.lap(), seconds_on_core() - on_core);
+  return step;
 }
 
 // Ends the run or reports progress. Sets status and criterion. \return whether to stop
@@ -66,12 +80,13 @@ bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport&
     if (to_make > 0) stop.not_before(report.iterations + to_make);
     return to_make > 0;
   };
+  ThreadChoice choice(omp_get_max_threads());
   stop.begin(iteration);
   if (report.iterations > 0) adapt(false);
   while (report.iterations < pause) {
     context.reporter.poll();
     const int count = stop.next(report.iterations);
-    const Step step = iteration.iterate(count, stop.wants_residuals());
+    const Step step = iterate(iteration, count, stop.wants_residuals(), choice);
     report.iterations += count;
     if (stop.judge(step, iteration, report)) {
       require_finite(std::isfinite(report.primal_residual) && std::isfinite(report.dual_residual),
