@@ -347,8 +347,9 @@ void add_deform_command(CLI::App& app, int&) {
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
-      "Points (.npy) and binary .ply files without normals may be of any size, with --domain:\n"
-      "they are moved in batches, and everything in the file except coordinates stays the same.\n"
+      "Points (.npy), binary .ply files without normals, and .vtu files with raw appended points\n"
+      "may be of any size, with --domain: they are moved in batches, and everything in the file\n"
+      "except coordinates stays the same.\n"
       "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
       "displacement of a control point from rest, in the order of the control points.");
   command

@@ -11,6 +11,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "mesh/vtu_points.h"
 #include "model/ply_reader.h"
 #include "text/text_reader.h"
 #include "weights/npy_header.h"
@@ -32,6 +33,12 @@ class PointInput {
     stream_.read(bytes, static_cast<std::streamsize>(count));
     if (stream_.bad()) fail(errno);
     return static_cast<std::size_t>(stream_.gcount());
+  }
+  // As read(), from a position; nothing after the end of the file.
+  std::size_t read_at(std::size_t position, char* bytes, std::size_t count) {
+    stream_.clear();
+    if (!stream_.seekg(static_cast<std::streamoff>(position))) return 0;
+    return read(bytes, count);
   }
 
  private:
@@ -81,6 +88,34 @@ std::optional<PointLayout> ply_layout(const std::string& path, const std::string
   return layout;
 }
 
+[[noreturn]] void fail_short(const std::string& path, std::int64_t count) {
+  throw InputError(path + ": the file is too short for " + std::to_string(count) + " points");
+}
+
+std::optional<PointLayout> vtu_layout(const std::string& path, const std::string& start,
+                                      PointInput& input) {
+  const auto points = find_vtu_points(path, start);
+  if (!points) return {};
+  const std::size_t width = points->is_double ? 8 : 4;
+  const PointLayout layout{points->block + points->size_width,
+                           3 * width,
+                           points->count,
+                           {0, width, 2 * width},
+                           points->is_double};
+  char bytes[8] = {};
+  if (input.read_at(points->block, bytes, points->size_width) != points->size_width) {
+    fail_short(path, layout.count);
+  }
+  std::uint64_t size;
+  std::memcpy(&size, bytes, sizeof size);
+  const auto expected = static_cast<std::uint64_t>(layout.count) * layout.stride;
+  if (size != expected) {
+    throw InputError(path + ": the block of points has " + std::to_string(size) + " bytes, not " +
+                     std::to_string(expected));
+  }
+  return layout;
+}
+
 template <class Scalar>
 double load_number(const char* bytes) {
   Scalar number;
@@ -98,16 +133,18 @@ void store_number(double value, char* bytes) {
 
 std::optional<PointLayout> find_point_layout(const std::string& path) {
   const auto extension = extension_of(path);
-  if (extension != "npy" && extension != "ply") return {};
+  if (extension != "npy" && extension != "ply" && extension != "vtu") return {};
+  PointInput input(path);
   std::string start(kMostHeader, '\0');
-  start.resize(PointInput(path).read(start.data(), start.size()));
-  auto layout = extension == "npy" ? npy_layout(path, start) : ply_layout(path, start);
+  start.resize(input.read(start.data(), start.size()));
+  const auto layout = extension == "npy"   ? npy_layout(path, start)
+                      : extension == "ply" ? ply_layout(path, start)
+                                           : vtu_layout(path, start, input);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (layout && (size < layout->header || (size - layout->header) / layout->stride <
                                               static_cast<std::uintmax_t>(layout->count))) {
-    throw InputError(path + ": the file is too short for " + std::to_string(layout->count) +
-                     " points");
+    fail_short(path, layout->count);
   }
   return layout;
 }
@@ -117,13 +154,17 @@ void rewrite_points(
     const std::string& path, const PointLayout& layout, std::ostream& out,
     const std::function<PointList<Dim>(const PointList<Dim>& batch, std::int64_t first)>& move) {
   PointInput input(path);
-  std::vector<char> bytes(std::max(layout.header, kPointsAtOnce * layout.stride));
+  std::vector<char> bytes(kPointsAtOnce * layout.stride);
   const auto copy = [&](std::size_t count) {
     const auto got = input.read(bytes.data(), count);
     out.write(bytes.data(), static_cast<std::streamsize>(got));
     return got;
   };
-  copy(layout.header);
+  for (auto left = layout.header; left > 0;) {
+    const auto got = copy(std::min(left, bytes.size()));
+    if (got == 0) throw InputError(path + ": the file became shorter");
+    left -= got;
+  }
   PointList<Dim> points;
   for (std::int64_t first = 0; first < layout.count; first += kPointsAtOnce) {
     const auto count = std::min(kPointsAtOnce, layout.count - first);
