@@ -66,6 +66,7 @@ Json report_of(const Comparison<Dim>& all) {
 
 template <int Dim>
 int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
+  up_axis(arguments.view.up, cage.points);  // an axis that 2D does not have is an error
   auto columns = columns_of<Dim>(arguments.methods);
   if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   RunFolder folder(arguments.output, {{arguments.cage, arguments.model, arguments.pose},
@@ -114,6 +115,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   add_choice(*command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
              "format of the pictures (default: png)");
+  add_view_options(*command, a.view);
   command->add_option("--control-point", a.control_point,
                       "control point to draw, counted from 0 (default: the one that moves most)");
   command->option_defaults()->group("Comparison");

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc draw: coordinate functions and deformations as pictures.
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numeric>
-#include <sstream>
 
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
 #include "draw/slice_picture.h"
-#include "draw/view.h"
 #include "files/load.h"
 #include "files/upright.h"
 #include "flbc/deform.h"
@@ -36,8 +33,7 @@ struct DrawArguments {
   std::string compared;  // other weights of the same vertices
   std::string output;
   std::string color;
-  std::string view = "three-quarter";
-  UpAxis up = UpAxis::kAuto;
+  ModelView view;
   Index control_point = 0;
   int slices = 3;
   bool all = false;
@@ -58,26 +54,6 @@ void check_arguments(DrawArguments& arguments) {
   if (arguments.color == kDisplacement && arguments.pose.empty()) {
     throw OptionError("--color displacement needs --pose, the deformed cage");
   }
-}
-
-// \throws OptionError if it is neither a name nor two angles in degrees
-draw::ObliqueView parse_view(const std::string& text) {
-  if (text == "front") return draw::view_by_angles(0, 0);
-  if (text == "side") return draw::view_by_angles(90, 0);
-  if (text == "top") return draw::view_by_angles(0, 90);
-  if (text == "three-quarter") {
-    return draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation);
-  }
-  std::istringstream numbers(text);
-  double azimuth = 0, elevation = 0;
-  char comma = 0;
-  if (numbers >> azimuth >> comma >> elevation && comma == ',' &&
-      numbers.peek() == std::char_traits<char>::eof() && std::abs(elevation) <= 90) {
-    return draw::view_by_angles(azimuth, elevation);
-  }
-  throw OptionError(
-      "--view: invalid value '" + text +
-      "'; choose from front|side|top|three-quarter, or give AZIMUTH,ELEVATION in degrees");
 }
 
 std::vector<Index> all_of(Index count) {
@@ -166,7 +142,7 @@ std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
   const auto posed = load_posed(cage, arguments);
-  up_axis(arguments.up, posed.model.points);
+  up_axis(arguments.view.up, posed.model.points);
   const CellList<2> triangles = gltf::triangles_of_points(posed.model.surface);
   if (arguments.pose.empty() || arguments.all) {
     return picture(cage, DomainMesh<2>{posed.model.points, triangles}, posed.weights, arguments);
@@ -186,10 +162,8 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
 }
 
 std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
-  const auto seen = parse_view(arguments.view);
   const auto posed = load_posed(cage, arguments);
-  const auto view =
-      draw::before_turn(seen, turn_upright(up_axis(arguments.up, posed.model.points)));
+  const auto view = view_of(arguments.view, posed.model.points);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
                                load_shown_cage<3>(arguments.cage).edges};
   std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
@@ -244,13 +218,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
              "what the colors of the model show (default: weight, or plain with --pose)")
       ->needs(model);
-  command
-      .add_option("--view", a.view,
-                  "view direction of a 3D model, as a name or as angles in degrees (default: "
-                  "three-quarter)")
-      ->needs(model)
-      ->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
-  add_up_option(command, a.up)->needs(model);
+  for (auto* option : add_view_options(command, a.view)) option->needs(model);
   auto* shown = command
                     .add_option("--show-model", a.shown_model,
                                 "model whose shape is shown with the slices of DOMAIN in 3D")

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "files/upright.h"
 #include "flbc/meshing.h"
 #include "flbc/options.h"
 #include "poses/moved_by.h"
@@ -24,6 +25,7 @@ struct CompareArguments {
   Index control_point = -1;
   MesherSettings meshing{};
   std::string pictures = "png";
+  ModelView view{};
   bool force = false;
   bool quiet = false;
 };

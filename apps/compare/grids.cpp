@@ -5,7 +5,6 @@
 #include "compare/comparison.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
-#include "draw/view.h"
 #include "flbc/deform.h"
 #include "view/model_page.h"
 
@@ -61,8 +60,8 @@ std::string grid(const Comparison<3>& all, bool posed) {
   }
   return draw::draw_panels(
       {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
-      panels, posed ? -1 : all.control_point,
-      draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation), options_of(all.arguments));
+      panels, posed ? -1 : all.control_point, view_of(all.arguments.view, all.points()),
+      options_of(all.arguments));
 }
 
 // The one that moves most, or else the one with the largest sum of weights.

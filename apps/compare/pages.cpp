@@ -71,6 +71,7 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   content.cage_file = path_beside(page, arguments.cage);
   content.cage = load_shown_cage<Dim>(arguments.cage);
   content.points = all.points();
+  content.up = up_axis(arguments.view.up, content.points);
   content.surface = all.shape.surface;
   content.is_relative = column.options.method == Method::kBiharmonic;
   content.weights = content.is_relative

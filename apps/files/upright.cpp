@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/upright.h"
 
+#include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -28,6 +30,24 @@ bool stands(const PointList<3>& points, int axis) {
   Vector<3> share = feet.sizes().cwiseQuotient(all.sizes());
   share(axis) = 1;
   return feet.contains(center) && share.prod() >= kLeastShare;
+}
+
+// \throws OptionError if it is neither a name nor two angles in degrees
+draw::ObliqueView parse_view(const std::string& text) {
+  if (text == "front") return draw::view_by_angles(0, 0);
+  if (text == "side") return draw::view_by_angles(90, 0);
+  if (text == "top") return draw::view_by_angles(0, 90);
+  if (text == "three-quarter") return ModelView().direction;
+  std::istringstream numbers(text);
+  double azimuth = 0, elevation = 0;
+  char comma = 0;
+  if (numbers >> azimuth >> comma >> elevation && comma == ',' &&
+      numbers.peek() == std::char_traits<char>::eof() && std::abs(elevation) <= 90) {
+    return draw::view_by_angles(azimuth, elevation);
+  }
+  throw OptionError(
+      "--view: invalid value '" + text +
+      "'; choose from front|side|top|three-quarter, or give AZIMUTH,ELEVATION in degrees");
 }
 
 }  // namespace
@@ -57,6 +77,18 @@ Eigen::Matrix3d turn_upright(int axis) {
   if (axis == 0) turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   if (axis == 2) turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   return turn;
+}
+
+std::vector<CLI::Option*> add_view_options(CLI::App& command, ModelView& view) {
+  auto* direction = command.add_option_function<std::string>(
+      "--view", [&view](const std::string& text) { view.direction = parse_view(text); },
+      "view direction of a 3D model, as a name or as angles in degrees (default: three-quarter)");
+  direction->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
+  return {direction, add_up_option(command, view.up)};
+}
+
+draw::ObliqueView view_of(const ModelView& view, const PointList<3>& points) {
+  return draw::before_turn(view.direction, turn_upright(up_axis(view.up, points)));
 }
 
 }  // namespace flbc::app

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Which axis of a model points up in pictures, pages, and exports.
+//! Which axis of a model points up in pictures, pages, and exports, and from where pictures show
+//! it.
 #pragma once
+
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 
+#include "draw/view.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -26,5 +30,17 @@ int up_axis(UpAxis up, const PointList<2>& points);
 
 //! The rotation that takes an axis to y, by 90 degrees or not at all.
 Eigen::Matrix3d turn_upright(int axis);
+
+//! From where a picture shows a model in 3D.
+struct ModelView {
+  draw::ObliqueView direction = draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation);
+  UpAxis up = UpAxis::kAuto;
+};
+
+//! --view and --up of the commands that draw models.
+std::vector<CLI::Option*> add_view_options(CLI::App& command, ModelView& view);
+
+//! The view of points as they are in their file, 3 x P.
+draw::ObliqueView view_of(const ModelView& view, const PointList<3>& points);
 
 }  // namespace flbc::app

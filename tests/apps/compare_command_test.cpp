@@ -70,6 +70,22 @@ TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
   expect(compare + " --force");
 }
 
+TEST_F(CompareCommand, PicturesAreSeenAsThoseOfDraw) {
+  const auto cage = sample("3d/limb_cage.obj"), model = sample("3d/limb_model.obj");
+  const auto grid = [&](const std::string& options) {
+    expect("compare " + cage + " " + model + " -q --vertices 300 --methods meanvalue --pictures svg" + options +
+           " -o " + path("compared"));
+    return slurp(path("compared/functions.svg"));
+  };
+  const auto usual = grid("");
+  EXPECT_EQ(grid(" --view 35,18"), usual);
+  EXPECT_NE(grid(" --view 215,18"), usual);
+  EXPECT_NE(grid(" --up x"), usual);
+  expect("compare " + cage + " --view back -o " + path("compared"), 1, "AZIMUTH,ELEVATION");
+  expect("compare " + sample("2d/figure_cage.obj") + " --up z -o " + path("compared"), 1,
+         "models in 3D");
+}
+
 TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   const auto folder = path("compared");
   expect("compare " + sample("3d/limb_cage.obj") +
