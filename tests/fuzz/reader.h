@@ -51,6 +51,7 @@ struct Reader {
 std::vector<Reader> model_readers();
 std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
+std::vector<Reader> point_readers();
 std::vector<Reader> program_readers();
 std::vector<Reader> openmesh_readers();
 

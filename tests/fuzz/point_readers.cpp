@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of points that are rewritten in batches.
+#include <sstream>
+#include <string>
+
+#include "flbc/errors.h"
+#include "flbc/io/point_file.h"
+#include "fuzz/reader.h"
+
+namespace flbc::fuzz {
+namespace {
+
+template <int Dim>
+std::string copied(const std::string& path, const io::PointLayout& layout) {
+  std::ostringstream out;
+  io::rewrite_points<Dim>(path, layout, out, [](const PointList<Dim>& batch, std::int64_t) {
+    require(batch.allFinite(), "points are finite");
+    return batch;
+  });
+  return out.str();
+}
+
+void read_points(const std::string& path) {
+  const auto layout = io::find_point_layout(path);
+  if (!layout) throw InputError(path + ": not to be rewritten in batches");
+  require(layout->offsets.size() == 2 || layout->offsets.size() == 3, "points are in 2D or 3D");
+  for (const auto offset : layout->offsets) {
+    require(offset + (layout->is_double ? 8 : 4) <= layout->stride, "records hold the coordinates");
+  }
+  const auto copy =
+      layout->offsets.size() == 2 ? copied<2>(path, *layout) : copied<3>(path, *layout);
+  require(copy == get_file(path), "points that do not move leave the file as it is");
+}
+
+// Two points that are small numbers.
+std::string coordinates(int bytes) {
+  std::string one(static_cast<std::size_t>(bytes), '\0');
+  one.back() = '\x3f';
+  return one + std::string(static_cast<std::size_t>(5 * bytes), '\0');
+}
+
+std::string npy(const std::string& shape) {
+  const auto dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }";
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dictionary.size()) + '\0' +
+         dictionary + coordinates(8);
+}
+
+std::string ply(const std::string& type, int bytes) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty " + type +
+         " x\nproperty " + type + " y\nproperty " + type + " z\nelement face 1\n" +
+         "property list uchar int vertex_indices\nend_header\n" + coordinates(bytes) +
+         std::string("\3\0\0\0\0\1\0\0\0\1\0\0\0", 13);
+}
+
+std::string vtu(const std::string& header_type, const std::string& type, int bytes) {
+  std::string size(header_type.empty() ? 4 : 8, '\0');
+  size[0] = static_cast<char>(6 * bytes);
+  return "<VTKFile type='UnstructuredGrid' byte_order='LittleEndian'" + header_type +
+         "><UnstructuredGrid><Piece NumberOfPoints='2'><Points><DataArray type='" + type +
+         "' NumberOfComponents='3' format='appended' offset='3'/></Points></Piece>"
+         "</UnstructuredGrid><AppendedData encoding='raw'>_abc" +
+         size + coordinates(bytes) + "xyz</AppendedData></VTKFile>";
+}
+
+}  // namespace
+
+std::vector<Reader> point_readers() {
+  return {{"points_npy", "input.npy", read_points, {npy("(2, 3)"), npy("(3, 2)")}},
+          {"points_ply", "input.ply", read_points, {ply("float", 4), ply("double", 8)}},
+          {"points_vtu",
+           "input.vtu",
+           read_points,
+           {vtu("", "Float32", 4), vtu(" header_type='UInt64'", "Float64", 8)}}};
+}
+
+}  // namespace flbc::fuzz
