@@ -11,6 +11,8 @@ namespace {
 
 // Keeps the multipliers finite for control points in a line or plane.
 constexpr double kRidge = 1e-13;
+// Smaller residuals of the constraints are rounding errors.
+constexpr double kSmallResidual = 1e-14;
 
 }  // namespace
 
@@ -44,16 +46,16 @@ bool EqualityQp<Dim>::factor_metric() {
       const double* const above = factor_.data() + j * count;
       double value = metric_(support_[j], support_[i]);
       for (std::size_t k = 0; k < j; ++k) value -= row[k] * above[k];
-      value /= above[j];
+      value *= above[j];
       row[j] = value;
       diagonal -= value * value;
       rows_[i] -= value * rows_[j];
       targets_[i] -= value * targets_[j];
     }
     if (!(diagonal > 0)) return false;
-    row[i] = std::sqrt(diagonal);
-    rows_[i] /= row[i];
-    targets_[i] /= row[i];
+    row[i] = 1 / std::sqrt(diagonal);
+    rows_[i] *= row[i];
+    targets_[i] *= row[i];
   }
   return true;
 }
@@ -70,7 +72,7 @@ void EqualityQp<Dim>::factor_gram() {
     for (int j = 0; j <= i; ++j) {
       double value = gram_(i, j);
       for (int k = 0; k < j; ++k) value -= gram_(i, k) * gram_(j, k);
-      gram_(i, j) = i == j ? std::sqrt(value) : value / gram_(j, j);
+      gram_(i, j) = i == j ? 1 / std::sqrt(value) : value * gram_(j, j);
     }
   }
   for (std::size_t i = 0; i < support_.size(); ++i) orthonormalize(rows_[i]);
@@ -81,7 +83,7 @@ template <int Dim>
 void EqualityQp<Dim>::orthonormalize(Sums& constraint) const {
   for (int i = 0; i <= Dim; ++i) {
     for (int j = 0; j < i; ++j) constraint[i] -= gram_(i, j) * constraint[j];
-    constraint[i] /= gram_(i, i);
+    constraint[i] *= gram_(i, i);
   }
 }
 
@@ -108,18 +110,19 @@ bool EqualityQp<Dim>::minimize(const std::vector<Index>& support) {
   for (int pass = 0; pass < 3; ++pass) {
     Sums missing = sums;
     for (std::size_t i = 0; i < count; ++i) missing -= weights_[i] * rows_[i];
+    if (pass > 0 && missing.squaredNorm() < kSmallResidual * kSmallResidual) break;
     multipliers_ += missing;
     for (std::size_t i = 0; i < count; ++i) weights_[i] += rows_[i].dot(missing);
   }
   cost_ = 0;
   for (std::size_t i = 0; i < count; ++i) cost_ += weights_[i] * (weights_[i] - 2 * targets_[i]);
   for (int i = Dim; i >= 0; --i) {
-    multipliers_[i] /= gram_(i, i);
+    multipliers_[i] *= gram_(i, i);
     for (int k = 0; k < i; ++k) multipliers_[k] -= gram_(i, k) * multipliers_[i];
   }
   for (std::size_t i = count; !metric_.is_identity() && i-- > 0;) {
     const double* const row = factor_.data() + i * count;
-    weights_[i] /= row[i];
+    weights_[i] *= row[i];
     for (std::size_t k = 0; k < i; ++k) weights_[k] -= row[k] * weights_[i];
   }
   return minimized_ = std::isfinite(cost_);
@@ -139,7 +142,7 @@ double EqualityQp<Dim>::curvature(Index newcomer) {
     const double* const row = factor_.data() + i * count;
     double value = metric_(support_[i], newcomer);
     for (std::size_t k = 0; k < i; ++k) value -= row[k] * column_[k];
-    column_[i] = value / row[i];
+    column_[i] = value * row[i];
     freedom -= column_[i] * column_[i];
     q -= column_[i] * rows_[i];
   }
@@ -162,7 +165,7 @@ void EqualityQp<Dim>::removal_costs(std::vector<double>& costs) {
         const double* const row = factor_.data() + j * count;
         double value = j == i ? 1 : 0;
         for (std::size_t k = i; k < j; ++k) value -= row[k] * column_[k];
-        column_[j] = value / row[j];
+        column_[j] = value * row[j];
         freedom += column_[j] * column_[j];
         q += column_[j] * rows_[j];
       }

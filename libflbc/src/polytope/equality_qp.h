@@ -104,10 +104,10 @@ class EqualityQp {
   // With H = L L^T on the support,
   std::vector<Index> support_;
   bool minimized_ = false;       // whether all of this belongs to the current support
-  std::vector<double> factor_;   // L, row by row; unused if H is the identity
+  std::vector<double> factor_;   // L by rows, diagonal inverted; unused if H is the identity
   std::vector<Sums> rows_;       // L^-1 A G^-T
   std::vector<double> targets_;  // L^-1 H t
-  Square gram_;                  // G, lower triangular, with G G^T = A^T H^-1 A
+  Square gram_;                  // G, lower triangular, diagonal inverted, with G G^T = A^T H^-1 A
   Sums multipliers_;
   std::vector<double> weights_;
   double cost_ = 0;

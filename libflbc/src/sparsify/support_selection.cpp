@@ -31,10 +31,14 @@ bool SupportSelection<Dim>::remove_cheapest(double bound, PointWeights& weights)
   for (std::size_t k = 0; k < costs.size(); ++k) {
     removals_.push_back({costs[k], static_cast<Index>(k)});
   }
-  std::sort(removals_.begin(), removals_.end());
+  // A heap, because few of them are tried.
+  const auto is_later = [](const Candidate& a, const Candidate& b) { return b < a; };
+  std::make_heap(removals_.begin(), removals_.end(), is_later);
   bool found = false;
   int trials = 0;
-  for (const auto& [cost, position] : removals_) {
+  for (auto end = removals_.end(); end != removals_.begin(); --end) {
+    std::pop_heap(removals_.begin(), end, is_later);
+    const auto [cost, position] = *(end - 1);
     // These costs are lower bounds of the true ones.
     if (weights.cost + cost >= bound || (found && trials++ >= kMoreTrials)) break;
     support_ = weights.support;

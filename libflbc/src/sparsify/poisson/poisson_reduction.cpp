@@ -14,6 +14,7 @@
 #include "polytope/weight_projection.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_energy.h"
+#include "sparsify/sparsify_twice.h"
 #include "sparsify/support_selection.h"
 
 namespace flbc {
@@ -303,14 +304,15 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
                                const std::vector<PointList<Dim>>& poses,
                                const SparsifyOptions& user_options) {
   validate(edges, points.cols());
-  // Share of the progress: both stages take about the same time.
-  constexpr double kPlain = 0.15, kStart = 0.3;
+  constexpr double kStart = 0.3;  // share of the time
   const StageScope scope(user_options.progress);
   SparsifyOptions options = user_options;
   options.progress = {};  // progress is reported by the scope
+  // Starting with one more influence lets neighbors agree on which one to drop.
+  WeightMatrix start;
   auto plain = [&] {
-    const StagePart part(0, kPlain);
-    return sparsify(control_points, points, weights, options);  // also checks the input
+    const StagePart part(0, kStart);
+    return sparsify_twice(control_points, points, weights, options, start);  // checks the input
   }();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
@@ -328,12 +330,6 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   const auto is_better = [&](const WeightMatrix& result) {
     return evaluate<Dim>(energy, points, edges, weights, result) < plain_cost;
   };
-  const auto start = [&] {
-    const StagePart part(kPlain, kStart);
-    // Starting with one more influence lets neighbors agree on which one to drop.
-    if (options.max_influences < static_cast<Index>(weights.rows())) ++options.max_influences;
-    return sparsify(control_points, points, weights, options);
-  }();
   auto result = descend_from(start);
   if (is_better(result)) return result;
   result = descend_from(plain);
