@@ -309,10 +309,11 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   SparsifyOptions options = user_options;
   options.progress = {};  // progress is reported by the scope
   // Starting with one more influence lets neighbors agree on which one to drop.
-  WeightMatrix start;
+  WeightMatrix with_one_more;
   auto plain = [&] {
     const StagePart part(0, kStart);
-    return sparsify_twice(control_points, points, weights, options, start);  // checks the input
+    return sparsify_twice(control_points, points, weights, options,
+                          with_one_more);  // checks the input
   }();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
@@ -330,7 +331,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   const auto is_better = [&](const WeightMatrix& result) {
     return evaluate<Dim>(energy, points, edges, weights, result) < plain_cost;
   };
-  auto result = descend_from(start);
+  auto result = descend_from(with_one_more);
   if (is_better(result)) return result;
   result = descend_from(plain);
   return is_better(result) ? result : plain;
