@@ -273,7 +273,7 @@ TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
   const auto endless = program + " run " + cage + " --method paper --tolerance 1e-15 " +
                        "--max-iterations 100000000 --vertices 2000";
   const auto kill = "sh -c '" + endless + " & for k in $(seq 1000); do [ -e " +
-                    path("out/domain.obj") + " ] && break; sleep 0.02; done; kill -9 $!' 2>&1";
+                    path("out/domain.obj") + " ] && break; sleep 0.02; done; kill -9 $!; wait; true' 2>&1";
   ASSERT_EQ(std::system(kill.c_str()), 0);
   EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
   EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
