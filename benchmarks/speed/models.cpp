@@ -24,13 +24,29 @@ std::vector<std::string> columns() {
                   "mean_influences", "harmonic_seconds", "harmonic_influences"}});
 }
 
+double total(const StageSeconds& seconds) {
+  return seconds.setup + seconds.solve + seconds.recover;
+}
+
+// The report of the fastest of three solves. Machines that share cores with others have slow times.
+template <int Dim>
+SolveReport fastest(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                    const SolverOptions& options) {
+  constexpr int kSolves = 3;
+  SolveReport best;
+  for (int k = 0; k < kSolves; ++k) {
+    auto report = solve(cage, mesh, options, coarse_mesher<Dim>()).report;
+    if (k == 0 || total(report.seconds) < total(best.seconds)) best = std::move(report);
+  }
+  return best;
+}
+
 template <int Dim>
 void add_harmonic(Row& row, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                   SolverOptions options) {
   options.method = Method::kHarmonic;
-  const auto report = solve(cage, mesh, options).report;
-  const auto& seconds = report.seconds;
-  row["harmonic_seconds"] = number(seconds.setup + seconds.solve + seconds.recover);
+  const auto report = fastest(cage, mesh, options);
+  row["harmonic_seconds"] = number(total(report.seconds));
   row["harmonic_influences"] = number(report.quality.mean_influences);
 }
 
@@ -45,7 +61,7 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
           {"mesh_seconds", number(watch.seconds())}};
   SolverOptions options;
   options.threads = context.threads;
-  const auto report = solve(cage, mesh, options, coarse_mesher<Dim>()).report;
+  const auto report = fastest(cage, mesh, options);
   const auto& seconds = report.seconds;
   row["coarse_levels"] = std::to_string(report.coarse_levels.size());
   row["converged"] = report.status == SolveStatus::kConverged ? "1" : "0";
@@ -53,7 +69,7 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
   row["setup_seconds"] = number(seconds.setup);
   row["solve_seconds"] = number(seconds.solve);
   row["recover_seconds"] = number(seconds.recover);
-  row["total_seconds"] = number(seconds.setup + seconds.solve + seconds.recover);
+  row["total_seconds"] = number(total(seconds));
   row["mebibytes"] = number(peak_mebibytes());
   row["scalars_per_cell"] = number(report.state_scalars_per_cell);
   row["min_weight"] = number(report.quality.min_weight);
@@ -85,11 +101,10 @@ bool run_models(const Context& context) {
   for (const auto& model : models()) add(context, table, model, model.paper_size);
   if (!context.quick) add(context, table, model("horse"), 40000);
   return table.write(
-      "value by default, from cage to coordinates: seconds of the stages, coarser meshes and "
-      "making "
-      "them included in solve; MiB are the process's most; influences: weights above 1e-4, mean "
-      "per "
-      "vertex, beside those of harmonic coordinates on the same mesh");
+      "value by default, from cage to coordinates: seconds of the stages, the least total of 3 "
+      "solves, coarser meshes and making them included in solve; MiB are the process's most; "
+      "influences: weights above 1e-4, mean "
+      "per vertex, beside those of harmonic coordinates on the same mesh");
 }
 
 }  // namespace flbc::bench
