@@ -26,6 +26,11 @@ Row mesh_row(const Setting<Dim>& setting) {
           {"cells", std::to_string(setting.problem.mesh.num_cells())}};
 }
 
+//! Set-up, solve, and recovery.
+inline double seconds_of(const SolveReport& report) {
+  return report.seconds.setup + report.seconds.solve + report.seconds.recover;
+}
+
 //! method .. total_seconds, for add_run(). total_seconds adds up set-up, solve and recovery.
 inline std::vector<std::string> run_columns() {
   return {"method",        "converged",       "iterations",   "setup_seconds",

@@ -17,7 +17,7 @@ std::vector<std::string> columns() {
                   "relative_gap_with", "relative_gap_without", "paper_squared_distance"}});
 }
 
-double seconds_of(const SolveReport& report) {
+double seconds_without_setup(const SolveReport& report) {
   return report.seconds.solve + report.seconds.recover;
 }
 
@@ -27,8 +27,8 @@ Row compare(const Context& context, const Setting<Dim>& setting) {
   const auto with = solve(problem, optimum_options(context, NonNegative::kConstraint));
   const auto without = solve(problem, optimum_options(context, NonNegative::kOff));
   auto row = mesh_row(setting);
-  row["seconds_with"] = number(seconds_of(with.report));
-  row["seconds_without"] = number(seconds_of(without.report));
+  row["seconds_with"] = number(seconds_without_setup(with.report));
+  row["seconds_without"] = number(seconds_without_setup(without.report));
   row["iterations_with"] = std::to_string(with.report.iterations);
   row["iterations_without"] = std::to_string(without.report.iterations);
   row["squared_distance"] = number(squared_error(problem, with.weights, without.weights));

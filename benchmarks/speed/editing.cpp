@@ -64,10 +64,6 @@ PointList<Dim> moved_by(const PointList<Dim>& points, const Model& model, const 
   return moved;
 }
 
-double seconds_of(const SolveReport& report) {
-  return report.seconds.setup + report.seconds.solve + report.seconds.recover;
-}
-
 template <int Dim>
 void add_cold(const Context& context, const Solver<Dim>& solver,
               const SolverOptions& options, Row& row) {
