@@ -9,6 +9,7 @@
 #include "flbc/meshing.h"
 #include "flbc/names.h"
 #include "flbc/solver.h"
+#include "solver/run/run.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
@@ -150,6 +151,35 @@ TYPED_TEST(GapCriterionTest, HoldsForSolversThatContinueAndForMovedCages) {
   EXPECT_EQ(solver.solution().report.criterion, Criterion::kGap);
   EXPECT_EQ(solver.solve().report.criterion, Criterion::kGap);  // resumed
   EXPECT_EQ(solver.move(sample.cage.points).report.criterion, Criterion::kGap);
+}
+
+// An iteration whose certificate is given.
+struct Certified : Iteration<2> {
+  double gap = 0;
+
+  void start(const Start<2>&) override {}
+  Step iterate(int, bool) override { return {}; }
+  Weights weights() const override { return {WeightMatrix::Zero(3, 1), {}}; }
+  void read_weights(Index, double*) const override {}
+  Certificate certify(const WeightMatrix&) const override { return {1, 1 - gap, gap}; }
+  void describe(SolveReport&) const override {}
+};
+
+TEST(GapCriterion, TheDefaultOneWaitsForWeightsThatStillMoveFar) {
+  const auto ends = [](double wanted, double gap, double error) {
+    Certified iteration;
+    iteration.gap = gap;
+    return GapCriterion(wanted).is_met(iteration, 500, false, error);
+  };
+  const double by_default = *resolve({}).gap;
+  EXPECT_TRUE(ends(by_default, 9e-4, 5));
+  EXPECT_FALSE(ends(by_default, 9e-4, 50));
+  EXPECT_FALSE(ends(by_default, 2e-3, 5));
+  // A flat optimum: the weights may never settle.
+  EXPECT_TRUE(ends(by_default, 9e-5, 1e6));
+  // A gap that somebody asks for is all that counts.
+  EXPECT_TRUE(ends(1e-2, 9e-3, 1e6));
+  EXPECT_FALSE(ends(1e-5, 9e-5, 1));
 }
 
 TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {

@@ -47,7 +47,7 @@ bool is_finished(const Iteration<Dim>& iteration, const RunContext<Dim>& context
   report.criterion = Criterion::kTolerance;
   if (report.primal_residual <= 1 && report.dual_residual <= 1) return true;
   report.criterion = Criterion::kGap;
-  if (context.gap.is_met(iteration, report.iterations, last)) return true;
+  if (context.gap.is_met(iteration, report.iterations, last, report.primal_residual)) return true;
   report.criterion = Criterion::kNone;
   report.status = SolveStatus::kIterationLimit;
   if (last) return true;

@@ -16,17 +16,21 @@ namespace flbc {
 //! runs are reproducible.
 class GapCriterion {
  public:
-  //! \param wanted  target relative gap; 0 = never met
+  //! \param wanted  target relative gap; 0 = never met. The default one also asks for settled weights
+  //! (plan::kSettled), unless the gap is very small (plan::kSmallGap).
   explicit GapCriterion(double wanted) : wanted_(wanted) {}
 
   //! Certifies if due. \param made  iterations of the run \param last  whether this is the last
-  //! iteration \return whether the gap is at most the target
+  //! iteration \param error  estimated error of the weights relative to the tolerance
+  //! \return whether the gap is at most the target
   template <int Dim>
-  bool is_met(const Iteration<Dim>& iteration, int made, bool last) {
+  bool is_met(const Iteration<Dim>& iteration, int made, bool last, double error) {
     if (wanted_ == 0 || made < (last ? plan::kFirstCertified : next_)) return false;
     if (!iteration.is_certifiable()) return false;
     next_ = static_cast<int>(plan::kCertifiedGrowth * made);
-    return iteration.certify(iteration.weights().to_dense()).relative_gap <= wanted_;
+    const double gap = iteration.certify(iteration.weights().to_dense()).relative_gap;
+    const bool waits = wanted_ == plan::kGap && error > plan::kSettled;
+    return gap <= (waits ? plan::kSmallGap : wanted_);
   }
 
  private:

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
-#include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "solver/plan/constants.h"
 
@@ -18,6 +16,12 @@ WeightHistory::ReadRow rows_of(const Iteration<Dim>& iteration) {
   return [&](Index vertex, double* weights) { iteration.read_weights(vertex, weights); };
 }
 
+WeightHistory::ReadRow rows_of(const WeightMatrix& weights) {
+  return [&](Index vertex, double* row) {
+    std::copy_n(weights.col(vertex).data(), weights.rows(), row);
+  };
+}
+
 }  // namespace
 
 template <int Dim>
@@ -27,17 +31,14 @@ EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const Solver
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
       residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
-      estimate_(origin, Dim, *options.tolerance, WeightHistory::kSpan,
+      estimate_(origin, *options.tolerance,
                 rough ? plan::error_estimate::kFirstMeasured : plan::kFirstLook),
       history_(problem.boundary.interior_vertices(), problem.num_control_points(),
-               options.precision == Precision::kDouble),
-      rough_(rough) {
+               options.precision == Precision::kDouble) {
 }
 
 template <int Dim>
 void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
-  // On an active set, control points come and go, and their rates say little.
-  has_rates_ = !rough_ && iteration.is_certifiable();
   if (std::exchange(begun_, true)) return;
   history_(0, rows_of(iteration));
 }
@@ -45,12 +46,8 @@ void EstimatedError<Dim>::begin(const Iteration<Dim>& iteration) {
 template <int Dim>
 bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteration,
                                 SolveReport& report) {
-  auto differences = history_(report.iterations, rows_of(iteration));
-  if (!has_rates_ && !differences.empty()) {
-    const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
-    differences = {sum / static_cast<double>(differences.size())};
-  }
-  report.primal_residual = estimate_(report.iterations, step.change / num_weights_, differences,
+  const auto movement = history_(report.iterations, rows_of(iteration));
+  report.primal_residual = estimate_(report.iterations, step.change / num_weights_, movement,
                                      step.violation * residual_scale_) /
                            *options_.tolerance;
   return this->looks(options_, report, plan::kFewestIterations);
@@ -58,18 +55,19 @@ bool EstimatedError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
 
 template <int Dim>
 RecoveredError<Dim>::RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options)
-    : problem_(problem),
-      options_(options),
+    : options_(options),
       interval_((plan::kRecoveryInterval + options.check_interval - 1) / options.check_interval *
                 options.check_interval),
       residual_scale_(1 / (static_cast<double>(problem.num_control_points()) * (Dim + 2) *
                            problem.mesh.num_cells())),
-      estimate_(Origin::kCold, Dim, *options.tolerance, interval_) {
+      estimate_(Origin::kCold, *options.tolerance),
+      history_(problem.boundary.interior_vertices(), problem.num_control_points(),
+               options.precision == Precision::kDouble, interval_) {
 }
 
 template <int Dim>
 void RecoveredError<Dim>::begin(const Iteration<Dim>& iteration) {
-  weights_ = iteration.weights().dense;
+  history_(0, rows_of(iteration.weights().dense));
 }
 
 template <int Dim>
@@ -81,12 +79,11 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   }
   if (report.iterations < interval_) report.primal_residual = 1 / *options_.tolerance;
   if (report.iterations % interval_ != 0) return true;
-  auto weights = iteration.weights().dense;
-  const double difference = squared_error(problem_, weights, weights_);
-  weights_ = std::move(weights);
+  const auto movement = history_(report.iterations, rows_of(iteration.weights().dense));
   // The residual is used separately, because single iterations are not measured.
   constexpr double kNone = 0;
-  const double shown = estimate_(report.iterations, kNone, {difference}, kNone);
+  const double shown =
+      movement ? estimate_(report.iterations, kNone, movement, kNone) : plan::kUnknownError;
   const double residual = residual_scale_ * step.violation;
   errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
   // Differences oscillate as the state circles its limit, and the first ones after resuming are

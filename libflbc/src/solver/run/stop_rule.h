@@ -57,7 +57,7 @@ template <int Dim>
 class EstimatedError : public StopRule<Dim> {
  public:
   //! \param origin  of the first iteration \param rough  whether the result is only a start for a
-  //! finer mesh, so control points need no rates of their own
+  //! finer mesh, so the run may end early
   EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin,
                  bool rough = false);
 
@@ -72,8 +72,6 @@ class EstimatedError : public StopRule<Dim> {
   ErrorEstimate estimate_;
   WeightHistory history_;
   bool begun_ = false;
-  const bool rough_;
-  bool has_rates_ = true;  // whether every control point has its own rate
 };
 
 //! Method::kGradient: the same for periodically recovered weights.
@@ -88,12 +86,11 @@ class RecoveredError : public StopRule<Dim> {
   bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) override;
 
  private:
-  const LbcProblem<Dim>& problem_;
   const SolverOptions& options_;
   const int interval_;
   const double residual_scale_;
   ErrorEstimate estimate_;
-  WeightMatrix weights_;        // of the last recovery
+  WeightHistory history_;
   std::vector<double> errors_;  // of the last recoveries
 };
 
