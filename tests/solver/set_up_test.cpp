@@ -71,6 +71,22 @@ TYPED_TEST(SetUpTest, LeftToItselfItKeepsTheTolerance) {
   }
 }
 
+TEST(SetUpOfConvexCages, IsExactUnlessTheToleranceIsLoose) {
+  const auto source = [](Shape shape, double tolerance) {
+    const auto sample = make_sample<3>(shape, 14, 0.2);
+    EXPECT_GE(sample.mesh.num_vertices(), 3000);
+    SolverOptions options;
+    options.tolerance = tolerance;
+    options.max_iterations = 1;
+    options.coarse_to_fine = CoarseToFine::kOff;
+    const auto mesher = coarse_sample_mesher<3>(10, shape);
+    return solve(sample.cage, sample.mesh, options, mesher).report.distances.source;
+  };
+  EXPECT_EQ(source(Shape::kBox, 1e-7), Distances::kExact);
+  EXPECT_EQ(source(Shape::kBox, 1e-5), Distances::kInterpolated);
+  EXPECT_EQ(source(Shape::kCorner, 1e-7), Distances::kInterpolated);
+}
+
 TYPED_TEST(SetUpTest, OtherMethodsAreExactUnlessTold) {
   constexpr int kDim = TypeParam::value;
   const auto source = [](Distances distances) {

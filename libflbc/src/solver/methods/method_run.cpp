@@ -215,7 +215,8 @@ Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& re
   Stopwatch watch;
   constexpr int kNever = std::numeric_limits<int>::max();
   const bool begins = !iteration_;
-  const auto stop = make_stop_rule(options, origin_of(start.from), start.for_finer_mesh);
+  const auto origin = begins ? origin_of(start.from) : Origin::kNearby;
+  const auto stop = make_stop_rule(options, origin, start.for_finer_mesh);
   GapCriterion gap(*options.gap);
   const RunContext<Dim> context{*problem_, options, *stop, gap, reporter};
   if (begins) begin(options, start);

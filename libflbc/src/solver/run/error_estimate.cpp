@@ -15,15 +15,14 @@ double square(double x) {
   return x * x;
 }
 
-// Length of an interval if time is the logarithm of the number of iterations.
-double duration(int from, int to) {
-  return std::log(to / std::max(1.0, static_cast<double>(from)));
-}
-
-// What is left if the speed goes on to shrink at the same rate, squared.
-double extrapolated(const Movement& movement) {
+// What is left if the speed goes on to shrink at the same rate, squared. Time is the logarithm of
+// the number of iterations. \param made_before  iterations before the start
+double extrapolated(const Movement& movement, int made_before) {
   using namespace plan::error_estimate;
   if (movement.last == 0) return 0;
+  const auto duration = [&](int from, int to) {
+    return std::log(double(made_before + to) / std::max(1, made_before + from));
+  };
   const double before = duration(movement.from, movement.middle);
   const double last = duration(movement.middle, movement.to);
   const double slowdown = std::sqrt(movement.before / movement.last) * last / before;
@@ -107,10 +106,7 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
   }
   // The weights of a cold start may still be about to move.
   const bool rests = moved_ && *moved_ < kFewMoved * tolerance_;
-  const double safety = !cold                ? 1
-                        : iteration < early_ ? kEarlySafety
-                        : rests              ? kRestingSafety
-                                             : 1;
+  const double safety = !cold ? 1 : iteration < early_ ? kEarlySafety : rests ? kRestingSafety : 1;
   const bool ends = safety * shown_ <= tolerance_ && (cold || iteration >= kFirstMeasured);
   wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
   const double unknown = plan::kUnknownError * tolerance_;
@@ -125,7 +121,8 @@ double ErrorEstimate::operator()(int iteration, double change,
   if (!std::isfinite(residual)) return residual;
   if (movement) {
     moved_ = movement->since_start;
-    shown_ = std::max(extrapolated(*movement), kOfChange * change);
+    shown_ = std::max(extrapolated(*movement, origin_ == Origin::kNearby ? kMadeBefore : 0),
+                      kOfChange * change);
   } else if (!moved_) {
     shown_ = (origin_ == Origin::kCold ? 1 : 2) * kOfChange * change;
   }
