@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "base/parallel.h"
@@ -14,6 +13,7 @@
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"
+#include "support/dense_algebra.h"
 #include "support/dimensions.h"
 
 namespace flbc::testing {
@@ -47,7 +47,7 @@ Eigen::VectorXd minimize_in_box(const Eigen::MatrixXd& a, const Eigen::VectorXd&
       if (side[i] == 0) open.push_back(i);
     }
     const Eigen::VectorXd slope = b - a * x;
-    const Eigen::VectorXd move = a(open, open).llt().solve(slope(open));
+    const Eigen::VectorXd move = solve_symmetric(a(open, open), slope(open));
     double length = 1;
     Eigen::Index blocked = -1;
     for (std::size_t k = 0; k < open.size(); ++k) {

@@ -9,7 +9,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "base/parallel.h"
 #include "coordinates/polygon_triangulation.h"
@@ -22,6 +21,7 @@
 #include "flbc/quality.h"
 #include "support/cages_of_all_kinds.h"
 #include "support/code_cages.h"
+#include "support/dense_algebra.h"
 #include "support/dimensions.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
@@ -189,7 +189,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, EntropyIsLargestRelativeToItsPriors) {
       }
       Eigen::MatrixXd affine(cage.size(), Dim + 1);
       affine << cage.points.transpose(), Eigen::VectorXd::Ones(cage.size());
-      const Eigen::VectorXd fit = affine * affine.colPivHouseholderQr().solve(relative);
+      const Eigen::VectorXd fit = affine * least_squares(affine, relative);
       EXPECT_LT((relative - fit).cwiseAbs().maxCoeff(), 1e-7) << sample.name << " point " << p;
     }
   }

@@ -7,6 +7,7 @@
 #include "base/aligned_array.h"
 #include "base/parallel.h"
 #include "mesh/cell_geometry.h"
+#include "support/dense_algebra.h"
 #include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
@@ -49,12 +50,11 @@ WeightMatrix feasible_weights(const LbcProblem<Dim>& problem) {
            << Eigen::RowVectorXd::Ones(problem.num_control_points()),
        problem.cage.points)
           .finished();
-  const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(constraints).kernel();
+  const Eigen::MatrixXd kernel = null_space(constraints);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     if (problem.boundary.boundary_index[v] >= 0) continue;
     for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
-      weights.col(v) +=
-          0.1 * std::sin(1.0 + static_cast<double>(v * (k + 1))) * kernel.col(k).normalized();
+      weights.col(v) += 0.1 * std::sin(1.0 + static_cast<double>(v * (k + 1))) * kernel.col(k);
     }
   }
   return weights;

@@ -9,13 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
 #include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "polytope/nearest_point_in_hull.h"
+#include "support/dense_algebra.h"
 #include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
@@ -191,7 +190,7 @@ TEST_IN_2D_AND_3D(NonNegativeTest, MultipliersExistForManyControlPoints) {
     ASSERT_LT(support.size(), 250);
     const Eigen::VectorXd change = weights.col(k) - rows.col(k);
     const Eigen::VectorXd multipliers =
-        constraints(support, Eigen::all).colPivHouseholderQr().solve(change(support));
+        least_squares(constraints(support, Eigen::all), change(support));
     const Eigen::VectorXd excess = change - constraints * multipliers;
     EXPECT_GE(excess.minCoeff(), -1e-12);
     EXPECT_LE(excess(support).maxCoeff(), 1e-12);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <gtest/gtest.h>
-#include <Eigen/QR>
 
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
@@ -16,6 +15,7 @@
 #include "solver/methods/active_set/active_set.h"
 #include "solver/plan/choices.h"
 #include "solver/run/run.h"
+#include "support/dense_algebra.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
 
@@ -78,14 +78,12 @@ struct DenseSpace {
         if (pairs[b].second == i) system(a, b) = dense(row, pairs[b].first);
       }
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(constraints.transpose());
-    const Eigen::MatrixXd q = qr.householderQ();
-    basis = q.rightCols(size - qr.rank());
+    basis = null_space(constraints);
   }
 
   Eigen::VectorXd minimiser(const Eigen::VectorXd& right_side) const {
     const Eigen::MatrixXd reduced = basis.transpose() * system * basis;
-    return basis * reduced.ldlt().solve(basis.transpose() * right_side);
+    return basis * solve_symmetric(reduced, basis.transpose() * right_side);
   }
 };
 

@@ -11,10 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-
 #include "flbc/lbc_problem.h"
 #include "flbc/quality.h"
+#include "support/dense_algebra.h"
 #include "support/harmonic_weights.h"
 #include "support/judge.h"
 #include "support/reference_optimum.h"
@@ -116,10 +115,9 @@ Eigen::MatrixXd demands(const Cage<Dim>& cage) {
 // A step along which the weights at a vertex keep their equations.
 template <int Dim>
 Eigen::VectorXd random_step(const Cage<Dim>& cage, std::mt19937& random) {
-  const Eigen::MatrixXd Q = demands(cage).householderQr().householderQ();
+  const Eigen::MatrixXd basis = null_space(demands(cage).transpose());
   const auto uniform = [&] { return double(random()) / 2147483648.0 - 1; };
-  const Eigen::Index count = cage.size() - Dim - 1;
-  return Q.rightCols(count) * Eigen::VectorXd::NullaryExpr(count, uniform).normalized();
+  return basis * Eigen::VectorXd::NullaryExpr(basis.cols(), uniform).normalized();
 }
 
 // Non-negative weights that reproduce the point: its barycentric coordinates in a simplex of
@@ -134,8 +132,8 @@ Eigen::VectorXd random_weights(const Cage<Dim>& cage, const Vector<Dim>& point,
     while (corners.size() < Dim + 1) corners.insert(Index(random() % unsigned(cage.size())));
     const std::vector<Index> chosen(corners.begin(), corners.end());
     const Eigen::MatrixXd equations = columns_of(demands(cage).transpose(), chosen);
-    if (std::abs(equations.determinant()) < 1e-3) continue;
-    const Eigen::VectorXd solution = equations.partialPivLu().solve(right);
+    if (std::abs(determinant(equations)) < 1e-3) continue;
+    const Eigen::VectorXd solution = solve_square(equations, right);
     if (solution.minCoeff() < 0) continue;
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(cage.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) weights[chosen[k]] = solution[Index(k)];

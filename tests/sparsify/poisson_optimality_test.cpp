@@ -6,12 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "flbc/bounding_box.h"
 #include "flbc/poses.h"
 #include "sparsify/poisson/poisson_energy.h"
 #include "sparsify/support_selection.h"
+#include "support/dense_algebra.h"
 #include "support/dimensions.h"
 #include "support/poisson_problem.h"
 
@@ -82,7 +81,7 @@ Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>&
     system.topRightCorner(count, Dim + 1) = system.bottomLeftCorner(Dim + 1, count).transpose();
     Eigen::VectorXd right(count + Dim + 1);
     right << (metric * target)(support), 1, point;
-    const Eigen::VectorXd solution = system.fullPivLu().solve(right);
+    const Eigen::VectorXd solution = least_squares(system, right);
     if (!((system * solution - right).norm() <= 1e-9)) continue;  // not in the hull of these
     if (solution.head(count).minCoeff() < -1e-12) continue;
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);

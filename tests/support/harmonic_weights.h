@@ -3,8 +3,7 @@
 //! Feasible weights that are easy to get: a start for solvers and something sound to break.
 #pragma once
 
-#include <Eigen/Dense>
-
+#include "support/dense_algebra.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
@@ -35,7 +34,7 @@ Eigen::MatrixXd harmonic_weights(const Sample<Dim>& sample) {
     stiffness(v, v) = 1;
     right.row(v) = boundary.col(v).transpose();
   }
-  return stiffness.partialPivLu().solve(right).transpose();
+  return solve_square(stiffness, right).transpose();
 }
 
 }  // namespace flbc::testing

@@ -8,9 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "flbc/lbc_problem.h"
+#include "support/dense_algebra.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {
@@ -47,8 +46,7 @@ class NewtonOptimum {
     }
     Eigen::MatrixXd constraints(Dim + 1, n);
     constraints << Eigen::RowVectorXd::Ones(n), problem.cage.points;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(constraints, Eigen::ComputeFullV);
-    null_space_ = svd.matrixV().rightCols(n - Dim - 1);
+    null_space_ = null_space(constraints);
   }
 
   //! \return the optimum, n x V; nothing if the start is not positive although it has to be
@@ -118,7 +116,7 @@ class NewtonOptimum {
     }
     const Eigen::MatrixXd reduced = slope * null_space_;  // m x k
     const Eigen::VectorXd right = -reduced.reshaped();
-    const Eigen::VectorXd step = hessian.ldlt().solve(right);
+    const Eigen::VectorXd step = solve_symmetric(hessian, right);
     const double decrease = step.dot(right);
     if (!(decrease > 1e-16)) return false;
     const Eigen::MatrixXd direction = null_space_ * step.reshaped(m, k).transpose();

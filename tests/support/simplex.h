@@ -9,14 +9,10 @@
 #include <map>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "flbc/domain_mesh.h"
+#include "support/dense_algebra.h"
 
 namespace flbc::testing {
-
-//! The x of least norm that minimizes |a x - b|, for each column of b.
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 //! Columns of `points` at the given vertices, in this order.
 template <int Dim, class Vertices>
@@ -43,14 +39,14 @@ template <int Dim>
 double simplex_measure(const PointList<Dim>& corners) {
   const Eigen::MatrixXd edges = edges_of<Dim>(corners);
   const Eigen::MatrixXd gram = edges.transpose() * edges;
-  return std::sqrt(std::max(0.0, gram.determinant())) / std::tgamma(double(corners.cols()));
+  return std::sqrt(std::max(0.0, determinant(gram))) / std::tgamma(double(corners.cols()));
 }
 
 //! Signed area or volume of a simplex of full dimension.
 template <int Dim>
 double signed_simplex_measure(const PointList<Dim>& corners) {
   const Eigen::MatrixXd edges = edges_of<Dim>(corners);
-  return edges.determinant() / std::tgamma(Dim + 1.0);
+  return determinant(edges) / std::tgamma(Dim + 1.0);
 }
 
 //! Gradients of linear functions on a simplex of any dimension, tangential to it (least norm).

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/quality.h"
 #include "support/textbook_admm.h"
+#include "flbc/quality.h"
 
 #include <stdexcept>
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+
+#include "support/dense_algebra.h"
 
 namespace flbc::testing {
 namespace {
@@ -96,13 +97,12 @@ void TextbookAdmm<Dim>::solve_local_system() {
   A.bottomRows(Dim) = input_.control_points;
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(Dim + 1, Dim);
   B.bottomRows(Dim).setIdentity();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (svd.rank() < Dim + 1) {
+  const Eigen::MatrixXd basis = null_space(A);
+  if (basis.cols() > n_ - (Dim + 1)) {
     throw std::invalid_argument("textbook solver: the control points lie in a hyperplane");
   }
-  least_norm_ = svd.solve(B).transpose();
-  const Eigen::MatrixXd null_space = svd.matrixV().rightCols(n_ - (Dim + 1));
-  K_ = null_space * null_space.transpose();
+  least_norm_ = least_squares(A, B).transpose();
+  K_ = basis * basis.transpose();
 }
 
 template <int Dim>

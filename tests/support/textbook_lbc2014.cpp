@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/textbook_lbc2014.h"
 
-#include <Eigen/Dense>
-
+#include "support/dense_algebra.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {
@@ -41,15 +40,14 @@ TextbookLbc2014<Dim>::TextbookLbc2014(Lbc2014Input<Dim> input) : input_(std::mov
   Eigen::MatrixXd constraints(Dim + 1, n);
   constraints.row(0).setOnes();
   constraints.bottomRows(Dim) = input_.control_points;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(constraints, Eigen::ComputeFullV);
-  M_ = svd.matrixV().rightCols(n - Dim - 1).transpose();
+  M_ = null_space(constraints).transpose();
   Eigen::MatrixXd sums(Dim + 1, m);
   Eigen::MatrixXd start(m, n);
   for (Eigen::Index k = 0; k < m; ++k) {
     sums.col(k) << 1, mesh.points.col(input_.interior[k]);
     start.row(k) = input_.initial_weights.col(input_.interior[k]).transpose();
   }
-  H_ = constraints.completeOrthogonalDecomposition().solve(sums).transpose();
+  H_ = least_squares(constraints, sums).transpose();
 
   system_.compute(G_.transpose() * z_metric_.asDiagonal() * G_ +
                   Eigen::MatrixXd(w_metric_.asDiagonal()));
