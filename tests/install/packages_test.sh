@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Usage: packages_test.sh BUILD SOURCE WORK
-# Makes the packages of a build, installs them with what they depend on, and nothing else, into a
-# Debian of their own, and uses them there: the program solves and runs on a sample, then a
-# stranger's project and an example are compiled. Skipped (77) where no such Debian can be made.
+# Makes the packages of a build and installs the runtime packages with what they depend on, and
+# nothing else, into a Debian of their own, where the program solves and runs on a sample. The other
+# packages and a compiler follow; then a stranger's project and an example are compiled. Skipped
+# (77) where no such Debian can be made.
 set -euo pipefail
 build=$1 source=$2 work=$3
 
@@ -32,19 +33,11 @@ depends_of() {
     [[ -z $name || $all == *" $name "* ]] || echo "$name"
   done | paste -sd,
 }
-# Makes a root of what the packages need and of further packages, and installs them in it.
-make_root() {
-  local root=$1 further=$2
-  shift 2
-  local include
-  include=$(depends_of "$@")
-  mmdebstrap --quiet --mode=root --variant=apt --include="$include${further:+,$further}" \
-    "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" >"$root.log" 2>&1 ||
-    { cat "$root.log"; skip "no Debian to be had"; }
-  mkdir "$root/debs"
+root=$work/root
+install_packages() {
   cp "$@" "$root/debs"
-  chroot "$root" sh -c 'dpkg -i debs/*.deb' >"$root.dpkg" 2>&1 || { cat "$root.dpkg"; exit 1; }
-  cp -r "$source/meshes" "$root/meshes"
+  (cd "$root" && chroot . sh -c 'dpkg -i "$@"' - "${@/#*\//debs/}") >"$work/dpkg.log" 2>&1 ||
+    { cat "$work/dpkg.log"; exit 1; }
 }
 
 # ---- the program, with what runs alone -----------------------------------------------------------
@@ -54,8 +47,13 @@ for package in "${packages[@]}"; do
   chroot_files=$(dpkg-deb -c "$package")
   [[ $chroot_files == *"/copyright"* ]] || { echo "$package has no copyright"; exit 1; }
 done
-make_root "$work/user" "" "${runtime[@]}"
-use() { chroot "$work/user" env OMP_WAIT_POLICY=passive "$@"; }
+mmdebstrap --quiet --mode=root --variant=apt --dpkgopt=force-unsafe-io --skip=cleanup/apt/lists \
+  --include="$(depends_of "${runtime[@]}")" "$(. /etc/os-release && echo "$VERSION_CODENAME")" \
+  "$root" >"$work/root.log" 2>&1 || { cat "$work/root.log"; skip "no Debian to be had"; }
+mkdir "$root/debs"
+install_packages "${runtime[@]}"
+cp -r "$source/meshes" "$root/meshes"
+use() { chroot "$root" env OMP_WAIT_POLICY=passive "$@"; }
 use flbc --version
 use flbc solve meshes/2d/letter_cage.obj --model meshes/2d/letter_model.obj -o w.npy
 use flbc solve meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --vertices 2000 -o v.npy
@@ -68,21 +66,25 @@ assert flbc.solve(cage, flbc.mesh(cage, vertices=1000)).converged"
 fi
 for file in out/model.glb usr/share/man/man1/flbc-solve.1.gz \
   usr/share/bash-completion/completions/flbc; do
-  [ -s "$work/user/$file" ] || [ -s "$work/user/${file%.gz}" ] || { echo "no $file"; exit 1; }
+  [ -s "$root/$file" ] || [ -s "$root/${file%.gz}" ] || { echo "no $file"; exit 1; }
 done
-rm -rf --one-file-system "$work/user"
 
 # ---- programs of others, with all packages -------------------------------------------------------
-make_root "$work/developer" g++,cmake,make,pkg-config "${packages[@]}"
-cp -r "$source/tests/install/consumer" "$work/developer/consumer"
-cat >"$work/developer/example.cmake" <<'END'
+cp /etc/resolv.conf "$root/etc"
+mapfile -t -d , further < <(printf %s "$(depends_of "${packages[@]}")")
+chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+  g++ cmake make pkg-config "${further[@]}" >"$work/apt.log" 2>&1 ||
+  { cat "$work/apt.log"; skip "no Debian to be had"; }
+install_packages "${packages[@]}"
+cp -r "$source/tests/install/consumer" "$root/consumer"
+cat >"$root/example.cmake" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(example LANGUAGES CXX)
 find_package(flbc CONFIG REQUIRED COMPONENTS cgal tetgen openmesh)
 add_executable(bind_and_deform /usr/share/doc/flbc/examples/bind_and_deform.cpp)
 target_link_libraries(bind_and_deform PRIVATE flbc::openmesh flbc::tetgen flbc::cgal)
 END
-cat >"$work/developer/compile.sh" <<'END'
+cat >"$root/compile.sh" <<'END'
 set -eu
 export OMP_WAIT_POLICY=passive
 cd /consumer
@@ -100,5 +102,5 @@ cd /meshes/3d
 /example/build/bind_and_deform limb_cage.obj limb_model.obj limb_cage_pose.obj /moved.obj
 test -s /moved.obj
 END
-chroot "$work/developer" sh /compile.sh
-rm -rf --one-file-system "$work/developer"
+chroot "$root" sh /compile.sh
+rm -rf --one-file-system "$root"
