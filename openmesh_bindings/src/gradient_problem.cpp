@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "flbc/bounding_box.h"
 #include "flbc/harmonic.h"
 #include "flbc/openmesh/gradients.h"
+#include "linear/dense.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -47,17 +47,14 @@ void set_up_facets(GradientProblem<Dim>& problem) {
 template <int Dim>
 void set_up_barycentric_conditions(GradientProblem<Dim>& problem) {
   const auto& points = problem.base.cage.points;
-  Eigen::MatrixXd A(points.cols(), Dim + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> A(points.cols(), Dim + 1);
   A.col(0).setOnes();
-  A.rightCols(Dim) = (points.colwise() - points.rowwise().mean()).transpose();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
-  problem.basis = qr.householderQ() * Eigen::MatrixXd::Identity(points.cols(), Dim + 1);
+  A.template rightCols<Dim>() = (points.colwise() - points.rowwise().mean()).transpose();
+  problem.basis = dense::orthonormal_basis(A);
   // g A = [0, I] and A = Q R, hence g Q = [0, I] / R.
   Eigen::Matrix<double, Dim, Dim + 1> demanded;
   demanded << Vector<Dim>::Zero(), Eigen::Matrix<double, Dim, Dim>::Identity();
-  const Eigen::Matrix<double, Dim + 1, Dim + 1> R =
-      qr.matrixQR().topRows(Dim + 1).template triangularView<Eigen::Upper>();
-  problem.target = demanded * R.inverse();
+  problem.target = demanded * dense::gram<Dim + 1>(problem.basis, A).inverse();
 }
 
 // The boundary component of each control point; component 0 contains the first boundary vertex.

@@ -163,7 +163,9 @@ int VertexLinearProgram<Dim>::choose_leaving(const Sums& column, bool first) con
 // Factors the basis and computes its values.
 template <int Dim>
 void VertexLinearProgram<Dim>::factor() {
-  lu_.compute(columns_(basis_, Eigen::all).transpose());
+  Square matrix;
+  for (int k = 0; k < kRows; ++k) matrix.col(k) = columns_.row(basis_[k]).transpose();
+  lu_.compute(matrix);
   values_ = lu_.solve(Sums(Sums::Unit(0)));
 }
 
