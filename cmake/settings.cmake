@@ -23,7 +23,7 @@ function(flbc_position_independent target)
 endfunction()
 
 # Templates of Eigen fill memory that GCC frees often, although little of it can be freed. Freeing
-# only above 1 GB saves a tenth of the compile time.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+# only above 1 GB saves a tenth of the compile time. Builds of other projects keep their memory.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND PROJECT_IS_TOP_LEVEL)
   add_compile_options(--param=ggc-min-heapsize=1000000)
 endif()

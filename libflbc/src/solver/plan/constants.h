@@ -146,13 +146,14 @@ constexpr double kPoincare = 0.045;
 constexpr double kPerIteration = 7e-4;
 constexpr int kFirstMeasured = 48;  //!< earlier differences still include the start and are large
 //! Cold starts end before the first look at the penalty only with an estimate that is so many times
-//! smaller: a penalty that is too large hides weights in slits and spikes. On coarse meshes, which
-//! have no looks, before kFirstMeasured.
+//! smaller: a penalty that is too large hides weights in slits and spikes.
 constexpr double kEarlySafety = 1000;
-//! The same while weights have moved by less than so many tolerances since a cold start (mean
-//! squares). Those of round cages are nearly right at the start, rest for some hundred iterations,
-//! and move on.
+//! The same before kFirstMeasured where there are no looks, and while weights have moved by less
+//! than so many tolerances since a cold start (mean squares). Those of round cages are nearly right
+//! at the start, rest for some hundred iterations, and move on.
 constexpr double kRestingSafety = 10, kFewMoved = 10;
+//! Above this tolerance both do not matter: errors at the start are 2e-5 to 2e-3.
+constexpr double kLooseTolerance = 1e-4;
 constexpr int kInterval = 32;  //!< between two measurements, relative to the iterations so far
 }  // namespace error_estimate
 

@@ -96,6 +96,16 @@ std::optional<Movement> WeightHistory::operator()(int iteration, const ReadRow& 
   return movement;
 }
 
+// How many times smaller the estimate must be, because the weights of a cold start may still be
+// about to move.
+double ErrorEstimate::safety(int iteration) const {
+  using namespace plan::error_estimate;
+  if (origin_ != Origin::kCold || tolerance_ > kLooseTolerance) return 1;
+  if (looks_ && iteration < plan::kFirstLook) return kEarlySafety;
+  const bool rests = moved_ && *moved_ < kFewMoved * tolerance_;
+  return rests || iteration < kFirstMeasured ? kRestingSafety : 1;
+}
+
 // Whether the residual confirms an estimate that would end the run.
 double ErrorEstimate::confirmed(int iteration, double residual) {
   using namespace plan::error_estimate;
@@ -104,9 +114,7 @@ double ErrorEstimate::confirmed(int iteration, double residual) {
     hidden_ = std::max(kPoincare, cold ? kPerIteration * iteration : 0) * residual;
     next_measured_ = iteration + iteration / kInterval;
   }
-  // The weights of a cold start may still be about to move.
-  const bool rests = moved_ && *moved_ < kFewMoved * tolerance_;
-  const double safety = !cold ? 1 : iteration < early_ ? kEarlySafety : rests ? kRestingSafety : 1;
+  const double safety = this->safety(iteration);
   const bool ends = safety * shown_ <= tolerance_ && (cold || iteration >= kFirstMeasured);
   wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
   const double unknown = plan::kUnknownError * tolerance_;

@@ -85,10 +85,10 @@ enum class Origin {
 //! Constants: plan/constants.h.
 class ErrorEstimate {
  public:
-  //! \param tolerance  target mean squared error
-  //! \param early  a cold start ends before this iteration only with a much smaller estimate
-  ErrorEstimate(Origin origin, double tolerance, int early = plan::error_estimate::kFirstMeasured)
-      : origin_(origin), tolerance_(tolerance), early_(early) {}
+  //! \param tolerance  target mean squared error \param looks  whether the iteration adapts its
+  //! penalty late (plan::kFirstLook), so that early estimates of cold starts say little
+  ErrorEstimate(Origin origin, double tolerance, bool looks = false)
+      : origin_(origin), tolerance_(tolerance), looks_(looks) {}
 
   //! Whether the next iteration should measure its residual.
   bool wants_residual() const { return wants_residual_; }
@@ -104,11 +104,12 @@ class ErrorEstimate {
                     double residual = -1);
 
  private:
+  double safety(int iteration) const;
   double confirmed(int iteration, double residual);
 
   Origin origin_;
   double tolerance_;
-  int early_;
+  bool looks_;
   std::optional<double> moved_;  // since the start
   double shown_ = 0;             // by the weights
   double hidden_ = -1;           // from them, when last measured

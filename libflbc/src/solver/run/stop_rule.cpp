@@ -31,8 +31,7 @@ EstimatedError<Dim>::EstimatedError(const LbcProblem<Dim>& problem, const Solver
       num_weights_(std::max(1.0, static_cast<double>(problem.boundary.interior_vertices().size())) *
                    problem.num_control_points()),
       residual_scale_(1 / (problem.num_control_points() * cell_measures(problem.mesh).sum())),
-      estimate_(origin, *options.tolerance,
-                rough ? plan::error_estimate::kFirstMeasured : plan::kFirstLook),
+      estimate_(origin, *options.tolerance, !rough && problem.smoothness == 0),
       history_(problem.boundary.interior_vertices(), problem.num_control_points(),
                options.precision == Precision::kDouble) {
 }
