@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/textbook_admm.h"
-#include "flbc/quality.h"
 
 #include <stdexcept>
 #include <utility>

@@ -130,9 +130,9 @@ struct SolverOptions {
   //! The run ends when either the gap or the tolerance is met. Default: 1e-3 for kValue and
   //! kGradient if the tolerance is not set, otherwise none. A flat optimum, for example of a round
   //! cage, meets the gap long before the tolerance. At a gap of 1e-3, the estimated error of the
-  //! weights must also be at most ten tolerances, or the gap at most 1e-4. The gap is evaluated at iteration 500 and then
-  //! after every 20% more iterations, which costs a few percent of the time. An error if weights
-  //! may be negative, because the bound holds for non-negative weights.
+  //! weights must also be at most ten tolerances, or the gap at most 1e-4. The gap is evaluated at
+  //! iteration 500 and then after every 20% more iterations, which costs a few percent of the time.
+  //! An error if weights may be negative, because the bound holds for non-negative weights.
   std::optional<double> gap{};
 
   //! Whether kValue works on an active set.

@@ -15,8 +15,8 @@ double square(double x) {
   return x * x;
 }
 
-// What is left if the speed goes on to shrink at the same rate, squared. Time is the logarithm of
-// the number of iterations. \param made_before  iterations before the start
+// The remaining squared error if the speed keeps shrinking at the same rate. Time is the logarithm
+// of the number of iterations. \param made_before  iterations before the start
 double extrapolated(const Movement& movement, int made_before) {
   using namespace plan::error_estimate;
   if (movement.last == 0) return 0;

@@ -34,12 +34,12 @@ class WeightHistory {
   using ReadRow = std::function<void(Index vertex, double* weights)>;
 
   //! \param vertices  interior vertices; large meshes are sampled
-  //! \param n  number of control points \param in_double  whether to store doubles, because floats
-  //! would round the weights \param step  iterations between two comparisons
+  //! \param n  number of control points \param in_double  whether to store doubles instead of floats
+  //! \param step  iterations between two comparisons
   WeightHistory(const std::vector<Index>& vertices, Index n, bool in_double, int step = kStep);
 
-  //! Must be called with the start (iteration 0) and after iterations 1, 2, ... Only every `step`
-  //! iterations it does something.
+  //! Must be called with the start (iteration 0) and after iterations 1, 2, ... It compares only
+  //! every `step` iterations.
   //! \return the movement, if there are two intervals
   std::optional<Movement> operator()(int iteration, const ReadRow& read);
 

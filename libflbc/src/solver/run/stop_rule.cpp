@@ -81,8 +81,8 @@ bool RecoveredError<Dim>::judge(const Step& step, const Iteration<Dim>& iteratio
   const auto movement = history_(report.iterations, rows_of(iteration.weights().dense));
   // The residual is used separately, because single iterations are not measured.
   constexpr double kNone = 0;
-  const double shown =
-      movement ? estimate_(report.iterations, kNone, movement, kNone) : plan::kUnknownError;
+  const double shown = movement ? estimate_(report.iterations, kNone, movement, kNone)
+                                : plan::kUnknownError * *options_.tolerance;
   const double residual = residual_scale_ * step.violation;
   errors_.push_back(std::max(shown, plan::kErrorOfResidual * residual));
   // Differences oscillate as the state circles its limit, and the first ones after resuming are
