@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! OpenMP helpers: the number of threads, and sums that do not depend on it.
+//! Loops and sums in parallel, and the number of threads. Results do not depend on that number, and
+//! exceptions reach the caller.
 #pragma once
 
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <type_traits>
 #include <vector>
 
 #include "flbc/types.h"
@@ -36,6 +41,80 @@ class ThreadScope {
   int before_;
 };
 
+//! The number of elements that an array needs for several threads: starting them costs about as
+//! much as going through a few hundred elements.
+constexpr int kFewestInParallel = 256;
+
+//! Calls body(thread, number of threads) once in each thread of a team. When all are done, rethrows
+//! the exception of the first thread that threw one.
+template <class Body>
+void in_threads(int num_threads, const Body& body) {
+  std::exception_ptr error;
+  int first = num_threads;
+#pragma omp parallel num_threads(num_threads)
+  {
+    const int thread = omp_get_thread_num();
+    try {
+      body(thread, omp_get_num_threads());
+    } catch (...) {
+#pragma omp critical(flbc_error)
+      if (thread < first) {
+        first = thread;
+        error = std::current_exception();
+      }
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+//! Calls a body for [0, count) in parallel: `body(k)` for each k, or `body(begin, end)` once per
+//! thread, which can hold what the thread needs. The exception of the lowest k reaches the caller.
+//! \param fewest  the least count for several threads, > 0
+template <class Integer, class Body>
+void parallel_for(Integer count, const Body& body, int fewest = kFewestInParallel) {
+  const auto size = static_cast<std::int64_t>(count);
+  const auto most = std::min<std::int64_t>(omp_get_max_threads(), size);
+  in_threads(size < fewest ? 1 : static_cast<int>(most), [&](int thread, int team) {
+    const auto begin = static_cast<Integer>(size * thread / team);
+    const auto end = static_cast<Integer>(size * (thread + 1) / team);
+    if constexpr (std::is_invocable_v<const Body&, Integer, Integer>) {
+      if (begin < end) body(begin, end);
+    } else {
+      for (Integer k = begin; k < end; ++k) body(k);
+    }
+  });
+}
+
+//! Calls body(k, scratch) for each k in [0, count) in parallel, if the work for some k takes much
+//! longer than for others: a thread that is done takes the next chunk. An exception reaches the
+//! caller, and the remaining chunks are left out. \param make_scratch  called once per thread
+template <class Integer, class MakeScratch, class Body>
+void parallel_for_chunks(Integer count, Integer chunk, const MakeScratch& make_scratch,
+                         const Body& body) {
+  const auto size = static_cast<std::int64_t>(count);
+  const auto most = std::min<std::int64_t>(omp_get_max_threads(), (size + chunk - 1) / chunk);
+  std::atomic<std::int64_t> next{0};
+  in_threads(static_cast<int>(std::max<std::int64_t>(most, 1)), [&](int, int) {
+    try {
+      auto scratch = make_scratch();
+      for (std::int64_t begin = 0; (begin = next.fetch_add(chunk)) < size;) {
+        const auto end = static_cast<Integer>(std::min<std::int64_t>(size, begin + chunk));
+        for (auto k = static_cast<Integer>(begin); k < end; ++k) body(k, scratch);
+      }
+    } catch (...) {
+      next = size;
+      throw;
+    }
+  });
+}
+
+//! The same for a body(k) without scratch memory.
+template <class Integer, class Body>
+void parallel_for_chunks(Integer count, Integer chunk, const Body& body) {
+  parallel_for_chunks(
+      count, chunk, [] { return 0; }, [&](Integer k, int) { body(k); });
+}
+
 //! Calls `body(begin, end)` for blocks of [0, count) in parallel and adds up what it returns. The
 //! blocks and the order of the sum are fixed, so the result is the same for any number of threads.
 template <class Sum, class Body>
@@ -43,27 +122,30 @@ Sum parallel_sum(Index count, Sum zero, const Body& body) {
   constexpr Index kBlock = 64;
   const Index num_blocks = (count + kBlock - 1) / kBlock;
   std::vector<Sum> partial(num_blocks, zero);
-  // Starting threads costs about as much as a few blocks of work.
-#pragma omp parallel for schedule(static) if (num_blocks >= 8)
-  for (Index block = 0; block < num_blocks; ++block) {
+  const auto add_up = [&](Index block) {
     partial[block] = body(block * kBlock, std::min(count, (block + 1) * kBlock));
-  }
+  };
+  parallel_for(num_blocks, add_up, kFewestInParallel / kBlock);
   Sum sum = zero;
   for (const Sum& part : partial) sum += part;
   return sum;
 }
 
+//! Lowers a number that other threads may lower at the same time.
+inline void lower_to(std::atomic<Index>& least, Index number) {
+  Index known = least.load();
+  while (number < known && !least.compare_exchange_weak(known, number)) {
+  }
+}
+
 //! The first index in [0, count) for which a predicate holds, or count if there is none. Evaluates
-//! the predicate in parallel, at least for all indices up to the result. \param holds  bool(Index);
-//! must not throw
+//! the predicate in parallel, at least for all indices up to the result. \param holds  bool(Index)
 template <class Predicate>
 Index first_where(Index count, const Predicate& holds) {
-  constexpr Index kFewest = 1000;
-  Index first = count;
-#pragma omp parallel for schedule(static) reduction(min : first) if (count >= kFewest)
-  for (Index k = 0; k < count; ++k) {
-    if (k < first && holds(k)) first = k;
-  }
+  std::atomic<Index> first{count};
+  parallel_for(count, [&](Index k) {
+    if (k < first.load(std::memory_order_relaxed) && holds(k)) lower_to(first, k);
+  });
   return first;
 }
 
