@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cages from models and repaired cages, as flbc makes them.
+"""Cages from models, as flbc cage makes them.
 
 For every model: a cage by flbc cage, judged from the two files alone (vertices inside by winding
 numbers, edges that cross, mean distance of points drawn from the cage to the model), then flbc check
-and flbc solve. For every defective cage: what flbc check finds, flbc cage --repair, flbc solve.
-Needs NumPy.
+and flbc solve. Needs NumPy.
 """
 
 import json
-import pathlib
-import re
-import tempfile
 
 CONTROL_POINTS = 100
 VERTICES = 4000
 QUICK_VERTICES = 1500
-QUICK_CASES = ("arm", "limb", "ring", "half_outside", "inconsistent_orientation")
+QUICK_CASES = ("arm", "limb", "ring")
 
 
 def solve(context, words, weights):
@@ -78,40 +74,6 @@ def cages(context):
             yield row
 
 
-def repairs(context):
-    if context.only_models:
-        return
-    for cage in sorted((context.models / "defective").glob("*_cage.obj")):
-        if context.quick and cage.stem.removesuffix("_cage") not in QUICK_CASES:
-            continue
-        with tempfile.TemporaryDirectory() as name:
-            yield measure_repair(context, cage, pathlib.Path(name))
-
-
-def first_clause(message):
-    """Without reasons and places that follow."""
-    return re.split(r": |; |, because ", message)[0]
-
-
-def measure_repair(context, cage, folder):
-    """Check, repair and solve of a defective cage."""
-    found = context.run([context.flbc, "check", cage])
-    defect = first_clause(found.errors.splitlines()[0].split(": ", 2)[-1]) if found.status else ""
-    row = {"cage": cage.stem.removesuffix("_cage"), "defect": defect}
-    mended = folder / "mended.obj"
-    done = context.run([context.flbc, "cage", "--repair", cage, "-o", mended])
-    if done.status:
-        return {**row, "repair": f"refused: {done.errors}"}
-    changes = [line.split(": ", 1)[1] for line in done.errors.splitlines()]
-    count = changes.pop().split(" ", 1)[0]
-    summary = first_clause(changes[0]) if changes else ""
-    if len(changes) > 1:
-        summary += f" (and {len(changes) - 1} more)"
-    return {**row, "repair": summary, "control_points": count,
-            **solve(context, [mended], folder / "weights.npy")}
-
-
 CAGES = ("flbc cage MODEL --control-points 100, judged from the files alone, then flbc check and "
          "flbc solve; distance: mean, of points of the cage from the model, relative to its size; "
          "processor seconds of flbc cage", cages)
-REPAIRS = ("flbc check, flbc cage --repair and flbc solve of defective cages", repairs)

@@ -56,21 +56,6 @@ def table2(rows):
     return header, body
 
 
-def conjecture1(rows):
-    header = ["model", "n", "V", "`w >= 0`", "run", "iterations", "minima", "maxima",
-              "smallest weight", "gap"]
-    body = []
-    for row in rows:
-        extrema = [f"{results.thousands(row[count])} ({results.value(row, size):.1e})"
-                   if row[count] != "0" else "0" for count, size in
-                   (("minima", "deepest_minimum"), ("maxima", "highest_maximum"))]
-        body.append([row["model"], row["control_points"], results.thousands(row["vertices"]),
-                     "yes" if row["non_negative"] == "1" else "no",
-                     "optimum" if row["run"] == "optimum" else "default", tables.iterations(row)] +
-                    extrema + formatted(row, [("min_weight", ".1e"), ("relative_gap", ".1e")]))
-    return header, body
-
-
 def speed(rows):
     header = ["model", "n", "V", "iterations", "setup + solve = total, s", "true error",
               "harmonic, s", "ratio", "in iterations of the gradient ADMM",
@@ -105,49 +90,6 @@ def growth(rows):
                          row["iterations"], " + ".join(parts)] +
                         formatted(row, [("peak_mebibytes", ",.0f"), ("bytes_per_cell", ",.0f")]) +
                         [tables.powers(curve, ("total_seconds", "peak_mebibytes")) if last else ""])
-    return header, body
-
-
-def bandwidth(rows):
-    header = ["what", "GB moved at least", "s", "GB/s", "of copying"]
-    return header, [[row["what"]] +
-                    formatted(row, [("gigabytes", ".2f"), ("seconds", ".4f"),
-                                    ("gigabytes_per_second", ".1f"), ("of_copy", ".0%")])
-                    for row in rows]
-
-
-def lbc2014(rows):
-    """A line per variant, models side by side."""
-    models = results.in_order(row["model"] for row in rows)
-    header = [""]
-    for model in models:
-        first = next(row for row in rows if row["model"] == model)
-        header += [f"{model}, {results.thousands(first['vertices'])} V: stops at, error",
-                   "after 100 / 300 / 1000"]
-    body = []
-    for variant in results.in_order(row["variant"] for row in rows):
-        line = [variant]
-        for model in models:
-            row = next(r for r in rows if r["model"] == model and r["variant"] == variant)
-            stop = f"{row['iterations']}, {results.value(row, 'error'):.1e}"
-            line += [stop if row["iterations"] else "not within 2,000",
-                     " / ".join(formatted(row, [(f"error_{k}", ".1e") for k in (100, 300, 1000)]))]
-        body.append(line)
-    return header, body
-
-
-def levels(rows):
-    header = ["model", "V", "tolerance", "cold: iterations, s", "error", "levels",
-              "default: iterations, s", "error", "speedup"]
-    body = []
-    for row in rows:
-        errors = formatted(row, [("cold_error", ".2f"), ("error", ".2f")])
-        seconds = formatted(row, [("cold_seconds", ".3f"), ("seconds", ".3f")])
-        body.append([row["model"], results.thousands(row["vertices"]),
-                     f"{results.value(row, 'tolerance'):.0e}",
-                     f"{row['cold_iterations']}, {seconds[0]}", errors[0], row["coarse_levels"],
-                     f"{row['iterations']}, {seconds[1]}", errors[1]] +
-                    formatted(row, [("times", ".1f")]))
     return header, body
 
 
@@ -193,7 +135,7 @@ def plain(rows):
 
 
 TABLES = {"race": race, "smoothness": smoothness, "table2": table2, "table1": tables.table1_rows,
-          "figure3": tables.growth_rows, "conjecture1": conjecture1, "speed": speed,
-          "growth": growth, "bandwidth": bandwidth, "levels": levels, "many": many, "lbc2014": lbc2014, "paper_details": lbc2014,
+          "figure3": tables.growth_rows, "speed": speed,
+          "growth": growth, "many": many,
           "figure5": tables.time_to_error_rows, "figure6": tables.time_to_error_rows,
           **use_tables.TABLES}

@@ -21,25 +21,17 @@ const std::vector<Experiment>& experiments();
 
 bool run_table1(const Context& context);         //!< with and without non-negativity
 bool run_table2(const Context& context);         //!< methods compared at the paper's sizes
-bool run_conjecture1(const Context& context);    //!< local extrema inside the domain
-bool run_figure1(const Context& context);        //!< pictures for table 1
 bool run_figure2(const Context& context);        //!< pictures at growing resolution
 bool run_figure3(const Context& context);        //!< time and memory against resolution
 bool run_figure4(const Context& context);        //!< slices of 3D functions
 bool run_figure5(const Context& context);        //!< error against time
 bool run_figure6(const Context& context);        //!< the same on large meshes
-bool run_lbc2014(const Context& context);        //!< open details of the 2014 solver, one by one
-bool run_paper_details(const Context& context);  //!< open details of the paper's iteration
 bool run_speed(const Context& context);          //!< total time to an error of 1e-5, beside others
 bool run_race(const Context& context);           //!< iterations and time to a true error of 1e-5
-bool run_levels(const Context& context);         //!< cold, and from coarser meshes
 bool run_many(const Context& context);           //!< many control points: all pairs, supports
 bool run_growth(const Context& context);         //!< time and memory up to millions of cells
-bool run_bandwidth(const Context& context);      //!< iterations and deformations beside copying
 bool run_models(const Context& context);         //!< from cage to coordinates, beside harmonic ones
-bool run_optima(const Context& context);     //!< methods beside an interior-point method's optima
 bool run_tolerance(const Context& context);  //!< true errors relative to those promised
 bool run_smoothness(const Context& context);  //!< what SolverOptions::smoothness gives and costs
-bool run_editing(const Context& context);    //!< solves again after the rest cage has moved
 
 }  // namespace flbc::bench

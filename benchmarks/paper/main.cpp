@@ -17,26 +17,18 @@ namespace flbc::bench {
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> kExperiments = {{"table1", run_table1},
                                                        {"table2", run_table2},
-                                                       {"conjecture1", run_conjecture1},
-                                                       {"figure1", run_figure1},
                                                        {"figure2", run_figure2},
                                                        {"figure3", run_figure3},
                                                        {"figure4", run_figure4},
                                                        {"figure5", run_figure5},
                                                        {"figure6", run_figure6},
-                                                       {"lbc2014", run_lbc2014},
-                                                       {"paper_details", run_paper_details},
                                                        {"speed", run_speed},
                                                        {"race", run_race},
-                                                       {"levels", run_levels},
                                                        {"many", run_many},
                                                        {"growth", run_growth},
-                                                       {"bandwidth", run_bandwidth},
                                                        {"models", run_models},
-                                                       {"optima", run_optima},
                                                        {"tolerance", run_tolerance},
-                                                       {"smoothness", run_smoothness},
-                                                       {"editing", run_editing}};
+                                                       {"smoothness", run_smoothness}};
   return kExperiments;
 }
 
@@ -44,9 +36,7 @@ namespace {
 
 // Those of programs.py are accepted and left to it.
 std::vector<std::string> experiment_names() {
-  std::vector<std::string> names{"cages",           "repairs",
-                                 "sparsify",        "openmesh_iterations",
-                                 "openmesh_frames", "openmesh_topology"};
+  std::vector<std::string> names{"cages", "sparsify"};
   for (const auto& experiment : experiments()) names.emplace_back(experiment.name);
   return names;
 }

@@ -65,17 +65,6 @@ bool run(const Context& context, const char* figure, const std::vector<Picture>&
 
 }  // namespace
 
-bool run_figure1(const Context& context) {
-  std::vector<Picture> pictures;
-  for (const auto& model : models()) {
-    if (model.dim != 2) continue;
-    const Index vertices = context.size(2, 10800);
-    pictures.push_back({model.name, vertices, 0, "with", NonNegative::kConstraint});
-    pictures.push_back({model.name, vertices, 0, "without", NonNegative::kOff});
-  }
-  return run(context, "figure1", pictures, "figure 1: with and without non-negativity");
-}
-
 bool run_figure2(const Context& context) {
   std::vector<Picture> pictures;
   const std::vector<Index> woody =

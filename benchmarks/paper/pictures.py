@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 1, 2 and 4: coordinate functions, drawn by `flbc draw` and put side by side."""
+"""Figures 2 and 4: coordinate functions, drawn by `flbc draw` and put side by side."""
 
 import subprocess
 
 import results
 
-TITLES = {"with": "with non-negativity", "without": "without"}
 WIDTH = 4.2  # of a picture, in inches
 
 
 def draw_all(plt, models, out, flbc):
     """Draws every figure whose CSV there is; returns the paths."""
     paths = []
-    for figure in ("figure1", "figure2", "figure4"):
+    for figure in ("figure2", "figure4"):
         rows, _ = results.read(out, figure)
         if not rows:
             continue
@@ -61,5 +60,4 @@ def montage(plt, lines, path, out):
 
 
 def title(row):
-    text = f"{row['model']}, {results.thousands(row['vertices'])} vertices"
-    return text + (f", {TITLES[row['variant']]}" if row["variant"] else "")
+    return f"{row['model']}, {results.thousands(row['vertices'])} vertices"

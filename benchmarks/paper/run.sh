@@ -34,9 +34,6 @@ fi
 
 [[ -f build/release/build.ninja ]] || cmake --preset release
 cmake --build --preset release --target flbc_bench_paper flbc_app
-if grep -q '^FLBC_WITH_OPENMESH:BOOL=ON' build/release/CMakeCache.txt; then
-  cmake --build --preset release --target flbc_bench_properties flbc_bench_tet_mesh flbc_bench_bind flbc_bench_bind_debug
-fi
 
 # A case that failed must not keep the others from being drawn.
 status=0

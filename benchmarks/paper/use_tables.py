@@ -71,29 +71,6 @@ def tolerance(rows):
     return header, body + [["worst", ""] + [f"({worst[t]:.2f})" for t in wanted]]
 
 
-def editing(rows):
-    """A line per move, models side by side."""
-    models_shown = results.in_order((row["model"], row["vertices"]) for row in rows)
-    header = ["move"]
-    for model, vertices in models_shown:
-        header += [f"{model}, {results.thousands(vertices)} V: iterations", "s", "error"]
-    body = []
-    for move in results.in_order(row["move"] for row in rows):
-        line = [move.replace(" %", "%")]
-        for model, _ in models_shown:
-            row = next(r for r in rows if (r["model"], r["move"]) == (model, move))
-            if not row["iterations"]:
-                line += ["a cell would turn over", "", ""]
-                continue
-            seconds = formatted(row, [("seconds", ".3f"), ("cold_seconds", ".3f")])
-            if row["longest_seconds"]:
-                seconds[0] += f" (at most {results.value(row, 'longest_seconds'):.3f})"
-            line += [f"{brief(row['iterations'])} / {row['cold_iterations']}", " / ".join(seconds),
-                     " / ".join(formatted(row, [("error", ".1e"), ("cold_error", ".1e")]))]
-        body.append(line)
-    return header, body
-
-
 def cages(rows):
     header = ["model", "vertices", "control points", "outside, crossing", "distance",
               "symmetric across", "s", "`flbc check`", "iterations of the solve", "smallest weight",
@@ -107,18 +84,6 @@ def cages(rows):
                     formatted(row, [("distance", ".1%")]) + [row["symmetric_across"]] +
                     formatted(row, [("processor_seconds", ".2f")]) + [row["check"], solved] +
                     formatted(row, [("min_weight", ".1e"), ("reproduction_error", ".1e")]))
-    return header, body
-
-
-def repairs(rows):
-    header = ["cage", "first defect", "repair", "control points after", "solve"]
-    body = []
-    for row in rows:
-        solve = row["solve"]
-        if row["iterations"]:
-            solve += f" after {tables.iterations(row)} iterations"
-        body.append([row["cage"], row["defect"] or "none", row["repair"] or "none",
-                     row["control_points"], solve])
     return header, body
 
 
@@ -142,58 +107,10 @@ def sparsify(rows):
     return header, body
 
 
-def optima(rows):
-    header = ["model", "V", "method", "`w >= 0`", "iterations", "objective above",
-              "mean squared (largest) difference", "bound below"]
-    body = []
-    for row in rows:
-        squared, largest = formatted(row, [("squared_difference", ".1e"),
-                                           ("largest_difference", ".1e")])
-        above, below = formatted(row, [("objective_above", ".1e"), ("bound_below", ".1e")])
-        body.append([row["model"], results.thousands(row["vertices"]),
-                     results.LABELS.get(row["method"], row["method"]), row["non_negative"], tables.iterations(row), above, f"{squared} ({largest})",
-                     below])
-    return header, body
-
-
-def openmesh_iterations(rows):
-    header = ["mesh", "method", "vertices", "iterations", "arrays, s", "properties, s", "ratio"]
-    return header, [[row["mesh"], results.LABELS.get(row["method"], row["method"]), results.thousands(row["vertices"]), row["iterations"]] +
-                    formatted(row, [("arrays_seconds", ".3f"), ("properties_seconds", ".3f"),
-                                    ("ratio", ".2f")]) for row in rows]
-
-
-def openmesh_frames(rows):
-    """Points of doubles and of floats side by side."""
-    header = ["model", "vertices", "user's side", "arrays, ms", "property, ms", "ratio",
-              "with points of floats", "cores spinning: mean frame, doubles / floats"]
-    body = []
-    for model, side in results.in_order((row["model"], row["users_side"]) for row in rows):
-        doubles, floats = (next(r for r in rows if (r["model"], r["users_side"], r["points_of"]) ==
-                                (model, side, kind)) for kind in ("doubles", "floats"))
-        busy = [formatted(row, [("busy_over_quiet", ".1f")])[0] for row in (doubles, floats)]
-        body.append([model, results.thousands(doubles["vertices"]), side] +
-                    formatted(doubles, [("arrays_ms", ".3f"), ("property_ms", ".3f"),
-                                        ("ratio", ".2f")]) +
-                    formatted(floats, [("ratio", ".2f")]) + [" / ".join(busy)])
-    return header, body
-
-
-def openmesh_topology(rows):
-    header = ["cells", "faces", "TetMesh (faces, edges, all incidences), s", "with validation, s",
-              "facets of the solver alone, s", "from the TetMesh, s"]
-    return header, [[results.thousands(row["cells"]), results.thousands(row["faces"])] +
-                    formatted(row, [("tet_mesh_seconds", ".3f"), ("checked_seconds", ".3f"),
-                                    ("facets_seconds", ".3f"), ("domain_seconds", ".3f")])
-                    for row in rows]
-
-
 def percent(row, column):
     number = 100 * results.value(row, column)
     return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
 
 
-TABLES = {"models": models, "harmonic": harmonic, "solvers": solvers, "tolerance": tolerance, "editing": editing, "cages": cages,
-          "repairs": repairs, "sparsify": sparsify, "optima": optima,
-          "openmesh_iterations": openmesh_iterations, "openmesh_frames": openmesh_frames,
-          "openmesh_topology": openmesh_topology}
+TABLES = {"models": models, "harmonic": harmonic, "solvers": solvers, "tolerance": tolerance, "cages": cages,
+          "sparsify": sparsify}

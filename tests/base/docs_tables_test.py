@@ -104,19 +104,6 @@ horse,51,10000,40000,1,62,1,9,10,100,2500""")
 model,control_points,vertices,coarse_levels,iterations,iterations_to_wanted,setup_seconds,solve_seconds,total_seconds,error,harmonic_seconds,over_harmonic,total_over_gradient_iteration,total_over_lbc2014_iteration
 woody,26,1000,2,13,,0.3,1.1,1.4,,0.35,4,115,48""")
     assert speed == ["woody | 26 | 1,000 | 13 + 2 levels | 0.300 + 1.100 = 1.400 | - | 0.350 | 4.0 | 115 | 48"]
-    conjecture = table("conjecture1", """
-model,control_points,vertices,non_negative,run,iterations,converged,minima,deepest_minimum,maxima,highest_maximum,min_weight,relative_gap
-shark,24,2084,0,optimum,20000,0,7,0.0014,0,,-0.007,3e-05""")
-    assert conjecture == ["shark | 24 | 2,084 | no | optimum | 20,000 (limit) | 7 (1.4e-03) | 0 | -7.0e-03 | 3.0e-05"]
-    bandwidth = table("bandwidth", """
-what,gigabytes,seconds,gigabytes_per_second,of_copy
-copying,2.5,0.1,25,0.84""")
-    assert bandwidth == ["copying | 2.50 | 0.1000 | 25.0 | 84%"]
-    lbc2014 = table("lbc2014", """
-model,vertices,variant,iterations,error,error_100,error_300,error_1000
-woody,1000,plain,100,0.001,0.001,0.0003,2e-05
-horse,2000,plain,,,0.0003,0.0002,""")
-    assert lbc2014 == ["plain | 100, 1.0e-03 | 1.0e-03 / 3.0e-04 / 2.0e-05 | not within 2,000 | 3.0e-04 / 2.0e-04 / -"]
     models = table("models", """
 model,control_points,vertices,cells,coarse_levels,converged,iterations,mesh_seconds,setup_seconds,solve_seconds,harmonic_seconds,mebibytes,mean_influences,harmonic_influences,min_weight,reproduction_error
 woody,26,1000,1900,1,1,120,0.04,0.05,0.2,0.03,34.4,4.54,23.3,0,2e-16""")
@@ -145,15 +132,6 @@ woody,26,1000,1900,1e-07,0,6000,2.3
 horse,51,2000,7000,1e-05,1,65,0.31""")
     assert tolerance == ["woody | 1,000 | 89 (0.11) | 6,000 (limit) (2.30)", "horse | 2,000 | 65 (0.31) | -",
                          "worst |  | (0.31) | (2.30)"]
-    editing = table("editing", """
-model,control_points,vertices,cells,move,iterations,seconds,longest_seconds,error,cold_iterations,cold_seconds,cold_error
-woody,26,1000,1900,bend,28,0.02,,2e-08,177,0.3,5e-08
-woody,26,1000,1900,drag,12.5,0.01,0.04,1e-09,180,0.3,6e-08
-horse,51,2000,7000,bend,,,,,,,
-horse,51,2000,7000,drag,10,0.02,0.05,1e-08,169,0.4,7e-08""")
-    assert editing == ["bend | 28 / 177 | 0.020 / 0.300 | 2.0e-08 / 5.0e-08 | a cell would turn over |  | ",
-                       "drag | 12.5 / 180 | 0.010 (at most 0.040) / 0.300 | 1.0e-09 / 6.0e-08 | "
-                       "10 / 169 | 0.020 (at most 0.050) / 0.400 | 1.0e-08 / 7.0e-08"]
     sparsify = table("sparsify", """
 weights,points,control_points,influences_before,k,method,seconds,edges_independent,edges_independent_max,edges_smooth,edges_smooth_max,edges_animation,positions_independent,positions_independent_max,positions_smooth,positions_smooth_max,positions_animation
 arm,2000,58,31.8,4,quadratic,0.05,1.5,137,0.05,1.4,0.19,0.02,0.08,0.0006,0.008,0.0024

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! Optima of models of real size that were found by other means
-//! (tests/data/references/README.md, "Models"); benchmarks read them as well.
+//! (tests/data/references/README.md, "Models").
 #pragma once
 
 #include <fstream>
