@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 #include <sstream>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +15,7 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify.h"
+#include "support/dimensions.h"
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
 #include "support/io_files.h"
@@ -25,11 +25,6 @@ namespace flbc::testing {
 namespace {
 
 using gltf::WeightFormat;
-
-template <class Dimension>
-class GltfSkinTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(GltfSkinTest, Dimensions);
 
 // A mesh of a cage's interior, and triangles between all its vertices: on the boundary few control
 // points would matter.
@@ -99,8 +94,7 @@ void expect_sound_influences(const GlbFile& file, double unit) {
   }
 }
 
-TYPED_TEST(GltfSkinTest, MovesAsDeformDoes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, MovesAsDeformDoes) {
   const Example<Dim> example;
   const auto& cage = example.sample.cage.points;
   const auto poses = independent_poses<Dim>(cage, 3);
@@ -123,8 +117,7 @@ TYPED_TEST(GltfSkinTest, MovesAsDeformDoes) {
   }
 }
 
-TYPED_TEST(GltfSkinTest, QuantisedWeightsAddUpExactly) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, QuantisedWeightsAddUpExactly) {
   const Example<Dim> example;
   const auto& cage = example.sample.cage.points;
   const auto pose = independent_poses<Dim>(cage, 1)[0];
@@ -150,8 +143,7 @@ TYPED_TEST(GltfSkinTest, QuantisedWeightsAddUpExactly) {
   check(WeightFormat::kUnsignedByte, 255, 5121);
 }
 
-TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
   const Example<Dim> example;
   const auto& cage = example.sample.cage.points;
   gltf::Animation<Dim> animation{{0, 0.5, 2}, {cage, cage, cage}};
@@ -175,8 +167,7 @@ TYPED_TEST(GltfSkinTest, AnimationsAreLinearBetweenPoses) {
   EXPECT_FALSE(still.json.contains("animations"));
 }
 
-TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, NodesAndBindMatrices) {
   const Example<Dim> example;
   gltf::SkinOptions options;
   options.name = "caf\xc3\xa9";
@@ -223,8 +214,7 @@ TYPED_TEST(GltfSkinTest, NodesAndBindMatrices) {
 }
 
 // Read as the schema UsdSkel says, by a reader that takes no liberties.
-TYPED_TEST(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
   Example<Dim> example;
   const auto& cage = example.sample.cage.points;
   const auto count = static_cast<Eigen::Index>(example.surface.sources.size());
@@ -286,8 +276,7 @@ TEST(UsdaFileTest, RefusesWhatTheFormatDoesNotAllow) {
   }
 }
 
-TYPED_TEST(GltfSkinTest, SurfaceAndItsAttributes) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, SurfaceAndItsAttributes) {
   Example<Dim> example;
   auto& surface = example.surface;
   const GlbFile plain(example.skin().content);
@@ -347,8 +336,7 @@ struct Segments {
   gltf::Surface surface;
 };
 
-TYPED_TEST(GltfSkinTest, JointsTakeTwoBytesWhereOneIsTooFew) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, JointsTakeTwoBytesWhereOneIsTooFew) {
   const auto check = [](Index n, int component_type) {
     const Segments<Dim> segments(n);
     const auto file = segments.skin();
@@ -393,8 +381,7 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
   check(32769, 5125);
 }
 
-TYPED_TEST(GltfSkinTest, SinglePrecisionIsMeasured) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, SinglePrecisionIsMeasured) {
   Example<Dim> example;
   EXPECT_LT(example.skin().position_change, 1e-6);
   // Floats near 2^20 are 1/16 to 1/8 apart.
@@ -425,8 +412,7 @@ TYPED_TEST(GltfSkinTest, SinglePrecisionIsMeasured) {
   expect_error<InputError>([&] { segments.skin(); }, {"too large for single precision"});
 }
 
-TYPED_TEST(GltfSkinTest, ErrorsOfStoringAreMeasured) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, ErrorsOfStoringAreMeasured) {
   Example<Dim> example;
   const auto pose = independent_poses<Dim>(example.sample.cage.points, 1)[0];
   gltf::SkinOptions options;
@@ -460,8 +446,7 @@ TEST(GltfSkin, PointsInsideAMeshDoNotCount) {
   EXPECT_LT(distance<3>(file, pose, deform<3>(example.weights, pose)), 1e-6);
 }
 
-TYPED_TEST(GltfSkinTest, WhatDoesNotFitIsRefused) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(GltfSkinTest, WhatDoesNotFitIsRefused) {
   const Example<Dim> example;
   const auto expect_refusal = [&](auto change, const std::string& message) {
     Example<Dim> changed = example;

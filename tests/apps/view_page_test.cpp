@@ -9,6 +9,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
+#include "support/dimensions.h"
 #include "view/page.h"
 
 namespace flbc::view {
@@ -101,13 +102,7 @@ PageContent<Dim> cube_content() {
   return content;
 }
 
-template <class Dimension>
-class ViewPage : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(ViewPage, Dimensions);
-
-TYPED_TEST(ViewPage, HoldsWhatItWasGiven) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(ViewPage, HoldsWhatItWasGiven) {
   constexpr Index n = 1 << Dim;
   const auto given = cube_content<Dim>();
   const auto page = make_page(given);
@@ -131,8 +126,8 @@ TYPED_TEST(ViewPage, HoldsWhatItWasGiven) {
   EXPECT_EQ(indices_from(content["surface"]["triangles"]), (std::vector<Index>{0, 1, 2, 1, 2, 4}));
 }
 
-TYPED_TEST(ViewPage, IsOneFileWithoutNetwork) {
-  const auto page = make_page(cube_content<TypeParam::value>());
+TEST_IN_2D_AND_3D(ViewPage, IsOneFileWithoutNetwork) {
+  const auto page = make_page(cube_content<Dim>());
   for (const char* word :
        {"{{", "http:", "https:", "src=", "<link rel=\"stylesheet", "</script><b>"}) {
     EXPECT_EQ(page.find(word), std::string::npos) << word;
@@ -141,8 +136,7 @@ TYPED_TEST(ViewPage, IsOneFileWithoutNetwork) {
   EXPECT_EQ(page.find("\nexport "), std::string::npos);
 }
 
-TYPED_TEST(ViewPage, RefusesWhatDoesNotFit) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(ViewPage, RefusesWhatDoesNotFit) {
   auto content = cube_content<Dim>();
   content.weights = content.weights.leftCols(3).eval();
   EXPECT_THROW(make_page(content), InputError);
@@ -154,8 +148,7 @@ TYPED_TEST(ViewPage, RefusesWhatDoesNotFit) {
   EXPECT_THROW(make_page(content), InputError);
 }
 
-TYPED_TEST(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
   auto content = cube_content<Dim>();
   WeightMatrix weights = content.weights;
   weights.col(1).setZero();

@@ -20,11 +20,11 @@ class ObjAttributesTest : public FolderTest {
   }
 };
 
-const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const char* const kThreePoints = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST_F(ObjAttributesTest, CornersReferToTextureCoordinatesAndNormals) {
   // Lists may follow their use, numbers count from 1 or backwards, and any of them may be missing.
-  const auto found = read(std::string(kTriangle) +
+  const auto found = read(std::string(kThreePoints) +
                           "vt 0.25 0.5\n vt 0.75\n"
                           "f 1/1/2 2/2/2 3//1\n"  // the normals are still to come
                           "vn 0 0 2\n"
@@ -60,7 +60,7 @@ TEST_F(ObjAttributesTest, ColoursOnlyIfAllVerticesHaveThem) {
 }
 
 TEST_F(ObjAttributesTest, NothingIsThere) {
-  const auto plain = read(std::string(kTriangle) + "l 1 2\nf 1 2 3\n");
+  const auto plain = read(std::string(kThreePoints) + "l 1 2\nf 1 2 3\n");
   EXPECT_EQ(plain.texture_coordinates.cols(), 0);
   EXPECT_EQ(plain.normals.cols(), 0);
   EXPECT_EQ(plain.colors.cols(), 0);
@@ -69,7 +69,7 @@ TEST_F(ObjAttributesTest, NothingIsThere) {
 }
 
 TEST_F(ObjAttributesTest, DamagedFiles) {
-  const std::string triangle = kTriangle;
+  const std::string triangle = kThreePoints;
   expect_refusal(
       triangle + "vt 0 0\nf 1/1 2/2 3/1\n",
       "model.obj:5: the index 2 is out of range; texture coordinates are numbered 1 to 1");

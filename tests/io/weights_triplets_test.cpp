@@ -45,7 +45,7 @@ TEST(Triplets, DefectsAreNamed) {
   EXPECT_THROW(io::read_weight_triplets("/absent/w.txt", 2, 3), IoError);
 }
 
-WeightMatrix awkward_weights() {
+WeightMatrix awkward_triplets() {
   const auto numbers = awkward_numbers();
   WeightMatrix weights = WeightMatrix::Zero(5, static_cast<Eigen::Index>(numbers.size()));
   for (Eigen::Index v = 0; v < weights.cols() - 1; ++v) weights(v % 4, v) = numbers[v];
@@ -54,7 +54,7 @@ WeightMatrix awkward_weights() {
 }
 
 TEST(Triplets, AreReadBackBitByBit) {
-  const auto weights = awkward_weights();
+  const auto weights = awkward_triplets();
   const auto path = file("");
   io::write_weight_triplets(path, weights);
   EXPECT_TRUE(bit_equal(io::read_weight_triplets(path, 5, 14), weights));

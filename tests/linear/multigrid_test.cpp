@@ -37,18 +37,18 @@ RowMatrix interior_matrix(Shape shape, Index subdivisions, double perturbation) 
 }
 
 template <class Scalar>
-using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-RowMajor<double> random_rows(Eigen::Index size, unsigned seed) {
+Rows<double> random_panel(Eigen::Index size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  return RowMajor<double>::NullaryExpr(size, kStride, [&] { return uniform(random); });
+  return Rows<double>::NullaryExpr(size, kStride, [&] { return uniform(random); });
 }
 
 template <class Scalar>
-RowMajor<double> cycle(Multigrid<Scalar>& multigrid, const RowMajor<double>& right_side) {
+Rows<double> cycle(Multigrid<Scalar>& multigrid, const Rows<double>& right_side) {
   AlignedArray<Scalar> rows(static_cast<std::size_t>(right_side.size()));
-  Eigen::Map<RowMajor<Scalar>> map(rows.data(), right_side.rows(), kStride);
+  Eigen::Map<Rows<Scalar>> map(rows.data(), right_side.rows(), kStride);
   map = right_side.cast<Scalar>();
   multigrid.cycle_slice(rows.data(), 0, kStride);
   return map.template cast<double>();
@@ -56,7 +56,7 @@ RowMajor<double> cycle(Multigrid<Scalar>& multigrid, const RowMajor<double>& rig
 
 // The slowest of the errors e <- (I - B^-1 A) e after some steps, measured as |e|_A.
 double contraction(const RowMatrix& matrix, Multigrid<double>& multigrid) {
-  RowMajor<double> error = random_rows(matrix.rows(), 7);
+  Rows<double> error = random_panel(matrix.rows(), 7);
   double factor = 1;
   for (int step = 0; step < 15; ++step) {
     const double before = std::sqrt(error.cwiseProduct(matrix * error).sum());
@@ -81,11 +81,11 @@ TEST_IN_2D_AND_3D(MultigridTest, ContractsAlikeOnCoarseAndFineMeshes) {
 TEST_IN_2D_AND_3D(MultigridTest, IsLinearAndSymmetric) {
   const auto matrix = interior_matrix<Dim>(Shape::kCorner, Dim == 2 ? 50 : 12, 0.2);
   Multigrid<double> multigrid(matrix, kStride);
-  const auto x = random_rows(matrix.rows(), 1);
-  const auto y = random_rows(matrix.rows(), 2);
+  const auto x = random_panel(matrix.rows(), 1);
+  const auto y = random_panel(matrix.rows(), 2);
   const auto bx = cycle(multigrid, x);
   const auto by = cycle(multigrid, y);
-  const RowMajor<double> combined = cycle<double>(multigrid, 2 * x - 3 * y);
+  const Rows<double> combined = cycle<double>(multigrid, 2 * x - 3 * y);
   EXPECT_LT((combined - (2 * bx - 3 * by)).norm(), 1e-12 * combined.norm());
   const Eigen::RowVectorXd xby = x.cwiseProduct(by).colwise().sum();
   const Eigen::RowVectorXd bxy = bx.cwiseProduct(y).colwise().sum();
@@ -101,14 +101,14 @@ TEST_IN_2D_AND_3D(MultigridTest, SinglePrecisionIsTheSameCycle) {
   const auto matrix = interior_matrix<Dim>(Shape::kRing, Dim == 2 ? 24 : 6, 0);
   Multigrid<double> exact(matrix, kStride);
   Multigrid<float> multigrid(matrix, kStride);
-  const auto x = random_rows(matrix.rows(), 3);
+  const auto x = random_panel(matrix.rows(), 3);
   EXPECT_LT((cycle(multigrid, x) - cycle(exact, x)).norm(), 1e-5 * cycle(exact, x).norm());
 }
 
 TEST_IN_2D_AND_3D(MultigridTest, EverySliceGivesTheSameBits) {
   const auto matrix = interior_matrix<Dim>(Shape::kBox, Dim == 2 ? 50 : 14, 0.2);
   Multigrid<float> multigrid(matrix, kStride);
-  const RowMajor<float> right_side = random_rows(matrix.rows(), 4).template cast<float>();
+  const Rows<float> right_side = random_panel(matrix.rows(), 4).template cast<float>();
   const auto run = [&](std::initializer_list<std::size_t> borders) {
     AlignedArray<float> rows(static_cast<std::size_t>(right_side.size()));
     std::copy_n(right_side.data(), right_side.size(), rows.data());
@@ -128,19 +128,19 @@ TEST_IN_2D_AND_3D(MultigridTest, EverySliceGivesTheSameBits) {
 TEST_IN_2D_AND_3D(MultigridTest, PreconditionsConjugateGradients) {
   const auto matrix = interior_matrix<Dim>(Shape::kCorner, Dim == 2 ? 50 : 12, 0.2);
   const MultigridCg solver(matrix);
-  RowMajor<double> exact = random_rows(matrix.rows(), 6);
+  Rows<double> exact = random_panel(matrix.rows(), 6);
   exact.col(1) *= 1e-20;
   exact.col(2).setZero();
-  const RowMajor<double> right_side = matrix * exact;
+  const Rows<double> right_side = matrix * exact;
   const auto run = [&](int count) {
     const ThreadScope threads(count);
     AlignedArray<double> rows(static_cast<std::size_t>(right_side.size()));
     std::copy_n(right_side.data(), right_side.size(), rows.data());
     solver.solve(rows.data(), kStride);
-    return RowMajor<double>(Eigen::Map<RowMajor<double>>(rows.data(), matrix.rows(), kStride));
+    return Rows<double>(Eigen::Map<Rows<double>>(rows.data(), matrix.rows(), kStride));
   };
   const auto solution = run(1);
-  const RowMajor<double> error = solution - exact;
+  const Rows<double> error = solution - exact;
   const Eigen::ArrayXd size = exact.cwiseProduct(matrix * exact).colwise().sum();
   const Eigen::ArrayXd left = error.cwiseProduct(matrix * error).colwise().sum();
   EXPECT_TRUE((left <= 1e-12 * size).all()) << (left / size).maxCoeff();
@@ -174,8 +174,8 @@ TEST(MultigridOfDiagonalsTest, TakesMatricesThatCannotBeCoarsened) {
     RowMatrix diagonal(size, size);
     for (Index k = 0; k < size; ++k) diagonal.insert(k, k) = k + 1;
     Multigrid<double> multigrid(diagonal, kStride);
-    const auto x = random_rows(size, 5);
-    const RowMajor<double> solved = cycle(multigrid, x);
+    const auto x = random_panel(size, 5);
+    const Rows<double> solved = cycle(multigrid, x);
     EXPECT_LT((diagonal * solved - x).norm(), 1e-12 * x.norm()) << size;
   }
 }

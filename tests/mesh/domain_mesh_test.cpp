@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "flbc/errors.h"
 #include "support/dimensions.h"
+#include "support/errors.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
@@ -15,12 +16,7 @@ namespace {
 
 template <int Dim>
 void expect_refused(DomainMesh<Dim> mesh, const std::string& words) {
-  try {
-    normalize_and_validate(mesh);
-    FAIL() << "accepted, expected: " << words;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
+  expect_error<InputError>([&] { normalize_and_validate(mesh); }, {words});
 }
 
 TEST_IN_2D_AND_3D(DomainMeshTest, TopologyIsConsistent) {

@@ -19,6 +19,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/child_processes.h"
+
 namespace flbc {
 namespace {
 
@@ -31,17 +33,13 @@ int count_open_files() {
   return count;
 }
 
-bool has_child() {
-  return waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD;
-}
-
 // Checks after every test that nothing was left behind.
 class IsolatedProcessTest : public ::testing::Test {
  protected:
   void SetUp() override { open_before_ = count_open_files(); }
   void TearDown() override {
     EXPECT_EQ(count_open_files(), open_before_);
-    EXPECT_FALSE(has_child());
+    EXPECT_FALSE(testing::has_child());
   }
 
  private:

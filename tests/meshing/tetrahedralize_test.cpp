@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
+#include "support/child_processes.h"
 #include "support/code_cages.h"
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
@@ -38,10 +37,6 @@ double worst_radius_edge_ratio(const DomainMesh<3>& mesh) {
     worst = std::max(worst, radius / shortest);
   }
   return worst;
-}
-
-bool has_child() {
-  return waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD;
 }
 
 TEST(TetrahedralizeTest, CountAndCover) {

@@ -14,8 +14,6 @@
 namespace flbc::testing {
 namespace {
 
-using Tri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
-
 // A star, so that 32 control points are the corners of a cage.
 Cage<2> star() {
   constexpr int kCorners = 32;
@@ -37,7 +35,7 @@ double mean_squared_difference(const WeightMatrix& a, const WeightMatrix& b) {
 TEST(CoarseStart, IsTakenInThePlaneWhereItPays) {
   const auto cage = star();
   const auto domain = triangulate(cage, {9000});
-  auto mesh = openmesh::to_mesh<Tri>(domain);
+  auto mesh = openmesh::to_mesh<DoubleTri>(domain);
   const auto report = openmesh::solve(mesh, cage);
   ASSERT_EQ(report.coarse_levels.size(), 1U);
   EXPECT_LT(report.coarse_levels[0].vertices, report.vertices / 5);
@@ -49,7 +47,7 @@ TEST(CoarseStart, IsTakenInThePlaneWhereItPays) {
   EXPECT_LT(mean_squared_difference(weights, openmesh::get_weights(mesh)), 1e-6);
   EXPECT_TRUE(openmesh::solve(mesh, cage, {}, {}, {}).coarse_levels.empty());
   // Bound on the same mesh of the interior, too.
-  Tri model;
+  DoubleTri model;
   model.add_vertex({0.1, 0.2, 0});
   EXPECT_EQ(openmesh::bind(model, cage, domain).solve.coarse_levels.size(), 1U);
 }
@@ -66,7 +64,7 @@ TEST(CoarseStart, IsThereInSpace) {
 template <int Dim>
 auto mesh_of(const DomainMesh<Dim>& domain) {
   if constexpr (Dim == 2) {
-    return openmesh::to_mesh<Tri>(domain);
+    return openmesh::to_mesh<DoubleTri>(domain);
   } else {
     return openmesh::TetMesh::from(domain);
   }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "flbc/cage_facts.h"
+#include "support/errors.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
 #include "support/wide_meshes.h"
@@ -18,14 +19,7 @@
 namespace flbc::testing {
 namespace {
 
-using DoubleTri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
-using DoublePoly = OpenMesh::PolyMesh_ArrayKernelT<DoublePoints>;
-using FloatTri = OpenMesh::TriMesh_ArrayKernelT<>;
-struct PlanePoints : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec2d;
-};
 using PlanePoly = OpenMesh::PolyMesh_ArrayKernelT<PlanePoints>;
-using PlaneTri = OpenMesh::TriMesh_ArrayKernelT<PlanePoints>;
 using openmesh::TetMesh;
 
 // Simplices from the vertex with the least number on, in the same sense.
@@ -50,16 +44,6 @@ std::multiset<std::vector<Index>> unordered(const Simplices& simplices) {
     all.insert(vertices);
   }
   return all;
-}
-
-template <class Action>
-void expect_refused(const std::string& words, const Action& action) {
-  try {
-    action();
-    FAIL() << "accepted, expected: " << words;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
 }
 
 template <class Mesh>

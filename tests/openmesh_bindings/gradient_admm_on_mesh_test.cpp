@@ -22,7 +22,6 @@
 namespace flbc::testing {
 namespace {
 
-using Tri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
 using openmesh::GradientAdmmOptions;
 using openmesh::TetMesh;
 template <class Mesh>
@@ -30,8 +29,8 @@ using Admm = openmesh::GradientAdmm<Mesh>;
 
 template <class Mesh>
 class MeshAdmm : public ::testing::Test {};
-using Meshes = ::testing::Types<Tri, TetMesh>;
-TYPED_TEST_SUITE(MeshAdmm, Meshes);
+using IterationMeshes = ::testing::Types<DoubleTri, TetMesh>;
+TYPED_TEST_SUITE(MeshAdmm, IterationMeshes);
 
 // In a unit of length and a place that are not those of the solver.
 template <int Dim>
@@ -247,13 +246,13 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
   const auto sample = moved(make_sample<2>(Shape::kRing, 3, 0.2));
   GradientAdmmOptions options;
   options.phi = DistanceScheme::kConstant;  // distances depend on the numbering, by 1e-7
-  auto whole = openmesh::to_mesh<Tri>(sample.mesh);
-  Admm<Tri> uninterrupted(whole, sample.cage, options);
+  auto whole = openmesh::to_mesh<DoubleTri>(sample.mesh);
+  Admm<DoubleTri> uninterrupted(whole, sample.cage, options);
   uninterrupted.iterate(40);
   const auto expected = gradients_of(whole, uninterrupted);
 
-  auto mesh = openmesh::to_mesh<Tri>(sample.mesh);
-  Admm<Tri>(mesh, sample.cage, options).iterate(25);
+  auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
+  Admm<DoubleTri>(mesh, sample.cage, options).iterate(25);
   mesh.request_face_status();
   mesh.request_edge_status();
   mesh.request_vertex_status();
@@ -285,7 +284,7 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
   }
   ASSERT_GT(moved, num_faces / 4);
 
-  Admm<Tri> resumed(mesh, sample.cage, options);
+  Admm<DoubleTri> resumed(mesh, sample.cage, options);
   EXPECT_TRUE(resumed.resumed());
   resumed.iterate(15);
   EXPECT_LT(largest_difference(expected, mesh, resumed), 1e-12);
@@ -293,18 +292,18 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
 
 TEST(MeshAdmmOnTriangles, StateSurvivesFiles) {
   const auto sample = moved(make_sample<2>(Shape::kRing, 3, 0.2));
-  auto mesh = openmesh::to_mesh<Tri>(sample.mesh);
+  auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
   GradientAdmmOptions options;
   options.persistent = true;
-  Admm<Tri> uninterrupted(mesh, sample.cage, options);
+  Admm<DoubleTri> uninterrupted(mesh, sample.cage, options);
   uninterrupted.iterate(25);
   uninterrupted.recover_weights();
   const std::string path = scratch_path("admm_state.om");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
-  Tri loaded;
+  DoubleTri loaded;
   ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
   EXPECT_EQ(openmesh::get_weights(loaded), openmesh::get_weights(mesh));
-  Admm<Tri> resumed(loaded, sample.cage);
+  Admm<DoubleTri> resumed(loaded, sample.cage);
   EXPECT_TRUE(resumed.resumed());
   uninterrupted.iterate(15);
   resumed.iterate(15);
@@ -313,8 +312,8 @@ TEST(MeshAdmmOnTriangles, StateSurvivesFiles) {
 
 TEST(MeshAdmmOnTriangles, AnotherNumberOfControlPointsReplacesTheState) {
   const auto sample = moved(make_sample<2>(Shape::kBox, 4));
-  auto mesh = openmesh::to_mesh<Tri>(sample.mesh);
-  Admm<Tri>(mesh, sample.cage).iterate(10);
+  auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
+  Admm<DoubleTri>(mesh, sample.cage).iterate(10);
   auto finer = sample.cage;
   const Index n = finer.size();
   finer.points.conservativeResize(2, n + 1);
@@ -323,25 +322,25 @@ TEST(MeshAdmmOnTriangles, AnotherNumberOfControlPointsReplacesTheState) {
   finer.facets.conservativeResize(2, finer.facets.cols() + 1);
   finer.facets.rightCols(1) << n, finer.facets(1, 0);
   finer.facets(1, 0) = n;
-  Admm<Tri> admm(mesh, finer);
+  Admm<DoubleTri> admm(mesh, finer);
   EXPECT_FALSE(admm.resumed());
   admm.iterate(10);
   EXPECT_EQ(admm.gradient(mesh.face_handle(0)).cols(), n + 1);
-  auto fresh = openmesh::to_mesh<Tri>(sample.mesh);
-  Admm<Tri> expected(fresh, finer);
+  auto fresh = openmesh::to_mesh<DoubleTri>(sample.mesh);
+  Admm<DoubleTri> expected(fresh, finer);
   expected.iterate(10);
   EXPECT_EQ(largest_difference(gradients_of(fresh, expected), mesh, admm), 0);
 }
 
 TEST(MeshAdmmOnTriangles, RefusesImpossibleOptions) {
   const auto sample = make_sample<2>(Shape::kBox, 2);
-  auto mesh = openmesh::to_mesh<Tri>(sample.mesh);
+  auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
   for (const auto& [penalty, relaxation] :
        std::vector<std::pair<double, double>>{{-1, 1}, {0, 0}, {0, 2}, {std::nan(""), 1}}) {
     GradientAdmmOptions options;
     options.penalty = penalty;
     options.relaxation = relaxation;
-    EXPECT_THROW(Admm<Tri>(mesh, sample.cage, options), OptionError);
+    EXPECT_THROW(Admm<DoubleTri>(mesh, sample.cage, options), OptionError);
   }
 }
 

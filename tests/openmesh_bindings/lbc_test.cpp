@@ -9,26 +9,19 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "flbc/openmesh/bind.h"
+#include "support/errors.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/scratch.h"
+#include "support/wide_meshes.h"
 
 namespace flbc::testing {
 namespace {
 
-struct Vec3dTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-};
-struct Vec2dTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec2d;
-};
 struct EigenTraits : OpenMesh::DefaultTraits {
   using Point = Eigen::Vector3d;
   using Normal = Eigen::Vector3d;
 };
-using FloatMesh = OpenMesh::TriMesh_ArrayKernelT<>;
-using DoubleMesh = OpenMesh::TriMesh_ArrayKernelT<Vec3dTraits>;
-using PlaneMesh = OpenMesh::TriMesh_ArrayKernelT<Vec2dTraits>;
 using EigenMesh = OpenMesh::TriMesh_ArrayKernelT<EigenTraits>;
 using openmesh::TetMesh;
 using openmesh::Wide;
@@ -36,10 +29,10 @@ using openmesh::Wide;
 template <class Mesh>
 constexpr int kDim = openmesh::kDimension<Mesh>;
 template <class Mesh>
-constexpr bool kExact = !std::is_same_v<Mesh, FloatMesh>;
+constexpr bool kExact = !std::is_same_v<Mesh, FloatTri>;
 
 template <class Mesh>
-Mesh build(const DomainMesh<2>& domain) {
+Mesh by_hand(const DomainMesh<2>& domain) {
   Mesh mesh;
   for (Index v = 0; v < domain.num_vertices(); ++v) {
     typename Mesh::Point point;
@@ -57,14 +50,14 @@ Mesh build(const DomainMesh<2>& domain) {
 }
 
 template <class Mesh>
-Mesh build(const DomainMesh<3>& domain) {
+Mesh by_hand(const DomainMesh<3>& domain) {
   return TetMesh::from(domain);
 }
 
 template <class Mesh>
 class LbcTest : public ::testing::Test {};
-using Meshes = ::testing::Types<FloatMesh, DoubleMesh, PlaneMesh, EigenMesh, TetMesh>;
-TYPED_TEST_SUITE(LbcTest, Meshes);
+using SolvedMeshes = ::testing::Types<FloatTri, DoubleTri, PlaneTri, EigenMesh, TetMesh>;
+TYPED_TEST_SUITE(LbcTest, SolvedMeshes);
 
 template <int Dim>
 DomainMesh<Dim> oriented(DomainMesh<Dim> mesh) {
@@ -76,7 +69,7 @@ TYPED_TEST(LbcTest, EqualsTheSolveOnArrays) {
   constexpr int kDimension = kDim<TypeParam>;
   for (const auto& sample : samples<kDimension>()) {
     SCOPED_TRACE(sample.name);
-    auto mesh = build<TypeParam>(sample.mesh);
+    auto mesh = by_hand<TypeParam>(sample.mesh);
     const auto report = openmesh::solve(mesh, sample.cage);
     const auto expected = solve(sample.cage, oriented(sample.mesh));
     const auto weights = openmesh::get_weights(mesh);
@@ -89,16 +82,6 @@ TYPED_TEST(LbcTest, EqualsTheSolveOnArrays) {
   }
 }
 
-template <class Action>
-void expect_refused(const std::string& words, const Action& action) {
-  try {
-    action();
-    FAIL() << "accepted, expected: " << words;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
-}
-
 template <class Mesh>
 using CellRows = typename openmesh::Elements<Mesh>::template CellProperty<Wide<double>>;
 
@@ -108,7 +91,7 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
   sample.mesh.points *= 4;
   sample.cage.points *= 4;
-  auto mesh = build<TypeParam>(sample.mesh);
+  auto mesh = by_hand<TypeParam>(sample.mesh);
   const auto cells = openmesh::make_domain(mesh).mesh.cells;
   CellRows<TypeParam> handle;
   openmesh::PropertyOptions properties;
@@ -146,7 +129,7 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
 TYPED_TEST(LbcTest, DeformFollowsTheCage) {
   constexpr int kDimension = kDim<TypeParam>;
   const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  auto mesh = build<TypeParam>(sample.mesh);
+  auto mesh = by_hand<TypeParam>(sample.mesh);
   openmesh::solve(mesh, sample.cage);
   Eigen::Matrix<double, kDimension, kDimension> linear =
       Eigen::Matrix<double, kDimension, kDimension>::Identity();
@@ -164,18 +147,18 @@ TYPED_TEST(LbcTest, DeformFollowsTheCage) {
   }
   cage.points.conservativeResize(kDimension, cage.points.cols() - 1);
   expect_refused("do not match a cage with", [&] { openmesh::deform(mesh, cage); });
-  auto bare = build<TypeParam>(sample.mesh);
+  auto bare = by_hand<TypeParam>(sample.mesh);
   expect_refused("has no weights", [&] { openmesh::deform(bare, sample.cage); });
 }
 
 template <class Mesh>
 class LbcTriangleTest : public ::testing::Test {};
-using TriangleMeshes = ::testing::Types<FloatMesh, DoubleMesh, PlaneMesh, EigenMesh>;
+using TriangleMeshes = ::testing::Types<FloatTri, DoubleTri, PlaneTri, EigenMesh>;
 TYPED_TEST_SUITE(LbcTriangleTest, TriangleMeshes);
 
 TYPED_TEST(LbcTriangleTest, DeletedElementsAndLooseVerticesAreNamed) {
   const auto sample = make_sample<2>(Shape::kBox, 3);
-  auto mesh = build<TypeParam>(sample.mesh);
+  auto mesh = by_hand<TypeParam>(sample.mesh);
   mesh.request_face_status();
   mesh.request_edge_status();
   mesh.request_vertex_status();
@@ -183,7 +166,7 @@ TYPED_TEST(LbcTriangleTest, DeletedElementsAndLooseVerticesAreNamed) {
   mesh.delete_face(mesh.face_handle(5), false);
   expect_refused("face 5; call garbage_collection()", [&] { openmesh::solve(mesh, sample.cage); });
 
-  auto loose = build<TypeParam>(sample.mesh);
+  auto loose = by_hand<TypeParam>(sample.mesh);
   const auto point = loose.point(loose.vertex_handle(0));  // a copy: points move as they are added
   const auto added = loose.add_vertex(point);
   expect_refused("vertex " + std::to_string(added.idx()),
@@ -198,7 +181,7 @@ TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
   const auto sample = make_sample<2>(Shape::kRing, 3, 0.2);
   auto turned = sample.mesh;
   turned.cells.row(1).swap(turned.cells.row(2));
-  auto mesh = build<TypeParam>(turned);
+  auto mesh = by_hand<TypeParam>(turned);
   openmesh::solve(mesh, sample.cage);
   const auto judgement = judge(sample.cage, sample.mesh, openmesh::get_weights(mesh));
   EXPECT_LT(judgement.partition_error, 1e-13);
@@ -207,7 +190,7 @@ TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
 
 TEST(LbcFile, WeightsAndGradientsSurvive) {
   const auto sample = make_sample<2>(Shape::kRing, 3, 0.2);
-  auto mesh = build<DoubleMesh>(sample.mesh);
+  auto mesh = by_hand<DoubleTri>(sample.mesh);
   openmesh::PropertyOptions properties;
   properties.gradients = true;
   properties.persistent = true;
@@ -215,7 +198,7 @@ TEST(LbcFile, WeightsAndGradientsSurvive) {
   const std::string path = scratch_path("lbc.om");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
   // What is loaded and saved again is still there.
-  DoubleMesh loaded, again;
+  DoubleTri loaded, again;
   ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
   ASSERT_TRUE(OpenMesh::IO::write_mesh(loaded, path));
   ASSERT_TRUE(OpenMesh::IO::read_mesh(again, path));
@@ -242,7 +225,7 @@ TEST(LbcProperties, WhatBelongedToOlderWeightsIsRemoved) {
 
 TEST(LbcPlane, MeshesOutOfAPlaneAreNamed) {
   const auto sample = make_sample<2>(Shape::kBox, 2);
-  auto mesh = build<DoubleMesh>(sample.mesh);
+  auto mesh = by_hand<DoubleTri>(sample.mesh);
   mesh.set_point(mesh.vertex_handle(3),
                  mesh.point(mesh.vertex_handle(3)) + OpenMesh::Vec3d(0, 0, 1));
   expect_refused("vertex 3 has z", [&] { openmesh::solve(mesh, sample.cage); });

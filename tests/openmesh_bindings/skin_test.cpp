@@ -15,8 +15,6 @@
 namespace flbc::testing {
 namespace {
 
-using Poly = OpenMesh::PolyMesh_ArrayKernelT<DoublePoints>;
-
 template <class Dimension>
 class MeshSkin : public FolderTest {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
@@ -31,8 +29,8 @@ struct Example {
       const auto cell = sample.mesh.cells.col(s);
       add(cell[0], cell[1], cell[2]);
     }
-    const WeightMatrix few = sparsify<Dim>(sample.cage.points, sample.mesh.points,
-                                           harmonic_weights(sample), {4});
+    const WeightMatrix few =
+        sparsify<Dim>(sample.cage.points, sample.mesh.points, harmonic_weights(sample), {4});
     openmesh::set_influences(mesh, SparseWeights(few));
     openmesh::set_rest_cage(mesh, sample.cage.points);
   }
@@ -46,7 +44,7 @@ struct Example {
   }
 
   Sample<Dim> sample;
-  Poly mesh;
+  DoublePoly mesh;
 };
 
 TYPED_TEST(MeshSkin, MovesAsTheMeshDoes) {
@@ -57,7 +55,7 @@ TYPED_TEST(MeshSkin, MovesAsTheMeshDoes) {
   mesh.request_vertex_colors();
   mesh.request_vertex_texcoords2D();
   for (const auto v : mesh.vertices()) {
-    mesh.set_color(v, Poly::Color(0, 255, 0));
+    mesh.set_color(v, DoublePoly::Color(0, 255, 0));
     mesh.set_texcoord2D(v, {0.25F, static_cast<float>(v.idx())});
   }
   const auto path = this->path("skin.glb");

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The iteration on the active set: its linear step against a dense solver of the same problem, and its
-// limit against the iteration on all pairs.
+// The iteration on the active set: its linear step against a dense solver of the same problem, and
+// its limit against the iteration on all pairs.
 #include <algorithm>
 #include <set>
-#include <type_traits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -16,19 +15,15 @@
 #include "solver/plan/choices.h"
 #include "solver/run/run.h"
 #include "support/dense_algebra.h"
+#include "support/dimensions.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
 
 namespace flbc::testing {
 namespace {
 
-using active_set::ControlPoint;
 using active_set::ActiveLists;
-
-template <class Dimension>
-class ActiveSetTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(ActiveSetTest, Dimensions);
+using active_set::ControlPoint;
 
 template <int Dim>
 LbcProblem<Dim> make_fine_problem(Shape shape) {
@@ -141,16 +136,15 @@ Eigen::VectorXd cycle_of(active_set::ActiveMultigrid<double, Dim>& multigrid,
   return step.packed(rows);
 }
 
-TYPED_TEST(ActiveSetTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
-  const LinearStep<kDim> step(problem, active_of_harmonic(problem, 0.02));
-  const DenseSpace<kDim> space(problem,
-                               reordered(step.matrix, step.order.position, step.order.position),
-                               step.lists, step.vertices);
+TEST_IN_2D_AND_3D(ActiveSetTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) {
+  const auto problem = make_fine_problem<Dim>(Shape::kCorner);
+  const LinearStep<Dim> step(problem, active_of_harmonic(problem, 0.02));
+  const DenseSpace<Dim> space(problem,
+                              reordered(step.matrix, step.order.position, step.order.position),
+                              step.lists, step.vertices);
   ASSERT_GT(space.basis.cols(), 20);
-  for (const auto* kernel : kernels<kDim>()) {
-    active_set::ActiveMultigrid<double, kDim> multigrid(step.matrix, step.order, step.lists,
+  for (const auto* kernel : kernels<Dim>()) {
+    active_set::ActiveMultigrid<double, Dim> multigrid(step.matrix, step.order, step.lists,
                                                        step.bases, problem.cage.points, *kernel);
     const Eigen::VectorXd a = Eigen::VectorXd::Random(space.system.rows());
     const Eigen::VectorXd b = Eigen::VectorXd::Random(space.system.rows());
@@ -165,7 +159,7 @@ TYPED_TEST(ActiveSetTest, LinearStepIsASymmetricCorrectionWithinTheConstraints) 
     double energy = exact.dot(space.system * exact);
     const double first = energy;
     for (int cycle = 0; cycle < 12; ++cycle) {
-      solution += cycle_of<kDim>(multigrid, step, a - space.system * solution);
+      solution += cycle_of<Dim>(multigrid, step, a - space.system * solution);
       const Eigen::VectorXd error = exact - solution;
       const double now = error.dot(space.system * error);
       EXPECT_LE(now, energy);
@@ -194,8 +188,8 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   settings.relaxation = *options.relaxation;
   settings.tolerance = tolerance;
   settings.half = half;
-  active_set::ActiveSet<Scalar, Dim> iteration(
-      problem, splitting::measure_metric(problem, true), settings, active_of_harmonic(problem, 0.2));
+  active_set::ActiveSet<Scalar, Dim> iteration(problem, splitting::measure_metric(problem, true),
+                                               settings, active_of_harmonic(problem, 0.2));
   iteration.start(start);
   EstimatedError<Dim> stop(problem, options, Origin::kCold);
   GapCriterion gap(0);
@@ -207,10 +201,9 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   return {iteration.weights().sparse.dense(), {}, std::move(report)};
 }
 
-TYPED_TEST(ActiveSetTest, GrowsToTheOptimumOfAllPairs) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(ActiveSetTest, GrowsToTheOptimumOfAllPairs) {
   for (const auto shape : {Shape::kBox, Shape::kCorner}) {
-    const auto problem = make_fine_problem<kDim>(shape);
+    const auto problem = make_fine_problem<Dim>(shape);
     SolverOptions options;
     options.active_set = ActiveSet::kOff;
     options.precision = Precision::kDouble;
@@ -224,9 +217,8 @@ TYPED_TEST(ActiveSetTest, GrowsToTheOptimumOfAllPairs) {
   }
 }
 
-TYPED_TEST(ActiveSetTest, SolveGivesTheSameOptimum) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(ActiveSetTest, SolveGivesTheSameOptimum) {
+  const auto problem = make_fine_problem<Dim>(Shape::kCorner);
   SolverOptions options;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-10;
@@ -246,9 +238,8 @@ TYPED_TEST(ActiveSetTest, SolveGivesTheSameOptimum) {
 }
 
 // On an active set, where they never were a matrix, and on all pairs.
-TYPED_TEST(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = with_fine_cage<kDim>(Shape::kCorner, 2, kDim == 2 ? 8 : 4);
+TEST_IN_2D_AND_3D(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
+  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
   for (const auto choice : {ActiveSet::kOn, ActiveSet::kOff}) {
     SolverOptions options;
     options.active_set = choice;
@@ -261,7 +252,8 @@ TYPED_TEST(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
     EXPECT_EQ(sparse.sparse_weights.dense(), dense.weights);
     EXPECT_EQ((sparse.sparse_weights.values().size()),
               static_cast<std::size_t>((dense.weights.array() != 0).count()));
-    EXPECT_LT(sparse.sparse_weights.values().size(), static_cast<std::size_t>(dense.weights.size()));
+    EXPECT_LT(sparse.sparse_weights.values().size(),
+              static_cast<std::size_t>(dense.weights.size()));
     EXPECT_EQ(sparse.report.iterations, dense.report.iterations);
     EXPECT_NEAR(sparse.report.objective, dense.report.objective, 1e-12 * dense.report.objective);
     EXPECT_EQ(sparse.report.quality.min_weight, dense.report.quality.min_weight);
@@ -271,9 +263,8 @@ TYPED_TEST(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
   }
 }
 
-TYPED_TEST(ActiveSetTest, CertificateIsThatOfLastIterationsOnAllPairs) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kBox);
+TEST_IN_2D_AND_3D(ActiveSetTest, CertificateIsThatOfLastIterationsOnAllPairs) {
+  const auto problem = make_fine_problem<Dim>(Shape::kBox);
   SolverOptions options;
   options.tolerance = 1e-9;
   options.active_set = ActiveSet::kOn;
@@ -285,9 +276,8 @@ TYPED_TEST(ActiveSetTest, CertificateIsThatOfLastIterationsOnAllPairs) {
 }
 
 // The duals of all pairs need iterations, which must not be missing when the limit is reached.
-TYPED_TEST(ActiveSetTest, CertificateIsGoodAtTheIterationLimit) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kBox);
+TEST_IN_2D_AND_3D(ActiveSetTest, CertificateIsGoodAtTheIterationLimit) {
+  const auto problem = make_fine_problem<Dim>(Shape::kBox);
   SolverOptions options;
   options.tolerance = 1e-12;
   options.precision = Precision::kDouble;
@@ -303,9 +293,8 @@ TYPED_TEST(ActiveSetTest, CertificateIsGoodAtTheIterationLimit) {
             10 * all.report.certificate.relative_gap + 1e-3);
 }
 
-TYPED_TEST(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+TEST_IN_2D_AND_3D(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
+  const auto problem = make_fine_problem<Dim>(Shape::kStar);
   const auto weights_by = [&](int count) {
     const ThreadScope threads(count);
     return run_on_tight<float>(problem, 1e-6, true).weights;
@@ -315,9 +304,8 @@ TYPED_TEST(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   EXPECT_EQ(weights_by(3), one);
 }
 
-TYPED_TEST(ActiveSetTest, LowerPrecisionsFollowDouble) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(ActiveSetTest, LowerPrecisionsFollowDouble) {
+  const auto problem = make_fine_problem<Dim>(Shape::kCorner);
   const auto exact = run_on_tight<double>(problem, 1e-9, false).weights;
   const auto single = run_on_tight<float>(problem, 1e-8, false).weights;
   const auto half = run_on_tight<float>(problem, 1e-6, true).weights;
@@ -328,25 +316,23 @@ TYPED_TEST(ActiveSetTest, LowerPrecisionsFollowDouble) {
 }
 
 // Whether a vertex is a combination of its control points with weights that are not negative.
-TYPED_TEST(ActiveSetTest, EveryVertexHasWeightsOnItsSupport) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+TEST_IN_2D_AND_3D(ActiveSetTest, EveryVertexHasWeightsOnItsSupport) {
+  const auto problem = make_fine_problem<Dim>(Shape::kStar);
   // Nothing is above this threshold: all that is there is what boundaries and feasibility ask for.
   const auto lists = active_of_harmonic(problem, 2);
   for (const Index v : problem.boundary.interior_vertices()) {
     const auto list = lists.of(v);
-    PointList<kDim> points(kDim, list.last - list.first);
+    PointList<Dim> points(Dim, list.last - list.first);
     for (Index j = 0; j < points.cols(); ++j)
       points.col(j) = problem.cage.points.col(list.first[j]);
-    const Vector<kDim> point = problem.mesh.points.col(v);
-    EXPECT_LT(nearest_point_in_hull<kDim>(points, point).distance, 1e-6) << "vertex " << v;
+    const Vector<Dim> point = problem.mesh.points.col(v);
+    EXPECT_LT(nearest_point_in_hull<Dim>(points, point).distance, 1e-6) << "vertex " << v;
   }
 }
 
 // Pair by pair, over all pairs of vertices of a cell.
-TYPED_TEST(ActiveSetTest, EndsAreWhereANeighbourLacksTheControlPoint) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(ActiveSetTest, EndsAreWhereANeighbourLacksTheControlPoint) {
+  const auto problem = make_fine_problem<Dim>(Shape::kCorner);
   const auto lists = active_of_harmonic(problem, 0.1);
   const auto holds = [&](Index v, ControlPoint i) {
     const auto list = lists.of(v);
@@ -375,15 +361,14 @@ TYPED_TEST(ActiveSetTest, EndsAreWhereANeighbourLacksTheControlPoint) {
 }
 
 // Near weights above the threshold it stays as it is, elsewhere it is zero.
-TYPED_TEST(ActiveSetTest, FluxIsHandedOnWhereWeightsAre) {
-  constexpr int kDim = TypeParam::value;
-  const auto problem = make_fine_problem<kDim>(Shape::kStar);
+TEST_IN_2D_AND_3D(ActiveSetTest, FluxIsHandedOnWhereWeightsAre) {
+  const auto problem = make_fine_problem<Dim>(Shape::kStar);
   const Index n = problem.num_control_points();
   const WeightMatrix weights = harmonic_coordinates(problem);
-  Start<kDim> start;
+  Start<Dim> start;
   start.weights = [&](Index v) -> Eigen::VectorXd { return weights.col(v); };
   start.flux_density = [&](Index s) {
-    return Eigen::Matrix<double, Eigen::Dynamic, kDim>::Constant(n, kDim, s + 1).eval();
+    return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Constant(n, Dim, s + 1).eval();
   };
   constexpr double kThreshold = 0.1;
   const auto handed_on = active_set::where_weights_are(problem, start, kThreshold);

@@ -2,26 +2,20 @@
 // The start from a coarser mesh: what carries over exactly, and that the answer stays the same.
 #include "flbc/solver.h"
 
-#include <type_traits>
-
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
-#include "solver/plan/choices.h"
 #include "solver/methods/splitting/compact_splitting.h"
+#include "solver/plan/choices.h"
 #include "solver/start/transfer.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class CoarseToFineTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CoarseToFineTest, Dimensions);
 
 // A linear function per control point.
 template <int Dim>
@@ -36,11 +30,11 @@ WeightMatrix linear_field(Index n, const PointList<Dim>& points) {
 
 // Two meshes of one cage that are not nested, the second elsewhere and at another scale.
 template <int Dim>
-struct Pair {
+struct TwoMeshes {
   LbcProblem<Dim> coarse;
   LbcProblem<Dim> fine;
 
-  explicit Pair(Shape shape) {
+  explicit TwoMeshes(Shape shape) {
     const auto sample = make_sample<Dim>(shape, 2, 0.2);
     coarse = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     auto finer = make_sample<Dim>(shape, 5, 0.2);
@@ -50,20 +44,19 @@ struct Pair {
   }
 };
 
-TYPED_TEST(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExactly) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExactly) {
   for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
-    const Pair<kDim> meshes(shape);
+    const TwoMeshes<Dim> meshes(shape);
     const Index n = meshes.coarse.num_control_points();
-    Duals<kDim> state;
+    Duals<Dim> state;
     state.penalty = 2;
-    state.weights = SparseWeights(linear_field<kDim>(n, meshes.coarse.mesh.points));
+    state.weights = SparseWeights(linear_field<Dim>(n, meshes.coarse.mesh.points));
     state.vertex_dual = state.weights;
-    const Vectors<kDim> density = Vectors<kDim>::Constant(n, kDim, 0.5);
+    const Vectors<Dim> density = Vectors<Dim>::Constant(n, Dim, 0.5);
     state.flux_density = {n, meshes.coarse.mesh.num_cells(), [&](Index) { return density; }};
-    const Transfer<kDim> transfer(meshes.coarse, state, meshes.fine);
+    const Transfer<Dim> transfer(meshes.coarse, state, meshes.fine);
 
-    const auto expected = linear_field<kDim>(n, meshes.fine.mesh.points);
+    const auto expected = linear_field<Dim>(n, meshes.fine.mesh.points);
     const auto start = transfer.start();
     const double largest = expected.cwiseAbs().maxCoeff();
     for (Index v = 0; v < meshes.fine.mesh.num_vertices(); ++v) {
@@ -79,18 +72,17 @@ TYPED_TEST(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExactly) {
   }
 }
 
-TYPED_TEST(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
-  constexpr int kDim = TypeParam::value;
-  const auto coarse_sample = make_sample<kDim>(Shape::kBox, 2, 0.2);
-  const auto sample = make_sample<kDim>(Shape::kBox, 5, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
+  const auto coarse_sample = make_sample<Dim>(Shape::kBox, 2, 0.2);
+  const auto sample = make_sample<Dim>(Shape::kBox, 5, 0.2);
   const auto coarse = make_problem(coarse_sample.cage, coarse_sample.mesh, DistanceScheme::kSquare);
   const auto fine = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const Index n = coarse.num_control_points();
-  Duals<kDim> state;
+  Duals<Dim> state;
   state.weights = SparseWeights(WeightMatrix::Zero(n, coarse.mesh.num_vertices()));
   state.flux_density = {n, coarse.mesh.num_cells(),
-                        [&](Index) -> Vectors<kDim> { return Vectors<kDim>::Random(n, kDim); }};
-  const Transfer<kDim> transfer(coarse, state, fine);
+                        [&](Index) -> Vectors<Dim> { return Vectors<Dim>::Random(n, Dim); }};
+  const Transfer<Dim> transfer(coarse, state, fine);
   const auto start = transfer.start();
   Index shortened = 0;
   for (Index s = 0; s < fine.mesh.num_cells(); ++s) {
@@ -105,9 +97,8 @@ TYPED_TEST(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
 }
 
 // Started from the duals of its optimum, the splitting stays there.
-TYPED_TEST(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 6 : 4, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 6 : 4, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   splitting::Metric metric;
   metric.cell.resize(problem.mesh.num_cells());
@@ -115,23 +106,23 @@ TYPED_TEST(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
     metric.cell[s] = signed_measure(problem.mesh, s);
   }
   metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), 250 * metric.cell.mean());
-  compact::CompactSplitting<double, kDim> first(problem, metric, {0.016, 1.9});
+  compact::CompactSplitting<double, Dim> first(problem, metric, {0.016, 1.9});
   first.start({});
   first.iterate(3000, false);
   const WeightMatrix weights = first.all_weights();
   const VectorsAt<1> own_dual = [&](Index v) { return first.vertex_dual_at(v); };
-  const auto moved = [&](const VectorsAt<kDim>& flux_density, const VectorsAt<1>& dual) {
-    compact::CompactSplitting<double, kDim> second(problem, metric, {0.016, 1.9});
-    second.start({0.016, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, flux_density,
-                  dual});
+  const auto moved = [&](const VectorsAt<Dim>& flux_density, const VectorsAt<1>& dual) {
+    compact::CompactSplitting<double, Dim> second(problem, metric, {0.016, 1.9});
+    second.start(
+        {0.016, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, flux_density, dual});
     EXPECT_LT((second.all_weights() - weights).cwiseAbs().maxCoeff(), 1e-14);
     double change = 0;
     for (int k = 0; k < 20; ++k) change += second.iterate(1, false).change;
     return change;
   };
-  const VectorsAt<kDim> own = [&](Index s) { return first.flux_density(s); };
-  const VectorsAt<kDim> none = [&](Index) {
-    return Vectors<kDim>::Zero(problem.num_control_points(), kDim).eval();
+  const VectorsAt<Dim> own = [&](Index s) { return first.flux_density(s); };
+  const VectorsAt<Dim> none = [&](Index) {
+    return Vectors<Dim>::Zero(problem.num_control_points(), Dim).eval();
   };
   const double with_duals = moved(own, own_dual);
   EXPECT_LT(with_duals, 1e-6 * moved(none, own_dual));
@@ -170,9 +161,8 @@ CoarseLevels test_levels() {
   return levels;
 }
 
-TYPED_TEST(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = fine_sample<kDim>();
+TEST_IN_2D_AND_3D(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
+  const auto sample = fine_sample<Dim>();
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   SolverOptions exact;
   exact.precision = Precision::kDouble;
@@ -183,16 +173,15 @@ TYPED_TEST(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
   options.certify = true;
   options.tolerance = 1e-6;
   const auto cold = solve(problem, options);
-  options.coarse_levels = test_levels<kDim>();
-  const auto warm = solve(problem, options, sample_mesher<kDim>(Shape::kCorner));
+  options.coarse_levels = test_levels<Dim>();
+  const auto warm = solve(problem, options, sample_mesher<Dim>(Shape::kCorner));
   ASSERT_EQ(cold.report.status, SolveStatus::kConverged);
   ASSERT_EQ(warm.report.status, SolveStatus::kConverged);
   EXPECT_FALSE(warm.report.coarse_levels.empty());
   EXPECT_LT(warm.report.iterations, cold.report.iterations);
   EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, optimum.weights), 3e-6);
   EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, cold.weights), 1e-6);
-  EXPECT_LE(warm.report.certificate.lower_bound,
-            optimum.report.certificate.objective * (1 + 1e-9));
+  EXPECT_LE(warm.report.certificate.lower_bound, optimum.report.certificate.objective * (1 + 1e-9));
   EXPECT_LT(warm.report.certificate.relative_gap, 0.2);
   const auto judgement = judge(sample.cage, sample.mesh, warm.weights);
   EXPECT_LT(judgement.partition_error, 1e-13);
@@ -200,13 +189,12 @@ TYPED_TEST(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
   EXPECT_EQ(judgement.lagrange_error, 0);
 }
 
-TYPED_TEST(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = fine_sample<kDim>();
+TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
+  const auto sample = fine_sample<Dim>();
   SolverOptions options;
   options.tolerance = 1e-5;
   options.check_interval = 1;
-  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels = test_levels<Dim>();
   options.coarse_levels.factor = 3;
   std::vector<int> seen;
   Observer observer;
@@ -215,7 +203,7 @@ TYPED_TEST(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
     return true;
   };
   const auto solution =
-      solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner), observer);
+      solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner), observer);
   const auto& report = solution.report;
   EXPECT_EQ(report.vertices, sample.mesh.num_vertices());
   ASSERT_GE(report.coarse_levels.size(), 2U);
@@ -239,19 +227,18 @@ TYPED_TEST(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
 }
 
 // Without a usable coarse mesh, the result is bit-identical to a cold start.
-TYPED_TEST(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
   SolverOptions options;
   options.tolerance = 1e-5;
-  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels = test_levels<Dim>();
   const auto cold = solve(sample.cage, sample.mesh, options);
-  const CoarseMesher<kDim> meshers[] = {
-      [](const Cage<kDim>&, Index) -> DomainMesh<kDim> { throw OptionError("too fine a cage"); },
-      [](const Cage<kDim>&, Index) -> DomainMesh<kDim> { throw std::bad_function_call(); },
-      [](const Cage<kDim>&, Index) { return DomainMesh<kDim>{}; },
-      [&](const Cage<kDim>& cage, Index) {
-        return sample_mesher<kDim>(Shape::kCorner)(cage, sample.mesh.num_vertices());
+  const CoarseMesher<Dim> meshers[] = {
+      [](const Cage<Dim>&, Index) -> DomainMesh<Dim> { throw OptionError("too fine a cage"); },
+      [](const Cage<Dim>&, Index) -> DomainMesh<Dim> { throw std::bad_function_call(); },
+      [](const Cage<Dim>&, Index) { return DomainMesh<Dim>{}; },
+      [&](const Cage<Dim>& cage, Index) {
+        return sample_mesher<Dim>(Shape::kCorner)(cage, sample.mesh.num_vertices());
       }};
   for (const auto& mesher : meshers) {
     const auto warm = solve(sample.cage, sample.mesh, options, mesher);
@@ -260,13 +247,12 @@ TYPED_TEST(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
   }
 }
 
-TYPED_TEST(CoarseToFineTest, OtherMethodsStartAsEver) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   int calls = 0;
-  const CoarseMesher<kDim> mesher = [&](const Cage<kDim>& cage, Index vertices) {
+  const CoarseMesher<Dim> mesher = [&](const Cage<Dim>& cage, Index vertices) {
     ++calls;
-    return sample_mesher<kDim>(Shape::kCorner)(cage, vertices);
+    return sample_mesher<Dim>(Shape::kCorner)(cage, vertices);
   };
   for (const auto method :
        {Method::kGradient, Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
@@ -281,11 +267,10 @@ TYPED_TEST(CoarseToFineTest, OtherMethodsStartAsEver) {
   EXPECT_EQ(calls, 0);
 }
 
-TYPED_TEST(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = fine_sample<kDim>();
+TEST_IN_2D_AND_3D(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
+  const auto sample = fine_sample<Dim>();
   SolverOptions options;
-  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels = test_levels<Dim>();
   int calls = 0;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
@@ -293,22 +278,21 @@ TYPED_TEST(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
     return ++calls < 2;
   };
   const auto solution =
-      solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner), observer);
+      solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner), observer);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(solution.report.status, SolveStatus::kStopped);
   EXPECT_EQ(solution.report.iterations, 1);
   EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
 }
 
-TYPED_TEST(CoarseToFineTest, ThreadsDoNotChangeABit) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 6, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, ThreadsDoNotChangeABit) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 6, 0.2);
   SolverOptions options;
   options.tolerance = 1e-5;
-  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels = test_levels<Dim>();
   const auto run = [&](int threads) {
     options.threads = threads;
-    return solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner));
+    return solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner));
   };
   const auto one = run(1);
   const auto two = run(2);
@@ -317,33 +301,29 @@ TYPED_TEST(CoarseToFineTest, ThreadsDoNotChangeABit) {
   EXPECT_TRUE((one.weights.array() == two.weights.array()).all());
 }
 
-TYPED_TEST(CoarseToFineTest, RefusesAMeshOfSomethingElse) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);
+TEST_IN_2D_AND_3D(CoarseToFineTest, RefusesAMeshOfSomethingElse) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
   SolverOptions options;
-  options.coarse_levels = test_levels<kDim>();
-  const auto wrong = [](const Cage<kDim>&, Index) {
-    return make_sample<kDim>(Shape::kStar, 3).mesh;
-  };
+  options.coarse_levels = test_levels<Dim>();
+  const auto wrong = [](const Cage<Dim>&, Index) { return make_sample<Dim>(Shape::kStar, 3).mesh; };
   EXPECT_THROW(solve(sample.cage, sample.mesh, options, wrong), InputError);
 }
 
 // Asked for or not: on uses the mesher where it does not pay, off never does.
-TYPED_TEST(CoarseToFineTest, IsOnOrOffAsAskedFor) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 60 : 13, 0.2);
-  ASSERT_GT(sample.mesh.num_vertices(), kDim == 2 ? 5000 : 2500);
+TEST_IN_2D_AND_3D(CoarseToFineTest, IsOnOrOffAsAskedFor) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 60 : 13, 0.2);
+  ASSERT_GT(sample.mesh.num_vertices(), Dim == 2 ? 5000 : 2500);
   SolverOptions options;
   options.max_iterations = 20;
   const auto levels = [&](CoarseToFine choice) {
     options.coarse_to_fine = choice;
-    return solve(sample.cage, sample.mesh, options, sample_mesher<kDim>(Shape::kCorner))
+    return solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner))
         .report.coarse_levels.size();
   };
   EXPECT_GT(levels(CoarseToFine::kOn), 0U);
   EXPECT_EQ(levels(CoarseToFine::kAuto), 0U);
   EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
-  options.coarse_levels = test_levels<kDim>();
+  options.coarse_levels = test_levels<Dim>();
   EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
 }
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,11 +13,12 @@
 #include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/published_penalty.h"
-#include "flbc/harmonic.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
+#include "support/dimensions.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/published_problem.h"
@@ -30,11 +30,6 @@ namespace flbc::testing {
 namespace {
 
 using compact::CompactSplitting;
-
-template <class Dimension>
-class CompactSplittingTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(CompactSplittingTest, Dimensions);
 
 template <int Dim>
 struct Case {
@@ -88,11 +83,10 @@ double expected_primal(const LbcProblem<Dim>& problem, TextbookLbc2014<Dim> text
   return std::sqrt(sum + textbook.squared_violation_of_weights());
 }
 
-TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
-  constexpr int kDim = TypeParam::value;
-  auto all = samples<kDim>();
-  all.push_back(kDim == 2 ? with_many_control_points<kDim>(7, 14)
-                          : with_many_control_points<kDim>(2, 4));
+TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
+  auto all = samples<Dim>();
+  all.push_back(Dim == 2 ? with_many_control_points<Dim>(7, 14)
+                         : with_many_control_points<Dim>(2, 4));
   for (const auto& sample : all) {
     // Smoothness is for the metric A only.
     for (const auto& [non_negative, power, smoothness] :
@@ -108,7 +102,7 @@ TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
       auto textbook = textbook_for(problem, metric, penalty, relaxation, start);
       compact::Settings settings{penalty, relaxation};
       settings.paper_residuals = true;
-      CompactSplitting<double, kDim> splitting(problem, metric, settings);
+      CompactSplitting<double, Dim> splitting(problem, metric, settings);
       splitting.start_from_weights(start);
       for (int iteration = 1; iteration <= 15; ++iteration) {
         const auto before = textbook.weights();
@@ -120,7 +114,7 @@ TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
         EXPECT_NEAR(step.change, expected, 1e-6 * expected + 1e-14);
         EXPECT_EQ(step.dual >= 0, iteration % 2 == 1);
         if (step.dual < 0) continue;
-        const double cells = kDim * problem.mesh.num_cells();
+        const double cells = Dim * problem.mesh.num_cells();
         const double rows =
             non_negative ? static_cast<double>(problem.boundary.interior_vertices().size()) : 0;
         const double components = (cells + rows) * problem.num_control_points();
@@ -130,7 +124,7 @@ TYPED_TEST(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
         EXPECT_NEAR(step.primal, primal, 1e-6 * primal + 1e-12);
       }
       // Not by stagnation, except on a simplex, whose weights are unique.
-      if (sample.cage.size() == kDim + 1) continue;
+      if (sample.cage.size() == Dim + 1) continue;
       EXPECT_GT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-3);
     }
   }
@@ -152,9 +146,8 @@ void expect_to_follow(const Case<Dim>& c, const WeightMatrix& exact, double tole
   }
 }
 
-TYPED_TEST(CompactSplittingTest, LowerPrecisionsFollowDouble) {
-  constexpr int kDim = TypeParam::value;
-  const auto c = make_case<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(CompactSplittingTest, LowerPrecisionsFollowDouble) {
+  const auto c = make_case<Dim>(Shape::kCorner);
   auto exact = make_splitting<double>(c);
   exact.start({});
   exact.iterate(400, false);
@@ -181,12 +174,10 @@ std::pair<WeightMatrix, Eigen::MatrixXd> run_with_threads(const Case<Dim>& c, in
 }
 
 // Arrays of cells come in slices of control points, one per thread.
-TYPED_TEST(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
-  constexpr int kDim = TypeParam::value;
-  std::vector<Case<kDim>> cases{make_case<kDim>(Shape::kCorner)};
-  for (const Index cage_subdivisions : {kDim == 2 ? 7 : 2, kDim == 2 ? 25 : 5}) {
-    cases.push_back(
-        make_case(with_many_control_points<kDim>(cage_subdivisions, cage_subdivisions)));
+TEST_IN_2D_AND_3D(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
+  std::vector<Case<Dim>> cases{make_case<Dim>(Shape::kCorner)};
+  for (const Index cage_subdivisions : {Dim == 2 ? 7 : 2, Dim == 2 ? 25 : 5}) {
+    cases.push_back(make_case(with_many_control_points<Dim>(cage_subdivisions, cage_subdivisions)));
     ASSERT_GT(cases.back().problem.num_control_points(), 32);
   }
   for (const auto& c : cases) {
@@ -203,9 +194,8 @@ TYPED_TEST(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
 }
 
 // Whatever the penalty is changed to on the way, the duals survive and the optimum stays.
-TYPED_TEST(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
-  constexpr int kDim = TypeParam::value;
-  const auto c = make_case<kDim>(Shape::kRing);
+TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
+  const auto c = make_case<Dim>(Shape::kRing);
   auto splitting = make_splitting<double>(c, 1.5);
   splitting.start({});
   splitting.iterate(3000, false);
@@ -221,38 +211,36 @@ TYPED_TEST(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
 }
 
 // The flux obeys its bound, and at the optimum it is phi A times the gradient's direction.
-TYPED_TEST(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
-  constexpr int kDim = TypeParam::value;
-  const auto c = make_case<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
+  const auto c = make_case<Dim>(Shape::kCorner);
   auto splitting = make_splitting<double>(c, 1.5);
   splitting.start({});
   splitting.iterate(4000, false);
   const auto weights = splitting.all_weights();
   double aligned = 0;
   splitting.with_flux([&](const auto& flux) {
-  for (Index s = 0; s < c.problem.mesh.num_cells(); ++s) {
-    const auto corners = cell_corners(c.problem.mesh, s);
-    const double measure = simplex_measure<kDim>(corners);
-    Eigen::MatrixXd corner_weights(weights.rows(), kDim + 1);
-    for (int k = 0; k <= kDim; ++k) {
-      corner_weights.col(k) = weights.col(c.problem.mesh.cells(k, s));
+    for (Index s = 0; s < c.problem.mesh.num_cells(); ++s) {
+      const auto corners = cell_corners(c.problem.mesh, s);
+      const double measure = simplex_measure<Dim>(corners);
+      Eigen::MatrixXd corner_weights(weights.rows(), Dim + 1);
+      for (int k = 0; k <= Dim; ++k) {
+        corner_weights.col(k) = weights.col(c.problem.mesh.cells(k, s));
+      }
+      const PointList<Dim> gradient = linear_gradients<Dim>(corners, corner_weights);
+      const auto p = flux.cell(s);
+      for (Index i = 0; i < weights.rows(); ++i) {
+        EXPECT_LE(p.col(i).norm(), std::max(c.problem.phi(i, s), 1e-10) * measure * (1 + 1e-9));
+      }
+      aligned += p.cwiseProduct(gradient).sum();
     }
-    const PointList<kDim> gradient = linear_gradients<kDim>(corners, corner_weights);
-    const auto p = flux.cell(s);
-    for (Index i = 0; i < weights.rows(); ++i) {
-      EXPECT_LE(p.col(i).norm(), std::max(c.problem.phi(i, s), 1e-10) * measure * (1 + 1e-9));
-    }
-    aligned += p.cwiseProduct(gradient).sum();
-  }
   });
   const double objective = testing::objective(c.problem.mesh, weights, c.problem.phi.dense());
   EXPECT_NEAR(aligned, objective, 1e-3 * objective);
 }
 
 // P of half precision is a number of single precision, so nothing changes but what follows.
-TYPED_TEST(CompactSplittingTest, ContinuesInSinglePrecision) {
-  constexpr int kDim = TypeParam::value;
-  const auto c = make_case<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(CompactSplittingTest, ContinuesInSinglePrecision) {
+  const auto c = make_case<Dim>(Shape::kCorner);
   auto exact = make_splitting<double>(c);
   exact.start({});
   exact.iterate(500, false);
@@ -271,9 +259,8 @@ TYPED_TEST(CompactSplittingTest, ContinuesInSinglePrecision) {
 }
 
 // On meshes so fine that half precision is taken.
-TYPED_TEST(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolerances) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 100 : 14, 0.2);
+TEST_IN_2D_AND_3D(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolerances) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 100 : 14, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   ASSERT_GT(problem.mesh.num_cells(), 10000);
   SolverOptions options;
@@ -289,11 +276,10 @@ TYPED_TEST(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolerances) {
   EXPECT_LT(squared_error(problem, half.weights, single.weights), 1e-7);
 }
 
-TYPED_TEST(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {
-  constexpr int kDim = TypeParam::value;
-  const auto c = make_case<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {
+  const auto c = make_case<Dim>(Shape::kCorner);
   const auto limit = [&](LinearSolver solver) {
-    CompactSplitting<double, kDim> splitting(c.problem, c.metric, {c.penalty, 1.5, solver});
+    CompactSplitting<double, Dim> splitting(c.problem, c.metric, {c.penalty, 1.5, solver});
     splitting.start({});
     splitting.iterate(3000, false);
     return splitting.all_weights();
@@ -304,9 +290,8 @@ TYPED_TEST(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {
 
 // kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh
 // their squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
-TYPED_TEST(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     auto metric = make_metric(problem, 2, true);
@@ -331,9 +316,8 @@ TYPED_TEST(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
 }
 
 // The automatic penalty, computed from its definition.
-TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     SolverOptions options;
@@ -342,7 +326,7 @@ TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
     const double penalty = solve(problem, options).report.penalty;
     double squares = 0, measure = 0;
     for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-      const double own = simplex_measure<kDim>(cell_corners(problem.mesh, s));
+      const double own = simplex_measure<Dim>(cell_corners(problem.mesh, s));
       squares += own * own;
       measure += own;
     }
@@ -352,15 +336,14 @@ TYPED_TEST(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
 }
 
 // Weighted by the measure, the start is harmonic coordinates, for any vertex weights.
-TYPED_TEST(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
+  for (const auto& sample : samples<Dim>()) {
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     const auto expected = harmonic_coordinates(problem);
     for (const bool non_negative : {false, true}) {
       SCOPED_TRACE(sample.name + (non_negative ? ", w >= 0" : ""));
       const auto metric = make_metric(problem, 1, non_negative);
-      CompactSplitting<double, kDim> splitting(problem, metric, {1, 1.5});
+      CompactSplitting<double, Dim> splitting(problem, metric, {1, 1.5});
       splitting.start_from_harmonic(40);
       EXPECT_LT((splitting.all_weights() - expected).cwiseAbs().maxCoeff(),
                 non_negative ? 1e-3 : 1e-10);
@@ -371,21 +354,20 @@ TYPED_TEST(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
 
 // With hardly any relaxation an iteration is nothing but its linear system, which duals from
 // elsewhere must leave without effect, whatever they are.
-TYPED_TEST(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+TEST_IN_2D_AND_3D(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto metric = make_metric(problem, 2, true);
   const auto start = harmonic_coordinates(problem);
   const auto n = start.rows();
-  const Eigen::MatrixXd density = Eigen::MatrixXd::Random(n, kDim * problem.mesh.num_cells());
+  const Eigen::MatrixXd density = Eigen::MatrixXd::Random(n, Dim * problem.mesh.num_cells());
   const WeightMatrix dual = WeightMatrix::Random(n, start.cols());
   const double penalty = make_penalty(problem, metric);
-  CompactSplitting<double, kDim> splitting(problem, metric, {penalty, 1e-12});
-  Start<kDim> from;
+  CompactSplitting<double, Dim> splitting(problem, metric, {penalty, 1e-12});
+  Start<Dim> from;
   from.penalty = penalty;
   from.weights = [&](Index v) -> Eigen::VectorXd { return start.col(v); };
-  from.flux_density = [&](Index s) { return density.template middleCols<kDim>(kDim * s).eval(); };
+  from.flux_density = [&](Index s) { return density.template middleCols<Dim>(Dim * s).eval(); };
   from.vertex_dual = [&](Index v) -> Eigen::VectorXd { return dual.col(v); };
   splitting.start(from);
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-13);
@@ -394,9 +376,8 @@ TYPED_TEST(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
 }
 
 // (5) of the paper, by an independent sum.
-TYPED_TEST(CompactSplittingTest, SquaredErrorIsTheMeanOverInteriorVertices) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+TEST_IN_2D_AND_3D(CompactSplittingTest, SquaredErrorIsTheMeanOverInteriorVertices) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto a = harmonic_coordinates(problem);
   WeightMatrix b = a;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A solver that resumes from where it stopped, and penalties in units of the cage.
 #include <cmath>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/many_iterations.h"
 #include "support/sample_meshes.h"
@@ -15,18 +15,12 @@
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class ContinuedSolveTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(ContinuedSolveTest, Dimensions);
-
 bool same_bits(const Solution& a, const Solution& b) {
   return (a.weights.array() == b.weights.array()).all();
 }
 
-TYPED_TEST(ContinuedSolveTest, TheFirstSolveIsTheOneOffFunction) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, TheFirstSolveIsTheOneOffFunction) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014,
                             Method::kHarmonic, Method::kMeanValue}) {
     SCOPED_TRACE(static_cast<int>(method));
@@ -34,7 +28,7 @@ TYPED_TEST(ContinuedSolveTest, TheFirstSolveIsTheOneOffFunction) {
     options.method = method;
     options.max_iterations = 40;
     const auto expected = solve(sample.cage, sample.mesh, options);
-    Solver<kDim> solver(sample.cage, sample.mesh, options);
+    Solver<Dim> solver(sample.cage, sample.mesh, options);
     EXPECT_EQ(solver.solution().weights.size(), 0);
     const auto& solution = solver.solve();
     EXPECT_TRUE(same_bits(solution, expected));
@@ -52,9 +46,8 @@ TYPED_TEST(ContinuedSolveTest, TheFirstSolveIsTheOneOffFunction) {
   }
 }
 
-TYPED_TEST(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 3, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 3, 0.2);
   for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
     for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
       SCOPED_TRACE(static_cast<int>(method));
@@ -66,7 +59,7 @@ TYPED_TEST(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
       options.max_iterations = 40;
       const auto whole = solve(sample.cage, sample.mesh, options);
       options.max_iterations = 25;
-      Solver<kDim> solver(sample.cage, sample.mesh, options);
+      Solver<Dim> solver(sample.cage, sample.mesh, options);
       EXPECT_FALSE(same_bits(solver.solve(), whole));
       options.max_iterations = 15;
       solver.set_options(options);
@@ -76,12 +69,11 @@ TYPED_TEST(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
   }
 }
 
-TYPED_TEST(ContinuedSolveTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 5, 0.2);
   SolverOptions options;
   options.tolerance = 1e-4;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
   options.tolerance = 1e-6;
   solver.set_options(options);
@@ -92,14 +84,13 @@ TYPED_TEST(ContinuedSolveTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMis
   EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights, cold.weights), 4e-6);
 }
 
-TYPED_TEST(ContinuedSolveTest, ContinuesOnTheActiveSet) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 14 : 5, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ContinuesOnTheActiveSet) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 5, 0.2);
   SolverOptions options;
   options.active_set = ActiveSet::kOn;
   options.tolerance = 1e-4;
   options.gap = 0;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   const auto first = solve(sample.cage, sample.mesh, options);
   EXPECT_LT(first.report.active_set.density, 1);
   EXPECT_TRUE(same_bits(solver.solve(), first));
@@ -123,12 +114,11 @@ TYPED_TEST(ContinuedSolveTest, ContinuesOnTheActiveSet) {
   EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
 }
 
-TYPED_TEST(ContinuedSolveTest, AnotherMethodOrPenaltyStartsAfresh) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, AnotherMethodOrPenaltyStartsAfresh) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   SolverOptions options;
   options.max_iterations = 20;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
   const auto afresh = [&](auto change) {
     change(options);
@@ -143,14 +133,13 @@ TYPED_TEST(ContinuedSolveTest, AnotherMethodOrPenaltyStartsAfresh) {
   afresh([](auto& o) { o.method = Method::kHarmonic; });
 }
 
-TYPED_TEST(ContinuedSolveTest, RefusedOptionsChangeNothing) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, RefusedOptionsChangeNothing) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   SolverOptions options;
   options.penalty = 0.02;
   options.tolerance = 1e-20;
   options.max_iterations = 20;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
   auto refused = options;
   refused.phi = DistanceScheme::kLinear;
@@ -166,9 +155,8 @@ TYPED_TEST(ContinuedSolveTest, RefusedOptionsChangeNothing) {
 }
 
 // A cage in metres and one in millimetres are solved alike by the same options.
-TYPED_TEST(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   auto scaled = sample;
   scaled.cage.points *= 1024;
   scaled.mesh.points *= 1024;
@@ -190,9 +178,8 @@ TYPED_TEST(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
 }
 
 // What a run reports can be asked for.
-TYPED_TEST(ContinuedSolveTest, TheDefaultPenaltyCanBeGiven) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(ContinuedSolveTest, TheDefaultPenaltyCanBeGiven) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   for (const auto method : {Method::kGradient, Method::kPaper}) {
     SolverOptions options;
     options.method = method;

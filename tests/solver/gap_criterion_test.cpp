@@ -6,20 +6,16 @@
 #include <gtest/gtest.h>
 
 #include "flbc/errors.h"
-#include "flbc/meshing.h"
 #include "flbc/names.h"
 #include "flbc/solver.h"
 #include "solver/run/run.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
+#include "support/solver_models.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class GapCriterionTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(GapCriterionTest, Dimensions);
 
 // Cages on which weights are nearly undetermined: every function is a little of all.
 Cage<2> round_cage(std::integral_constant<int, 2>) {
@@ -66,13 +62,6 @@ Cage<3> round_cage(std::integral_constant<int, 3>) {
   return cage;
 }
 
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
-
 SolverOptions never_by_tolerance(double gap) {
   SolverOptions options;
   options.tolerance = 1e-30;
@@ -81,8 +70,8 @@ SolverOptions never_by_tolerance(double gap) {
   return options;
 }
 
-TYPED_TEST(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
-  const auto cage = round_cage(TypeParam());
+TEST_IN_2D_AND_3D(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
+  const auto cage = round_cage(std::integral_constant<int, Dim>());
   const auto mesh = mesh_of(cage, 1500);
   const auto solution = solve(cage, mesh);
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
@@ -103,9 +92,8 @@ TYPED_TEST(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) {
   EXPECT_LE(solution.report.objective, (1 + 1e-3) * report.objective);
 }
 
-TYPED_TEST(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+TEST_IN_2D_AND_3D(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient}) {
     SCOPED_TRACE(name_of(method));
     // The iteration of kGradient does not know that weights are not negative.
@@ -124,9 +112,8 @@ TYPED_TEST(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
   }
 }
 
-TYPED_TEST(GapCriterionTest, ASmallerGapTakesLongerAndTheLastIterationIsLookedAt) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 3, 0.2);
+TEST_IN_2D_AND_3D(GapCriterionTest, ASmallerGapTakesLongerAndTheLastIterationIsLookedAt) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 3, 0.2);
   auto options = never_by_tolerance(1e-12);
   EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.status, SolveStatus::kIterationLimit);
   options.max_iterations = 590;  // between the first certificate and the second
@@ -141,12 +128,11 @@ TYPED_TEST(GapCriterionTest, ASmallerGapTakesLongerAndTheLastIterationIsLookedAt
   EXPECT_EQ(report.iterations, 590);
 }
 
-TYPED_TEST(GapCriterionTest, HoldsForSolversThatContinueAndForMovedCages) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 3, 0.2);
+TEST_IN_2D_AND_3D(GapCriterionTest, HoldsForSolversThatContinueAndForMovedCages) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   const auto options = never_by_tolerance(0.2);
   const auto once = solve(sample.cage, sample.mesh, options);
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   EXPECT_TRUE((solver.solve().weights.array() == once.weights.array()).all());
   EXPECT_EQ(solver.solution().report.criterion, Criterion::kGap);
   EXPECT_EQ(solver.solve().report.criterion, Criterion::kGap);  // resumed

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/recovery.h"
+#include "support/dimensions.h"
 #include "support/hollow_sample.h"
 #include "support/judge.h"
 #include "support/published_problem.h"
@@ -21,11 +21,6 @@
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class GradientAdmmTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(GradientAdmmTest, Dimensions);
 
 // A penalty that lets some balls of the Z-step be active and some not.
 template <int Dim>
@@ -72,25 +67,23 @@ void expect_equal_iterates(const LbcProblem<Dim>& problem,
             static_cast<double>(textbook.num_residual_components()));
 }
 
-TYPED_TEST(GradientAdmmTest, EqualsTextbookFromLeastNorm) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(GradientAdmmTest, EqualsTextbookFromLeastNorm) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
+    gradient::GradientAdmm<double, Dim> admm(problem, kPenalty<Dim>, 1, {});
     admm.start_from_least_norm();
     expect_equal_iterates(problem, admm);
   }
 }
 
-TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
     for (const double smoothness : {0.0, 0.02}) {
       problem.smoothness = smoothness;
-      gradient::GradientAdmm<double, kDim> admm(problem, kPenalty<kDim>, 1, {});
+      gradient::GradientAdmm<double, Dim> admm(problem, kPenalty<Dim>, 1, {});
       admm.start_from_weights(harmonic_coordinates(problem));
       expect_equal_iterates(problem, admm);
     }
@@ -98,12 +91,11 @@ TYPED_TEST(GradientAdmmTest, EqualsTextbookFromHarmonicCoordinates) {
 }
 
 // Over-relaxation changes the path, not the limit.
-TYPED_TEST(GradientAdmmTest, RelaxedIterationReachesTheSameOptimum) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 4 : 2, 0.2);
+TEST_IN_2D_AND_3D(GradientAdmmTest, RelaxedIterationReachesTheSameOptimum) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 4 : 2, 0.2);
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto optimum = [&](double relaxation, int iterations) {
-    gradient::GradientAdmm<double, kDim> admm(problem, kDim == 2 ? 1e4 : 1e5, relaxation, {});
+    gradient::GradientAdmm<double, Dim> admm(problem, Dim == 2 ? 1e4 : 1e5, relaxation, {});
     admm.start_from_least_norm();
     for (int k = 0; k < iterations; ++k) admm.iterate();
     return integrate_least_squares(problem, admm.gradients());
@@ -125,14 +117,13 @@ double period_violation(const LbcProblem<Dim>& problem, const gradient::Period<D
 
 // Along a path from one boundary component to another, gradients must add up to the difference of
 // the boundary values; (8)-(10) alone leave that open.
-TYPED_TEST(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_hollow_sample<kDim>();
+TEST_IN_2D_AND_3D(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
+  const auto sample = make_hollow_sample<Dim>();
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   const auto periods = gradient::boundary_periods(problem);
   ASSERT_EQ(periods.size(), 1U);
-  const auto gap = [&](const std::vector<gradient::Period<kDim>>& used) {
-    gradient::GradientAdmm<double, kDim> admm(problem, kDim == 2 ? 1e4 : 1e5, 1.8, used);
+  const auto gap = [&](const std::vector<gradient::Period<Dim>>& used) {
+    gradient::GradientAdmm<double, Dim> admm(problem, Dim == 2 ? 1e4 : 1e5, 1.8, used);
     admm.start_from_least_norm();
     for (int k = 0; k < 1500; ++k) admm.iterate();
     return period_violation(problem, periods[0], admm);
@@ -142,15 +133,14 @@ TYPED_TEST(GradientAdmmTest, PeriodsJoinTheComponentsOfTheBoundary) {
   EXPECT_LT(gap(periods), 1e-2 * apart);
 }
 
-TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValues) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_hollow_sample<kDim>();
+TEST_IN_2D_AND_3D(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValues) {
+  const auto sample = make_hollow_sample<Dim>();
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   auto weights = demanded_boundary_weights(sample.cage, sample.mesh);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     if (problem.boundary.boundary_index[v] < 0) weights.col(v).setRandom();
   }
-  gradient::GradientAdmm<double, kDim> admm(problem, 1, 1, {});
+  gradient::GradientAdmm<double, Dim> admm(problem, 1, 1, {});
   admm.start_from_weights(weights);
   for (const auto& period : gradient::boundary_periods(problem)) {
     EXPECT_NEAR(period.field.norm(), 1, 1e-12);
@@ -158,12 +148,11 @@ TYPED_TEST(GradientAdmmTest, PeriodsHoldForEveryFunctionWithTheRightBoundaryValu
   }
 }
 
-TYPED_TEST(GradientAdmmTest, SinglePrecisionFollowsDouble) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 2, 0.2);
+TEST_IN_2D_AND_3D(GradientAdmmTest, SinglePrecisionFollowsDouble) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 2, 0.2);
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  gradient::GradientAdmm<float, kDim> single(problem, kPenalty<kDim>, 1, {});
-  gradient::GradientAdmm<double, kDim> exact(problem, kPenalty<kDim>, 1, {});
+  gradient::GradientAdmm<float, Dim> single(problem, kPenalty<Dim>, 1, {});
+  gradient::GradientAdmm<double, Dim> exact(problem, kPenalty<Dim>, 1, {});
   single.start_from_least_norm();
   exact.start_from_least_norm();
   double largest = 0;
@@ -181,13 +170,12 @@ TYPED_TEST(GradientAdmmTest, SinglePrecisionFollowsDouble) {
   EXPECT_LT(difference, 1e-4 * largest);
 }
 
-TYPED_TEST(GradientAdmmTest, ThreadsDoNotChangeABit) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+TEST_IN_2D_AND_3D(GradientAdmmTest, ThreadsDoNotChangeABit) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto run = [&](int threads) {
     const ThreadScope scope(threads);
-    gradient::GradientAdmm<float, kDim> admm(problem, 1000, 1.8, {});
+    gradient::GradientAdmm<float, Dim> admm(problem, 1000, 1.8, {});
     admm.start_from_least_norm();
     double residuals = 0;
     for (int k = 0; k < 20; ++k) residuals += admm.residuals(admm.iterate()).primal;
@@ -272,9 +260,8 @@ void expect_same_bits(const LbcProblem<Dim>& problem, double relaxation) {
 }
 
 // Parts of a mesh (of 512 cells at least) are swept by separate threads.
-TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, kDim == 2 ? 16 : 6, 0.2);
+TEST_IN_2D_AND_3D(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
+  const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 16 : 6, 0.2);
   ASSERT_GT(sample.mesh.num_cells(), 3 * 512);
   for (const auto& mesh : {sample.mesh, scattered(sample.mesh)}) {
     const auto problem = published_problem(sample.cage, mesh, DistanceScheme::kSquare);
@@ -284,20 +271,18 @@ TYPED_TEST(GradientAdmmTest, NeitherThreadsNorIteratingTogetherChangeABit) {
   }
 }
 
-TYPED_TEST(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_hollow_sample<kDim>();
+TEST_IN_2D_AND_3D(GradientAdmmTest, PeriodsAreTheSameBitsIterateByIterate) {
+  const auto sample = make_hollow_sample<Dim>();
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
   ASSERT_EQ(gradient::boundary_periods(problem).size(), 1U);
   expect_same_bits<float>(problem, 1.8);
 }
 
-TYPED_TEST(GradientAdmmTest, StateIsCompact) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, kDim == 2 ? 30 : 10, 0);
+TEST_IN_2D_AND_3D(GradientAdmmTest, StateIsCompact) {
+  const auto sample = make_sample<Dim>(Shape::kBox, Dim == 2 ? 30 : 10, 0);
   const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
-  const gradient::GradientAdmm<float, kDim> admm(problem, 1, 1, {});
-  EXPECT_LE(admm.state_scalars_per_cell(), kDim == 2 ? 12 : 14);
+  const gradient::GradientAdmm<float, Dim> admm(problem, 1, 1, {});
+  EXPECT_LE(admm.state_scalars_per_cell(), Dim == 2 ? 12 : 14);
 }
 
 }  // namespace

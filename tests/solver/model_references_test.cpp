@@ -6,11 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/meshing.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
-#include "support/model_cages.h"
 #include "support/model_optimum.h"
+#include "support/solver_models.h"
 
 namespace flbc::testing {
 namespace {
@@ -18,17 +17,6 @@ namespace {
 template <int Dim>
 ModelReference<Dim> read_reference(const std::string& name) {
   return read_model_reference<Dim>(FLBC_TEST_DATA_DIR, name);
-}
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  MeshingOptions<2> meshing;
-  meshing.vertices = vertices;
-  return triangulate(cage, meshing);
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  MeshingOptions<3> meshing;
-  meshing.vertices = vertices;
-  return tetrahedralize(cage, meshing);
 }
 
 struct Expected {

@@ -1,38 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From cage to coordinates on real cages: every documented property, measured independently.
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/meshing.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "support/judge.h"
-#include "support/model_cages.h"
 #include "support/scratch.h"
+#include "support/solver_models.h"
 
 namespace flbc::testing {
 namespace {
-
-struct Model {
-  const char* name;
-  const char* file;
-  Index vertices;
-};
-
-std::string name_of(const ::testing::TestParamInfo<Model>& info) {
-  return info.param.name;
-}
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
 
 template <int Dim>
 void expect_properties(const Model& model) {
@@ -101,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Paper, Models2d,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 10800},
                                            Model{"cactus", "2d/cactus-control-edgeset.obj", 10800},
                                            Model{"logo", "2d/LBClogo-control-edgeset.obj", 26800}),
-                         name_of);
+                         name_of_model);
 
 class Models3d : public ::testing::TestWithParam<Model> {};
 TEST_P(Models3d, DefaultTolerance) {
@@ -113,7 +94,7 @@ TEST_P(Models3d, TighterTolerance) {
 INSTANTIATE_TEST_SUITE_P(Paper, Models3d,
                          ::testing::Values(Model{"horse", "3d/horse_cage.obj", 5900},
                                            Model{"armadillo", "3d/armadillo_cage.obj", 6600}),
-                         name_of);
+                         name_of_model);
 
 }  // namespace
 }  // namespace flbc::testing

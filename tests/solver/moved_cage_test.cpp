@@ -5,24 +5,19 @@
 #include <chrono>
 #include <string>
 #include <thread>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "support/coarse_sample_mesher.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/many_iterations.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class MovedCageTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(MovedCageTest, Dimensions);
 
 constexpr double kTolerance = 1e-7;
 
@@ -60,15 +55,14 @@ WeightMatrix optimum(const Solver<Dim>& coordinates) {
   return solve(coordinates.cage(), coordinates.mesh(), many_iterations(2000)).weights;
 }
 
-TYPED_TEST(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
-    const auto sample = sample_of<kDim>(shape);
+    const auto sample = sample_of<Dim>(shape);
     for (const auto& control_points :
          {with_one_moved(sample.cage, 0.002), with_one_moved(sample.cage, 0.03),
           bent(sample.cage, 0.005)}) {
-      Solver<kDim> coordinates(sample.cage, sample.mesh, tight());
-  coordinates.solve();
+      Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
+      coordinates.solve();
       const auto warm = coordinates.move(control_points);
       const auto cold = solve(coordinates.cage(), coordinates.mesh(), tight());
       EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
@@ -87,10 +81,9 @@ TYPED_TEST(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {
   }
 }
 
-TYPED_TEST(MovedCageTest, TheMeshFollowsByTheFirstWeights) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  Solver<kDim> coordinates(sample.cage, sample.mesh, tight());
+TEST_IN_2D_AND_3D(MovedCageTest, TheMeshFollowsByTheFirstWeights) {
+  const auto sample = sample_of<Dim>();
+  Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
   const WeightMatrix first = coordinates.solution().weights;
   coordinates.move(with_one_moved(sample.cage, 0.01, 1));
@@ -100,10 +93,9 @@ TYPED_TEST(MovedCageTest, TheMeshFollowsByTheFirstWeights) {
   EXPECT_TRUE(coordinates.cage().points == control_points);
 }
 
-TYPED_TEST(MovedCageTest, ThereAndBackIsWhereItStarted) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  Solver<kDim> coordinates(sample.cage, sample.mesh, tight());
+TEST_IN_2D_AND_3D(MovedCageTest, ThereAndBackIsWhereItStarted) {
+  const auto sample = sample_of<Dim>();
+  Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
   const auto exact = optimum(coordinates);
   for (const double part : {0.01, 0.02, 0.03, 0.02, 0.01}) {
@@ -115,10 +107,9 @@ TYPED_TEST(MovedCageTest, ThereAndBackIsWhereItStarted) {
   EXPECT_LT(mean_squared_difference(sample.mesh, back.weights, exact), 3 * kTolerance);
 }
 
-TYPED_TEST(MovedCageTest, AfterAnchoringTheMeshFollowsByThePresentWeights) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  Solver<kDim> coordinates(sample.cage, sample.mesh);
+TEST_IN_2D_AND_3D(MovedCageTest, AfterAnchoringTheMeshFollowsByThePresentWeights) {
+  const auto sample = sample_of<Dim>();
+  Solver<Dim> coordinates(sample.cage, sample.mesh);
   coordinates.solve();
   coordinates.move(with_one_moved(sample.cage, 0.03));
   const auto before = coordinates.mesh().points;
@@ -130,17 +121,16 @@ TYPED_TEST(MovedCageTest, AfterAnchoringTheMeshFollowsByThePresentWeights) {
   EXPECT_LT((coordinates.mesh().points - control_points * weights).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TYPED_TEST(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
+  const auto sample = sample_of<Dim>();
   const auto control_points = with_one_moved(sample.cage, 0.03);
   auto endless = tight();
   endless.tolerance = 1e-30;
   endless.max_iterations = 60;
-  Solver<kDim> at_once(sample.cage, sample.mesh, endless);
+  Solver<Dim> at_once(sample.cage, sample.mesh, endless);
   at_once.solve();
   at_once.move(control_points, {40, 0});
-  Solver<kDim> coordinates(sample.cage, sample.mesh, endless);
+  Solver<Dim> coordinates(sample.cage, sample.mesh, endless);
   coordinates.solve();
   const auto& solution = coordinates.move(control_points, {10, 0});
   EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
@@ -150,7 +140,7 @@ TYPED_TEST(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
   for (int frame = 0; frame < 3; ++frame) coordinates.solve({10, 0});
   EXPECT_TRUE(coordinates.solution().weights == at_once.solution().weights);  // bit-identical
 
-  Solver<kDim> released(sample.cage, sample.mesh, tight());
+  Solver<Dim> released(sample.cage, sample.mesh, tight());
   released.solve();
   EXPECT_EQ(released.move(control_points, {5, 0}).report.iterations, 5);
   const auto& refined = released.solve();
@@ -159,9 +149,8 @@ TYPED_TEST(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
             3 * kTolerance);
 }
 
-TYPED_TEST(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
+  const auto sample = sample_of<Dim>();
   int calls = 0;
   auto options = tight();
   options.tolerance = 1e-30;  // never
@@ -173,7 +162,7 @@ TYPED_TEST(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
     ++calls;
     return true;
   };
-  Solver<kDim> coordinates(sample.cage, sample.mesh, options);
+  Solver<Dim> coordinates(sample.cage, sample.mesh, options);
   coordinates.solve();
   const auto& shortest = coordinates.move(with_one_moved(sample.cage, 0.01), {0, 1e-9}, observer);
   EXPECT_EQ(shortest.report.status, SolveStatus::kIterationLimit);
@@ -185,17 +174,16 @@ TYPED_TEST(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
   EXPECT_EQ(calls, 8);
 }
 
-TYPED_TEST(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  Solver<kDim> coordinates(sample.cage, sample.mesh, tight());
+TEST_IN_2D_AND_3D(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
+  const auto sample = sample_of<Dim>();
+  Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
   coordinates.move(with_one_moved(sample.cage, 0.01), {5, 0});
   const auto points = coordinates.mesh().points;
   const WeightMatrix weights = coordinates.solution().weights;
   // Through the opposite side of the cage.
-  PointList<kDim> folded = sample.cage.points;
-  const Vector<kDim> center = folded.rowwise().mean();
+  PointList<Dim> folded = sample.cage.points;
+  const Vector<Dim> center = folded.rowwise().mean();
   folded.col(0) += 2.5 * (center - folded.col(0));
   try {
     coordinates.move(folded);
@@ -206,8 +194,8 @@ TYPED_TEST(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
     ASSERT_NE(number, std::string::npos) << text;
     const int cell = std::stoi(text.substr(number + 5));
     // Indeed turned over.
-    DomainMesh<kDim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights,
-                          coordinates.mesh().cells};
+    DomainMesh<Dim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights,
+                         coordinates.mesh().cells};
     EXPECT_LE(signed_measure(mesh, cell), 0) << text;
     EXPECT_NE(text.find('('), std::string::npos) << text;
   }
@@ -215,18 +203,17 @@ TYPED_TEST(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
   EXPECT_TRUE(coordinates.cage().points == with_one_moved(sample.cage, 0.01));
   EXPECT_TRUE(coordinates.solution().weights == weights);
   // Then it continues normally.
-  Solver<kDim> other(sample.cage, sample.mesh, tight());
+  Solver<Dim> other(sample.cage, sample.mesh, tight());
   other.solve();
   other.move(with_one_moved(sample.cage, 0.01), {5, 0});
   EXPECT_TRUE(coordinates.solve({5, 0}).weights == other.solve({5, 0}).weights);
 }
 
-TYPED_TEST(MovedCageTest, RefusesWhatIsNoCageByName) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  Solver<kDim> coordinates(sample.cage, sample.mesh);
+TEST_IN_2D_AND_3D(MovedCageTest, RefusesWhatIsNoCageByName) {
+  const auto sample = sample_of<Dim>();
+  Solver<Dim> coordinates(sample.cage, sample.mesh);
   coordinates.solve();
-  const PointList<kDim> fewer = sample.cage.points.leftCols(sample.cage.size() - 1);
+  const PointList<Dim> fewer = sample.cage.points.leftCols(sample.cage.size() - 1);
   try {
     coordinates.move(fewer);
     FAIL() << "accepted too few control points";
@@ -235,7 +222,7 @@ TYPED_TEST(MovedCageTest, RefusesWhatIsNoCageByName) {
     EXPECT_NE(text.find(std::to_string(fewer.cols())), std::string::npos) << text;
     EXPECT_NE(text.find(std::to_string(sample.cage.size())), std::string::npos) << text;
   }
-  PointList<kDim> infinite = sample.cage.points;
+  PointList<Dim> infinite = sample.cage.points;
   infinite(1, 2) = std::nan("");
   EXPECT_THROW(coordinates.move(infinite), InputError);
   EXPECT_THROW(coordinates.move(sample.cage.points, {-1, 0}), OptionError);
@@ -245,12 +232,11 @@ TYPED_TEST(MovedCageTest, RefusesWhatIsNoCageByName) {
 }
 
 // A callback that throws is the only way in which a solve fails in the middle here.
-TYPED_TEST(MovedCageTest, SurvivesASolveThatFails) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(MovedCageTest, SurvivesASolveThatFails) {
+  const auto sample = sample_of<Dim>();
   Observer fails;
   fails.progress = [](const Progress&) -> bool { throw std::runtime_error("no more"); };
-  Solver<kDim> coordinates(sample.cage, sample.mesh, tight());
+  Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
   const WeightMatrix weights = coordinates.solution().weights;
   EXPECT_THROW(coordinates.move(bent(sample.cage, 0.02), {}, fails), std::runtime_error);
@@ -261,14 +247,13 @@ TYPED_TEST(MovedCageTest, SurvivesASolveThatFails) {
             3 * kTolerance);
 }
 
-TYPED_TEST(MovedCageTest, ThreadsDoNotChangeABit) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(MovedCageTest, ThreadsDoNotChangeABit) {
+  const auto sample = sample_of<Dim>();
   const auto result = [&](int threads) {
     auto options = tight();
     options.threads = threads;
-    Solver<kDim> coordinates(sample.cage, sample.mesh, options);
-  coordinates.solve();
+    Solver<Dim> coordinates(sample.cage, sample.mesh, options);
+    coordinates.solve();
     coordinates.move(bent(sample.cage, 0.01), {6, 0});
     coordinates.solve({6, 0});
     return WeightMatrix(coordinates.move(with_one_moved(sample.cage, 0.01)).weights);
@@ -278,13 +263,12 @@ TYPED_TEST(MovedCageTest, ThreadsDoNotChangeABit) {
   EXPECT_TRUE(result(4) == one);
 }
 
-TYPED_TEST(MovedCageTest, FollowsOnSupports) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(MovedCageTest, FollowsOnSupports) {
+  const auto sample = sample_of<Dim>();
   auto options = tight();
   options.active_set = ActiveSet::kOn;
   options.gap = 0;
-  Solver<kDim> coordinates(sample.cage, sample.mesh, options);
+  Solver<Dim> coordinates(sample.cage, sample.mesh, options);
   coordinates.solve();
   EXPECT_TRUE(coordinates.solution().weights ==
               solve(sample.cage, sample.mesh, options).weights);  // bit-identical
@@ -304,13 +288,12 @@ TYPED_TEST(MovedCageTest, FollowsOnSupports) {
   EXPECT_GE(refined.report.quality.min_weight, 0);
 }
 
-TYPED_TEST(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 24 : 8, 0.2);
+TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 24 : 8, 0.2);
   auto options = tight();
   options.distances = Distances::kInterpolated;
-  Solver<kDim> coordinates(sample.cage, sample.mesh, options,
-                                        coarse_sample_mesher<kDim>(kDim == 2 ? 8 : 4));
+  Solver<Dim> coordinates(sample.cage, sample.mesh, options,
+                          coarse_sample_mesher<Dim>(Dim == 2 ? 8 : 4));
   coordinates.solve();
   EXPECT_EQ(coordinates.solution().report.distances.source, Distances::kInterpolated);
   const auto expect_near_exact = [&](const Solution& solution) {
@@ -328,23 +311,22 @@ TYPED_TEST(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
   expect_near_exact(coordinates.move(with_one_moved(sample.cage, 0.03)));
   coordinates.anchor();
   expect_near_exact(coordinates.move(bent(sample.cage, 0.02)));
-  PointList<kDim> turned = coordinates.cage().points;  // and grown: distances are of the shape
+  PointList<Dim> turned = coordinates.cage().points;  // and grown: distances are of the shape
   turned.row(0) = 3 * bent(sample.cage, 0.02).row(1);
   turned.row(1) = -3 * bent(sample.cage, 0.02).row(0);
-  if (kDim == 3) turned.row(2) *= 3;
+  if (Dim == 3) turned.row(2) *= 3;
   expect_near_exact(coordinates.move(turned));
 }
 
 // A coarse mesh of another cage is not used for interpolation; distances are then exact.
-TYPED_TEST(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  const CoarseMesher<kDim> fails = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+TEST_IN_2D_AND_3D(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
+  const auto sample = sample_of<Dim>();
+  const CoarseMesher<Dim> fails = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
     throw InputError("no mesh");
   };
-  Solver<kDim> plain(sample.cage, sample.mesh, tight());
+  Solver<Dim> plain(sample.cage, sample.mesh, tight());
   plain.solve();
-  Solver<kDim> coordinates(sample.cage, sample.mesh, tight(), fails);
+  Solver<Dim> coordinates(sample.cage, sample.mesh, tight(), fails);
   coordinates.solve();
   const auto control_points = with_one_moved(sample.cage, 0.01);
   const auto& solution = coordinates.move(control_points);
@@ -353,13 +335,12 @@ TYPED_TEST(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
 
   auto interpolated = tight();
   interpolated.distances = Distances::kInterpolated;
-  EXPECT_THROW(Solver<kDim>(sample.cage, sample.mesh, interpolated), OptionError);
+  EXPECT_THROW(Solver<Dim>(sample.cage, sample.mesh, interpolated), OptionError);
 }
 
 // Other methods start over.
-TYPED_TEST(MovedCageTest, EveryMethodFollows) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 8 : 6, 0.2);
+TEST_IN_2D_AND_3D(MovedCageTest, EveryMethodFollows) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 8 : 6, 0.2);
   for (const auto method : {Method::kGradient, Method::kPaper, Method::kLbc2014, Method::kHarmonic,
                             Method::kMeanValue}) {
     SCOPED_TRACE(static_cast<int>(method));
@@ -367,8 +348,8 @@ TYPED_TEST(MovedCageTest, EveryMethodFollows) {
     options.method = method;
     options.max_iterations = 3000;
     if (method == Method::kGradient) options.tolerance = 1e-4;
-    Solver<kDim> coordinates(sample.cage, sample.mesh, options);
-  coordinates.solve();
+    Solver<Dim> coordinates(sample.cage, sample.mesh, options);
+    coordinates.solve();
     const auto warm = coordinates.move(with_one_moved(sample.cage, 0.005));
     const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
     EXPECT_EQ(warm.report.iterations, cold.report.iterations);

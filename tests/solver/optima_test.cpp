@@ -2,7 +2,6 @@
 // The library's solvers against optima of an interior-point method (tests/data/references): three
 // iterations and a fourth method that have nothing in common but the problem.
 #include <cmath>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -15,17 +14,13 @@
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "solver/methods/splitting/compact_splitting.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/reference_optimum.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class OptimaTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(OptimaTest, Dimensions);
 
 template <int Dim>
 LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
@@ -66,8 +61,8 @@ void expect_optimal(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
   EXPECT_LT((weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
-  for (const auto& reference : reference_optima<TypeParam::value>()) {
+TEST_IN_2D_AND_3D(OptimaTest, ValueFindsBothOptima) {
+  for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
     expect_optimal(problem,
@@ -80,8 +75,8 @@ TYPED_TEST(OptimaTest, ValueFindsBothOptima) {
   }
 }
 
-TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
-  for (const auto& reference : reference_optima<TypeParam::value>()) {
+TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
+  for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
     expect_optimal(problem,
@@ -92,30 +87,30 @@ TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
 
 // As published, W = w weighs 1 whatever the mesh, with which some of these would take millions of
 // iterations; the optimum does not depend on it.
-TYPED_TEST(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& reference : reference_optima<kDim>()) {
+TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
+  for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
     splitting::Metric metric;
     metric.cell.resize(problem.mesh.num_cells());
     for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-      metric.cell[s] = std::pow(simplex_measure<kDim>(cell_corners(problem.mesh, s)), 2);
+      metric.cell[s] = std::pow(simplex_measure<Dim>(cell_corners(problem.mesh, s)), 2);
     }
     const double per_cell = metric.cell.mean() / metric.cell.cwiseSqrt().mean();
     const double size = bounding_box_diagonal(problem.cage.points);
     metric.vertex = Eigen::VectorXd::Constant(
         problem.mesh.num_vertices(),
         100 / (size * size) * metric.cell.sum() / problem.mesh.num_vertices());
-    compact::CompactSplitting<double, kDim> splitting(problem, metric, {0.6 * size / per_cell, 1.65});
+    compact::CompactSplitting<double, Dim> splitting(problem, metric,
+                                                     {0.6 * size / per_cell, 1.65});
     splitting.start_from_weights(harmonic_coordinates(problem));
     splitting.iterate(8000, false);
     expect_optimal(problem, splitting.all_weights(), reference.non_negative);
   }
 }
 
-TYPED_TEST(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
-  for (const auto& reference : reference_optima<TypeParam::value>()) {
+TEST_IN_2D_AND_3D(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
+  for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
     expect_optimal(problem,
@@ -125,8 +120,8 @@ TYPED_TEST(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
 }
 
 // A bound is below the optimum at any time, and close in the end.
-TYPED_TEST(OptimaTest, CertificatesHold) {
-  for (const auto& reference : reference_optima<TypeParam::value>()) {
+TEST_IN_2D_AND_3D(OptimaTest, CertificatesHold) {
+  for (const auto& reference : reference_optima<Dim>()) {
     const auto problem = problem_of(reference);
     const double optimum = reference.non_negative.objective;
     for (const auto method :

@@ -6,7 +6,6 @@
 #include <random>
 #include <set>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/quality.h"
 #include "support/dense_algebra.h"
+#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
 #include "support/judge.h"
 #include "support/reference_optimum.h"
@@ -24,25 +24,19 @@ namespace {
 // Twice the largest gap allowed to the program that made the references.
 constexpr double kObjectiveTolerance = 2e-8;
 
-template <class Dimension>
-class ReferencesTest : public ::testing::Test {
- protected:
-  static constexpr int kDim = Dimension::value;
-  static const std::vector<ReferenceOptimum<kDim>>& references() {
-    static const auto all = reference_optima<kDim>();
-    return all;
-  }
-};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(ReferencesTest, Dimensions);
+template <int Dim>
+const std::vector<ReferenceOptimum<Dim>>& references() {
+  static const auto all = reference_optima<Dim>();
+  return all;
+}
 
 template <int Dim>
 Eigen::MatrixXd harmonic(const ReferenceOptimum<Dim>& reference) {
   return harmonic_weights(Sample<Dim>{reference.cage, reference.mesh, reference.name});
 }
 
-TYPED_TEST(ReferencesTest, AreFeasible) {
-  for (const auto& reference : this->references()) {
+TEST_IN_2D_AND_3D(ReferencesTest, AreFeasible) {
+  for (const auto& reference : references<Dim>()) {
     for (const auto* variant : {&reference.unconstrained, &reference.non_negative}) {
       SCOPED_TRACE(reference.name);
       const auto judgement = judge(reference.cage, reference.mesh, variant->weights);
@@ -57,8 +51,8 @@ TYPED_TEST(ReferencesTest, AreFeasible) {
   }
 }
 
-TYPED_TEST(ReferencesTest, HaveTheStatedObjectives) {
-  for (const auto& reference : this->references()) {
+TEST_IN_2D_AND_3D(ReferencesTest, HaveTheStatedObjectives) {
+  for (const auto& reference : references<Dim>()) {
     SCOPED_TRACE(reference.name);
     for (const auto* variant : {&reference.unconstrained, &reference.non_negative}) {
       EXPECT_NEAR(testing::objective(reference.mesh, variant->weights, reference.phi),
@@ -71,9 +65,9 @@ TYPED_TEST(ReferencesTest, HaveTheStatedObjectives) {
 }
 
 // Without such cases a solver that ignores the constraint would pass all comparisons.
-TYPED_TEST(ReferencesTest, HaveCasesInWhichTheConstraintMatters) {
+TEST_IN_2D_AND_3D(ReferencesTest, HaveCasesInWhichTheConstraintMatters) {
   int cases = 0;
-  for (const auto& reference : this->references()) {
+  for (const auto& reference : references<Dim>()) {
     if (reference.unconstrained.weights.minCoeff() > -1e-3) continue;
     ++cases;
     SCOPED_TRACE(reference.name);
@@ -82,11 +76,11 @@ TYPED_TEST(ReferencesTest, HaveCasesInWhichTheConstraintMatters) {
         1e-3);
     EXPECT_GT(reference.non_negative.objective, reference.unconstrained.objective);
   }
-  EXPECT_GE(cases, TestFixture::kDim == 2 ? 1 : 2);
+  EXPECT_GE(cases, Dim == 2 ? 1 : 2);
 }
 
-TYPED_TEST(ReferencesTest, AreNoWorseThanMixturesWithOtherWeights) {
-  for (const auto& reference : this->references()) {
+TEST_IN_2D_AND_3D(ReferencesTest, AreNoWorseThanMixturesWithOtherWeights) {
+  for (const auto& reference : references<Dim>()) {
     SCOPED_TRACE(reference.name);
     const Eigen::MatrixXd other = harmonic(reference);
     const auto expect_no_less = [&](const auto& optimum, const Eigen::MatrixXd& weights) {
@@ -142,8 +136,8 @@ Eigen::VectorXd random_weights(const Cage<Dim>& cage, const Vector<Dim>& point,
   return {};
 }
 
-TYPED_TEST(ReferencesTest, AreNoWorseThanTheirNeighbours) {
-  for (const auto& reference : this->references()) {
+TEST_IN_2D_AND_3D(ReferencesTest, AreNoWorseThanTheirNeighbours) {
+  for (const auto& reference : references<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto expect_no_less = [&](const auto& optimum, Index v, const Eigen::VectorXd& step) {
       Eigen::MatrixXd weights = optimum.weights;
@@ -159,7 +153,7 @@ TYPED_TEST(ReferencesTest, AreNoWorseThanTheirNeighbours) {
       const Eigen::VectorXd step = 1e-3 * random_step(reference.cage, random);
       expect_no_less(reference.unconstrained, v, step);
       expect_no_less(reference.unconstrained, v, -step);
-      const Vector<TestFixture::kDim> point = reference.mesh.points.col(v);
+      const Vector<Dim> point = reference.mesh.points.col(v);
       const Eigen::VectorXd other = random_weights(reference.cage, point, random);
       ++tried;
       if (other.size() == 0) continue;
@@ -171,9 +165,9 @@ TYPED_TEST(ReferencesTest, AreNoWorseThanTheirNeighbours) {
   }
 }
 
-TYPED_TEST(ReferencesTest, AreAcceptedAsProblems) {
+TEST_IN_2D_AND_3D(ReferencesTest, AreAcceptedAsProblems) {
   std::set<std::string> names;
-  for (const auto& reference : this->references()) {
+  for (const auto& reference : references<Dim>()) {
     SCOPED_TRACE(reference.name);
     names.insert(reference.name);
     EXPECT_TRUE(find_defects(reference.cage).empty());
@@ -182,11 +176,11 @@ TYPED_TEST(ReferencesTest, AreAcceptedAsProblems) {
     const auto problem = make_problem(reference.cage, reference.mesh, DistanceScheme::kConstant);
     ASSERT_EQ(problem.mesh.cells, reference.mesh.cells);
     const auto& optimum = reference.non_negative;
-    const double scaled = optimum.objective * std::pow(problem.scale, TestFixture::kDim - 1);
+    const double scaled = optimum.objective * std::pow(problem.scale, Dim - 1);
     EXPECT_NEAR(testing::objective(problem.mesh, optimum.weights, reference.phi), scaled,
                 1e-8 * scaled);
   }
-  EXPECT_EQ(names.size(), this->references().size());
+  EXPECT_EQ(names.size(), references<Dim>().size());
   EXPECT_GE(names.size(), 4u);
 }
 

@@ -2,7 +2,6 @@
 // Distances from a coarser mesh: when they are taken, and what they change.
 #include <cmath>
 #include <optional>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -10,26 +9,22 @@
 #include "flbc/errors.h"
 #include "flbc/solver.h"
 #include "support/coarse_sample_mesher.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class SetUpTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SetUpTest, Dimensions);
-
 template <int Dim>
-Sample<Dim> sample_of() {
+Sample<Dim> corner() {
   return make_sample<Dim>(Shape::kCorner, Dim == 2 ? 24 : 8, 0.2);
 }
 
 template <int Dim>
 Solution solve_with(Distances distances, std::optional<double> tolerance, Index resolution,
                     Method method = Method::kValue) {
-  const auto sample = sample_of<Dim>();
+  const auto sample = corner<Dim>();
   SolverOptions options;
   options.method = method;
   options.distances = distances;
@@ -40,16 +35,15 @@ Solution solve_with(Distances distances, std::optional<double> tolerance, Index 
   return solve(sample.cage, sample.mesh, options, coarse_sample_mesher<Dim>(resolution));
 }
 
-TYPED_TEST(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreReported) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  const auto exact = solve_with<kDim>(Distances::kExact, 1e-9, 6);
+TEST_IN_2D_AND_3D(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreReported) {
+  const auto sample = corner<Dim>();
+  const auto exact = solve_with<Dim>(Distances::kExact, 1e-9, 6);
   EXPECT_EQ(exact.report.distances.source, Distances::kExact);
   EXPECT_EQ(exact.report.distances.vertices, 0);
-  const auto other = solve_with<kDim>(Distances::kInterpolated, 1e-9, 6);
+  const auto other = solve_with<Dim>(Distances::kInterpolated, 1e-9, 6);
   EXPECT_EQ(other.report.distances.source, Distances::kInterpolated);
   EXPECT_EQ(other.report.distances.vertices,
-            make_sample<kDim>(Shape::kCorner, 6, 0.2).mesh.num_vertices());
+            make_sample<Dim>(Shape::kCorner, 6, 0.2).mesh.num_vertices());
   EXPECT_GT(other.report.distances.phi_error, 0);
   EXPECT_LT(other.report.distances.phi_error, 0.02);
   const double change = mean_squared_difference(sample.mesh, other.weights, exact.weights);
@@ -61,12 +55,11 @@ TYPED_TEST(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreReported) {
   EXPECT_GE(judgement.min_weight, 0);
 }
 
-TYPED_TEST(SetUpTest, LeftToItselfItKeepsTheTolerance) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  const auto exact = solve_with<kDim>(Distances::kExact, 1e-9, 2);
+TEST_IN_2D_AND_3D(SetUpTest, LeftToItselfItKeepsTheTolerance) {
+  const auto sample = corner<Dim>();
+  const auto exact = solve_with<Dim>(Distances::kExact, 1e-9, 2);
   for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
-    const auto weights = solve_with<kDim>(Distances::kAuto, tolerance, 2).weights;
+    const auto weights = solve_with<Dim>(Distances::kAuto, tolerance, 2).weights;
     EXPECT_LT(mean_squared_difference(sample.mesh, weights, exact.weights), 2 * tolerance);
   }
 }
@@ -87,19 +80,17 @@ TEST(SetUpOfConvexCages, IsExactUnlessTheToleranceIsLoose) {
   EXPECT_EQ(source(Shape::kCorner, 1e-7), Distances::kInterpolated);
 }
 
-TYPED_TEST(SetUpTest, OtherMethodsAreExactUnlessTold) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(SetUpTest, OtherMethodsAreExactUnlessTold) {
   const auto source = [](Distances distances) {
-    return solve_with<kDim>(distances, {}, 4, Method::kLbc2014).report.distances.source;
+    return solve_with<Dim>(distances, {}, 4, Method::kLbc2014).report.distances.source;
   };
   EXPECT_EQ(source(Distances::kAuto), Distances::kExact);
   EXPECT_EQ(source(Distances::kInterpolated), Distances::kInterpolated);
 }
 
-TYPED_TEST(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
-  const CoarseMesher<kDim> never = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+TEST_IN_2D_AND_3D(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
+  const auto sample = corner<Dim>();
+  const CoarseMesher<Dim> never = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
     ADD_FAILURE() << "a coarse mesh was asked for";
     throw InputError("not needed");
   };
@@ -107,7 +98,7 @@ TYPED_TEST(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
     SolverOptions options;
     options.method = method;
     options.distances = Distances::kInterpolated;
-    Solver<kDim> solver(sample.cage, sample.mesh, options, never);
+    Solver<Dim> solver(sample.cage, sample.mesh, options, never);
     EXPECT_EQ(solver.problem().phi.size(), 0);
     const auto solution = solver.solve();
     EXPECT_EQ(solver.problem().phi.size(), 0);
@@ -119,17 +110,16 @@ TYPED_TEST(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
     EXPECT_TRUE(with_phi.weights == solution.weights);
     const double expected =
         testing::objective(problem.mesh, with_phi.weights, problem.phi.dense()) /
-        std::pow(problem.scale, kDim - 1);
+        std::pow(problem.scale, Dim - 1);
     EXPECT_NEAR(with_phi.report.objective, expected, 1e-9 * expected);
   }
 }
 
-TYPED_TEST(SetUpTest, MethodsThatMinimiseFindThemLater) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(SetUpTest, MethodsThatMinimiseFindThemLater) {
+  const auto sample = corner<Dim>();
   SolverOptions options;
   options.method = Method::kHarmonic;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
   SolverOptions minimise;
   minimise.max_iterations = 20;
@@ -141,15 +131,14 @@ TYPED_TEST(SetUpTest, MethodsThatMinimiseFindThemLater) {
   EXPECT_GT(solver.solution().report.seconds.setup, 0);
 }
 
-TYPED_TEST(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = sample_of<kDim>();
+TEST_IN_2D_AND_3D(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {
+  const auto sample = corner<Dim>();
   SolverOptions options;
   options.tolerance = 1e-4;
   options.distances = Distances::kInterpolated;
   EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
-  EXPECT_THROW(Solver<kDim>(sample.cage, sample.mesh, options), OptionError);
-  const CoarseMesher<kDim> fails = [](const Cage<kDim>&, Index) -> DomainMesh<kDim> {
+  EXPECT_THROW(Solver<Dim>(sample.cage, sample.mesh, options), OptionError);
+  const CoarseMesher<Dim> fails = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
     throw InputError("too few");
   };
   const auto solution = solve(sample.cage, sample.mesh, options, fails);

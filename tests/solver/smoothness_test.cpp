@@ -2,7 +2,6 @@
 // The quadratic term of SolverOptions::smoothness: the optimum is unique, so that weights
 // themselves are compared.
 #include <cmath>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -12,16 +11,12 @@
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "support/coarse_sample_mesher.h"
+#include "support/dimensions.h"
 #include "support/newton_optimum.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class SmoothnessTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SmoothnessTest, Dimensions);
 
 constexpr Shape kShapes[] = {Shape::kBox, Shape::kCorner, Shape::kStar};
 
@@ -44,17 +39,16 @@ double largest_difference(const WeightMatrix& a, const WeightMatrix& b) {
   return (a - b).cwiseAbs().maxCoeff();
 }
 
-TYPED_TEST(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
   int judged = 0;
   for (const Shape shape : kShapes) {
-    const auto sample = tiny_sample<kDim>(shape);
+    const auto sample = tiny_sample<Dim>(shape);
     for (const double smoothness : {0.003, 0.03}) {
       for (const bool non_negative : {false, true}) {
         SCOPED_TRACE(sample.name + ", smoothness " + std::to_string(smoothness));
         const auto problem =
             make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
-        NewtonOptimum<kDim> newton(problem, harmonic_coordinates(problem), non_negative);
+        NewtonOptimum<Dim> newton(problem, harmonic_coordinates(problem), non_negative);
         const auto optimum = newton.find();
         if (!optimum) continue;
         ++judged;
@@ -63,11 +57,11 @@ TYPED_TEST(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
         options.certify = true;
         const auto solution = solve(problem, options);
         EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-        EXPECT_LT(largest_difference<kDim>(solution.weights, *optimum), 3e-4);
+        EXPECT_LT(largest_difference<Dim>(solution.weights, *optimum), 3e-4);
         if (!non_negative) continue;
         // The bound is tight, and the objective is that of the problem in the mesh's own units.
         const double least = objective(problem.mesh, problem.phi, *optimum, smoothness) /
-                             std::pow(problem.scale, kDim - 1);
+                             std::pow(problem.scale, Dim - 1);
         EXPECT_NEAR(solution.report.objective, least, 1e-5 * least);
         EXPECT_LE(solution.report.certificate.lower_bound, least * (1 + 1e-9));
         EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);
@@ -77,28 +71,26 @@ TYPED_TEST(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
   EXPECT_GE(judged, 8);
 }
 
-TYPED_TEST(SmoothnessTest, GradientFindsTheOptimumOfNewtonsMethod) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(SmoothnessTest, GradientFindsTheOptimumOfNewtonsMethod) {
+  const auto sample = tiny_sample<Dim>(Shape::kCorner);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0.01);
-  NewtonOptimum<kDim> newton(problem, harmonic_coordinates(problem), false);
+  NewtonOptimum<Dim> newton(problem, harmonic_coordinates(problem), false);
   auto options = accurate(Method::kGradient, 0.01);
   options.non_negative = NonNegative::kOff;
   options.tolerance = 1e-8;
   const auto solution = solve(problem, options);
-  EXPECT_LT(largest_difference<kDim>(solution.weights, *newton.find()), 1e-3);
+  EXPECT_LT(largest_difference<Dim>(solution.weights, *newton.find()), 1e-3);
 }
 
 // On the active set as well, in every precision, and after a multilevel start.
-TYPED_TEST(SmoothnessTest, AllVariantsFindOneOptimum) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 6, 0.2);
+TEST_IN_2D_AND_3D(SmoothnessTest, AllVariantsFindOneOptimum) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
   auto options = accurate(Method::kValue, 0.01);
   options.tolerance = 1e-10;
   const auto optimum = solve(sample.cage, sample.mesh, options).weights;
-  const auto expect_optimal = [&](const SolverOptions& changed, const CoarseMesher<kDim>& mesher,
+  const auto expect_optimal = [&](const SolverOptions& changed, const CoarseMesher<Dim>& mesher,
                                   const char* what) {
-    const auto solution = solve<kDim>(sample.cage, sample.mesh, changed, mesher);
+    const auto solution = solve<Dim>(sample.cage, sample.mesh, changed, mesher);
     EXPECT_EQ(solution.report.status, SolveStatus::kConverged) << what;
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
     EXPECT_LT(squared_error(problem, solution.weights, optimum), 3 * *changed.tolerance) << what;
@@ -112,18 +104,17 @@ TYPED_TEST(SmoothnessTest, AllVariantsFindOneOptimum) {
   expect_optimal(changed, {}, "single precision");
   changed.coarse_to_fine = CoarseToFine::kOn;
   changed.coarse_levels.coarsest = 20;
-  expect_optimal(changed, coarse_sample_mesher<kDim>(kDim == 2 ? 4 : 3), "multilevel start");
+  expect_optimal(changed, coarse_sample_mesher<Dim>(Dim == 2 ? 4 : 3), "multilevel start");
 }
 
-TYPED_TEST(SmoothnessTest, BoundsHoldForAnyFlux) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(SmoothnessTest, BoundsHoldForAnyFlux) {
+  const auto sample = tiny_sample<Dim>(Shape::kCorner);
   const double smoothness = 0.01;
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
   const auto optimum = solve(problem, accurate(Method::kValue, smoothness));
   const double least = objective(problem.mesh, problem.phi, optimum.weights, smoothness);
   const Index n = problem.num_control_points();
-  const Index rows = problem.mesh.num_cells() * kDim;
+  const Index rows = problem.mesh.num_cells() * Dim;
   // Fluxes like gradients of harmonic coordinates, too short, right in size, and far too long.
   const auto harmonic = harmonic_coordinates(problem);
   double best = 0;
@@ -131,11 +122,11 @@ TYPED_TEST(SmoothnessTest, BoundsHoldForAnyFlux) {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> flux(rows, n);
     for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
       const auto corners = cell_corners(problem.mesh, s);
-      flux.middleRows(kDim * s, kDim) =
-          factor * simplex_measure<kDim>(corners) *
-          linear_gradients<kDim>(corners, columns_of(harmonic, problem.mesh.cells.col(s)));
+      flux.middleRows(Dim * s, Dim) =
+          factor * simplex_measure<Dim>(corners) *
+          linear_gradients<Dim>(corners, columns_of(harmonic, problem.mesh.cells.col(s)));
     }
-    const CellFieldView<double, kDim> view{flux.data(), static_cast<std::size_t>(n), n};
+    const CellFieldView<double, Dim> view{flux.data(), static_cast<std::size_t>(n), n};
     const double bound = lower_bound(problem, view, optimum.weights);
     EXPECT_GE(bound, 0) << factor;
     EXPECT_LE(bound, least * (1 + 1e-9)) << factor;
@@ -145,9 +136,8 @@ TYPED_TEST(SmoothnessTest, BoundsHoldForAnyFlux) {
 }
 
 // Far toward either end.
-TYPED_TEST(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) {
+  const auto sample = tiny_sample<Dim>(Shape::kCorner);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto with = [&](double smoothness, NonNegative non_negative = NonNegative::kConstraint) {
     auto options = accurate(Method::kValue, smoothness);
@@ -161,34 +151,32 @@ TYPED_TEST(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) {
   EXPECT_NEAR(variation(with(1e-5)), least, 1e-4 * least);
   EXPECT_GT(variation(with(0.1)), least * (1 + 1e-3));
   const auto harmonic = harmonic_coordinates(problem);
-  const double far = largest_difference<kDim>(with(1, NonNegative::kOff), harmonic);
+  const double far = largest_difference<Dim>(with(1, NonNegative::kOff), harmonic);
   EXPECT_GT(far, 1e-4);
-  EXPECT_LT(largest_difference<kDim>(with(1000, NonNegative::kOff), harmonic), 0.05 * far);
+  EXPECT_LT(largest_difference<Dim>(with(1000, NonNegative::kOff), harmonic), 0.05 * far);
 }
 
-TYPED_TEST(SmoothnessTest, MovedCagesKeepIt) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(SmoothnessTest, MovedCagesKeepIt) {
+  const auto sample = tiny_sample<Dim>(Shape::kCorner);
   auto options = accurate(Method::kValue, 0.01);
   options.tolerance = 1e-11;
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
-  PointList<kDim> moved = sample.cage.points;
+  PointList<Dim> moved = sample.cage.points;
   moved.col(0).array() -= 0.05;
   const auto weights = solver.move(moved).weights;
   const auto alone = solve(solver.cage(), solver.mesh(), options);
-  EXPECT_LT(largest_difference<kDim>(weights, alone.weights), 1e-3);
+  EXPECT_LT(largest_difference<Dim>(weights, alone.weights), 1e-3);
   // Another smoothness is another problem on the same mesh.
   options.smoothness = 0.1;
   solver.set_options(options);
   const auto smoother = solve(solver.cage(), solver.mesh(), options);
-  EXPECT_LT(largest_difference<kDim>(solver.solve().weights, smoother.weights), 1e-3);
-  EXPECT_GT(largest_difference<kDim>(alone.weights, smoother.weights), 1e-2);
+  EXPECT_LT(largest_difference<Dim>(solver.solve().weights, smoother.weights), 1e-3);
+  EXPECT_GT(largest_difference<Dim>(alone.weights, smoother.weights), 1e-2);
 }
 
-TYPED_TEST(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kCorner);
+TEST_IN_2D_AND_3D(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
+  const auto sample = tiny_sample<Dim>(Shape::kCorner);
   for (const auto active : {ActiveSet::kOff, ActiveSet::kOn}) {
     SolverOptions options;
     options.smoothness = 0.01;
@@ -200,9 +188,8 @@ TYPED_TEST(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
   }
 }
 
-TYPED_TEST(SmoothnessTest, RefusesWhatItCannotDo) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = tiny_sample<kDim>(Shape::kBox);
+TEST_IN_2D_AND_3D(SmoothnessTest, RefusesWhatItCannotDo) {
+  const auto sample = tiny_sample<Dim>(Shape::kBox);
   SolverOptions options;
   for (const double smoothness : {-0.1, std::nan(""), HUGE_VAL}) {
     options.smoothness = smoothness;

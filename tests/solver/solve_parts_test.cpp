@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,16 +11,12 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/solver.h"
+#include "support/dimensions.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
-
-template <class Dimension>
-class SolvePartsTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SolvePartsTest, Dimensions);
 
 // The number of element k of the second of two lists that take turns as long as both have any; of
 // the first list with `first`.
@@ -38,12 +33,12 @@ std::vector<Index> in_turns(Index own_size, Index other_size, bool first) {
 
 // Two disjoint samples, or one in the hole of the other, as one cage and mesh.
 template <int Dim>
-struct Pair {
+struct TwoParts {
   std::vector<Sample<Dim>> alone;
   std::vector<std::vector<Index>> control_points{}, vertices{};  // of each in the whole
   Sample<Dim> whole{};
 
-  Pair(Sample<Dim> a, Sample<Dim> b) : alone{std::move(a), std::move(b)} {
+  TwoParts(Sample<Dim> a, Sample<Dim> b) : alone{std::move(a), std::move(b)} {
     std::vector<MeshPart<Dim>> parts;
     whole.cage.points.resize(Dim, alone[0].cage.size() + alone[1].cage.size());
     Index num_facets = 0;
@@ -78,8 +73,8 @@ Sample<Dim> scaled(Sample<Dim> sample, double factor, double offset) {
 }
 
 template <int Dim>
-std::vector<Pair<Dim>> pairs() {
-  std::vector<Pair<Dim>> result;
+std::vector<TwoParts<Dim>> pairs() {
+  std::vector<TwoParts<Dim>> result;
   result.emplace_back(make_sample<Dim>(Shape::kCorner, 4, 0.2),
                       scaled(make_sample<Dim>(Shape::kStar, 4, 0.2), 3, 20));
   // A star in a hole, of which nothing touches the other.
@@ -97,7 +92,8 @@ std::vector<Pair<Dim>> pairs() {
 }
 
 template <int Dim>
-void expect_as_alone(const Pair<Dim>& pair, const Solution& whole, const SolverOptions& options) {
+void expect_as_alone(const TwoParts<Dim>& pair, const Solution& whole,
+                     const SolverOptions& options) {
   ASSERT_EQ(whole.report.parts.size(), 2u);
   double objective = 0, bound = 0;
   int iterations = 0;
@@ -128,10 +124,9 @@ void expect_as_alone(const Pair<Dim>& pair, const Solution& whole, const SolverO
   }
 }
 
-TYPED_TEST(SolvePartsTest, EachIsAsAlone) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(SolvePartsTest, EachIsAsAlone) {
   int number = 0;
-  for (const auto& pair : pairs<kDim>()) {
+  for (const auto& pair : pairs<Dim>()) {
     SCOPED_TRACE(number++);
     for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014,
                               Method::kHarmonic, Method::kMeanValue}) {
@@ -149,9 +144,8 @@ TYPED_TEST(SolvePartsTest, EachIsAsAlone) {
 }
 
 // The objective of the joined weights, which the library adds up cell by cell, is the sum.
-TYPED_TEST(SolvePartsTest, TotalVariationAddsUp) {
-  constexpr int kDim = TypeParam::value;
-  const auto pair = std::move(pairs<kDim>().front());
+TEST_IN_2D_AND_3D(SolvePartsTest, TotalVariationAddsUp) {
+  const auto pair = std::move(pairs<Dim>().front());
   SolverOptions options;
   options.phi = DistanceScheme::kConstant;
   const auto [weights, sparse, report] = solve(pair.whole.cage, pair.whole.mesh, options);
@@ -161,9 +155,8 @@ TYPED_TEST(SolvePartsTest, TotalVariationAddsUp) {
               1e-10 * report.objective);
 }
 
-TYPED_TEST(SolvePartsTest, ProgressIsThatOfTheWhole) {
-  constexpr int kDim = TypeParam::value;
-  const auto pair = std::move(pairs<kDim>().front());
+TEST_IN_2D_AND_3D(SolvePartsTest, ProgressIsThatOfTheWhole) {
+  const auto pair = std::move(pairs<Dim>().front());
   SolverOptions options;
   std::vector<int> to_come;
   std::vector<double> stages;
@@ -191,29 +184,17 @@ TYPED_TEST(SolvePartsTest, ProgressIsThatOfTheWhole) {
       find_violations(check_weights(pair.whole.cage, pair.whole.mesh, stopped.weights)).empty());
 }
 
-template <int Dim, class Action>
-void expect_refused(const Action& action, const std::string& words) {
-  try {
-    action();
-    ADD_FAILURE() << "not refused: " << words;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
-}
-
-TYPED_TEST(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
-  constexpr int kDim = TypeParam::value;
-  const auto pair = std::move(pairs<kDim>().front());
+TEST_IN_2D_AND_3D(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
+  const auto pair = std::move(pairs<Dim>().front());
   const auto& alone = pair.alone;
   const auto& whole = pair.whole;
   // A mesh of one part only.
-  expect_refused<kDim>([&] { solve(whole.cage, alone[0].mesh); }, "control point 1");
+  expect_refused("control point 1", [&] { solve(whole.cage, alone[0].mesh); });
   // A cage of one part only.
-  expect_refused<kDim>([&] { solve(alone[0].cage, whole.mesh); }, "vertex");
+  expect_refused("vertex", [&] { solve(alone[0].cage, whole.mesh); });
   // Classes that keep a state hold one part.
-  expect_refused<kDim>([&] { Solver<kDim>(whole.cage, whole.mesh); }, "not connected");
-  expect_refused<kDim>([&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); },
-                       "2 parts");
+  expect_refused("not connected", [&] { Solver<Dim>(whole.cage, whole.mesh); });
+  expect_refused("2 parts", [&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); });
 }
 
 }  // namespace

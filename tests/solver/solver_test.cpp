@@ -5,7 +5,6 @@
 #include <map>
 #include <stdexcept>
 #include <thread>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/recovery.h"
+#include "support/dimensions.h"
 #include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
@@ -22,14 +22,8 @@
 namespace flbc::testing {
 namespace {
 
-template <class Dimension>
-class SolverTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(SolverTest, Dimensions);
-
-TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(SolverTest, CoordinatesHaveTheirProperties) {
+  for (const auto& sample : samples<Dim>()) {
     for (const auto method : {Method::kGradient, Method::kPaper, Method::kHarmonic}) {
       SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
       SolverOptions options;
@@ -48,9 +42,8 @@ TYPED_TEST(SolverTest, CoordinatesHaveTheirProperties) {
 }
 
 // Without the projection to weights >= 0, single precision must not remain.
-TYPED_TEST(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = with_fine_cage<kDim>(Shape::kCorner, 2, kDim == 2 ? 8 : 4);
+TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
+  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
   for (const auto method : {Method::kValue, Method::kLbc2014}) {
     for (const auto active_set : {ActiveSet::kOff, ActiveSet::kOn}) {
       SCOPED_TRACE(static_cast<int>(method));
@@ -78,10 +71,9 @@ TYPED_TEST(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
 
 // It ends by the error of its weights: about as near the optimum as requested, and without many
 // extra iterations.
-TYPED_TEST(SolverTest, GradientEndsByTheErrorOfItsWeights) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(SolverTest, GradientEndsByTheErrorOfItsWeights) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
-    const auto sample = make_sample<kDim>(shape, kDim == 2 ? 12 : 5, 0.2);
+    const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 5, 0.2);
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     SolverOptions options;
@@ -111,9 +103,8 @@ TYPED_TEST(SolverTest, GradientEndsByTheErrorOfItsWeights) {
 
 // Without a global system it is the paper's iteration from the paper's start to its recovery, with
 // another penalty and relaxation.
-TYPED_TEST(SolverTest, GradientWithoutALinearSolverIsThePapers) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(SolverTest, GradientWithoutALinearSolverIsThePapers) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     const auto run = [&](Method method) {
@@ -134,9 +125,8 @@ TYPED_TEST(SolverTest, GradientWithoutALinearSolverIsThePapers) {
 // Gradients with local constraints only, and weights with a global linear system: two iterations
 // with nothing in common but the problem, of which the optimum may not differ. Its value is a lower
 // bound for every feasible function.
-TYPED_TEST(SolverTest, GradientsAndWeightsAgree) {
-  constexpr int kDim = TypeParam::value;
-  for (const auto& sample : samples<kDim>()) {
+TEST_IN_2D_AND_3D(SolverTest, GradientsAndWeightsAgree) {
+  for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
     const auto optimum = [&](Method method, std::optional<double> penalty) {
@@ -152,7 +142,7 @@ TYPED_TEST(SolverTest, GradientsAndWeightsAgree) {
       return solve(problem, options).weights;
     };
     const auto weights = optimum(Method::kValue, {});
-    const auto gradients = optimum(Method::kPaper, kDim == 2 ? 1e4 : 1e5);
+    const auto gradients = optimum(Method::kPaper, Dim == 2 ? 1e4 : 1e5);
     const double value = testing::objective(problem.mesh, weights, problem.phi.dense());
     EXPECT_NEAR(testing::objective(problem.mesh, gradients, problem.phi.dense()), value,
                 5e-3 * value);
@@ -164,14 +154,13 @@ TYPED_TEST(SolverTest, GradientsAndWeightsAgree) {
   }
 }
 
-TYPED_TEST(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, 4, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const auto expected = solve(sample.cage, sample.mesh);
   for (const double scale : {1e-3, 1e3}) {
     auto moved = sample;
-    const auto place = [&](PointList<kDim>& points) {
-      points = (scale * points).colwise() + Vector<kDim>::Constant(3 * scale);
+    const auto place = [&](PointList<Dim>& points) {
+      points = (scale * points).colwise() + Vector<Dim>::Constant(3 * scale);
     };
     place(moved.cage.points);
     place(moved.mesh.points);
@@ -180,14 +169,13 @@ TYPED_TEST(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
     }
     const auto solution = solve(moved.cage, moved.mesh);
     EXPECT_LT(mean_squared_difference(sample.mesh, solution.weights, expected.weights), 1e-8);
-    EXPECT_NEAR(solution.report.objective, expected.report.objective * std::pow(scale, kDim - 1),
+    EXPECT_NEAR(solution.report.objective, expected.report.objective * std::pow(scale, Dim - 1),
                 1e-3 * solution.report.objective);
   }
 }
 
-TYPED_TEST(SolverTest, ThreadsDoNotChangeABit) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kRing, 4, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, ThreadsDoNotChangeABit) {
+  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   SolverOptions options;
   options.threads = 1;
   const auto one = solve(sample.cage, sample.mesh, options).weights;
@@ -197,9 +185,8 @@ TYPED_TEST(SolverTest, ThreadsDoNotChangeABit) {
   }
 }
 
-TYPED_TEST(SolverTest, ReportsHowItEnded) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, ReportsHowItEnded) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   SolverOptions options;
   options.tolerance = 1e-30;
   options.max_iterations = 7;
@@ -219,9 +206,8 @@ TYPED_TEST(SolverTest, ReportsHowItEnded) {
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
 }
 
-TYPED_TEST(SolverTest, PollIsCalledInEveryIterationAndMayCancel) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, PollIsCalledInEveryIterationAndMayCancel) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   SolverOptions options;
   options.tolerance = 1e-30;
   options.max_iterations = 25;
@@ -232,16 +218,15 @@ TYPED_TEST(SolverTest, PollIsCalledInEveryIterationAndMayCancel) {
   EXPECT_EQ(calls, 25);
   EXPECT_EQ(weights, solve(sample.cage, sample.mesh, options).weights);
 
-  Solver<kDim> solver(sample.cage, sample.mesh, options);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   observer.poll = [] { throw std::out_of_range("cancelled"); };
   EXPECT_THROW(solve(sample.cage, sample.mesh, options, {}, observer), std::out_of_range);
   EXPECT_THROW(solver.solve({}, observer), std::out_of_range);
   EXPECT_EQ(solver.solve().weights, weights);
 }
 
-TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 6, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, StagesTellHowFarTheyAre) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 6, 0.2);
   SolverOptions options;
   options.certify = true;
   const auto without = solve(sample.cage, sample.mesh, options).weights;
@@ -266,9 +251,8 @@ TYPED_TEST(SolverTest, StagesTellHowFarTheyAre) {
 }
 
 // Numbers out of the range of single or double precision must not pass for a result.
-TYPED_TEST(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 4, 0.2);
+TEST_IN_2D_AND_3D(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   for (const double penalty : {1e-320, 1e-300, 1e-40, 1e-30, 1e30, 1e40, 1e280}) {
     for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
       for (const auto method : {Method::kGradient, Method::kPaper}) {
@@ -293,9 +277,8 @@ TYPED_TEST(SolverTest, NeverDeliversNumbersThatAreNotFinite) {
   EXPECT_THROW(solve(sample.cage, sample.mesh, options), SolverError);
 }
 
-TYPED_TEST(SolverTest, MessagesGiveTheUsersCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  auto sample = make_sample<kDim>(Shape::kBox, 2);
+TEST_IN_2D_AND_3D(SolverTest, MessagesGiveTheUsersCoordinates) {
+  auto sample = make_sample<Dim>(Shape::kBox, 2);
   Index corner = 0;
   sample.mesh.points.colwise().sum().maxCoeff(&corner);
   sample.mesh.points.col(corner).setConstant(1.25);
@@ -307,9 +290,8 @@ TYPED_TEST(SolverTest, MessagesGiveTheUsersCoordinates) {
   }
 }
 
-TYPED_TEST(SolverTest, RefusesImpossibleOptionsByName) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kBox, 1);
+TEST_IN_2D_AND_3D(SolverTest, RefusesImpossibleOptionsByName) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 1);
   const auto refused = [&](const char* field, auto change) {
     SolverOptions options;
     change(options);

@@ -2,13 +2,13 @@
 // Tests of the reference implementation, the textbook solver.
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "flbc/quality.h"
 #include "support/dense_algebra.h"
+#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
 #include "support/judge.h"
 #include "support/sample_meshes.h"
@@ -52,11 +52,6 @@ TextbookInput<Dim> textbook_input(const Sample<Dim>& sample, const MatrixXd& sta
   return input;
 }
 
-template <class Dimension>
-class TextbookTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(TextbookTest, Dimensions);
-
 // (8) in each cell; (9) and (10) along the edges of facets, where g . (x_b - x_a) is the rise of w.
 template <int Dim>
 double constraint_violation(const TextbookInput<Dim>& input, const TextbookAdmm<Dim>& solver) {
@@ -97,8 +92,7 @@ std::vector<Sample<Dim>> smallest_samples() {
           make_sample<Dim>(Shape::kStar, 2, 0.2)};
 }
 
-TYPED_TEST(TextbookTest, ConvergesToAFeasibleBetterPoint) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(TextbookTest, ConvergesToAFeasibleBetterPoint) {
   for (const auto& sample : smallest_samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto input = textbook_input<Dim>(sample, harmonic_weights(sample));
@@ -116,8 +110,7 @@ TYPED_TEST(TextbookTest, ConvergesToAFeasibleBetterPoint) {
 
 // Stationarity of the Lagrangian in G, Z, X and Y: with feasibility, this proves the optimum of the
 // convex problem (7)-(10), by relations that no step of the iteration computes.
-TYPED_TEST(TextbookTest, EndsInAPointThatIsOptimal) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(TextbookTest, EndsInAPointThatIsOptimal) {
   for (const auto& sample : smallest_samples<Dim>()) {
     SCOPED_TRACE(sample.name);
     const auto input = textbook_input<Dim>(sample, harmonic_weights(sample));
@@ -165,8 +158,7 @@ TYPED_TEST(TextbookTest, EndsInAPointThatIsOptimal) {
   }
 }
 
-TYPED_TEST(TextbookTest, FindsBarycentricCoordinatesOfASimplex) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(TextbookTest, FindsBarycentricCoordinatesOfASimplex) {
   const auto sample = make_sample<Dim>(Shape::kSimplex, 3, 0.2);
   const MatrixXd zero = MatrixXd::Zero(Dim + 1, sample.mesh.num_vertices());
   TextbookAdmm<Dim> solver(textbook_input<Dim>(sample, zero));
@@ -181,8 +173,7 @@ TYPED_TEST(TextbookTest, FindsBarycentricCoordinatesOfASimplex) {
   EXPECT_LT(solver.primal_residual_norm(), 1e-8);
 }
 
-TYPED_TEST(TextbookTest, ResidualsAreThoseOfThePaper) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(TextbookTest, ResidualsAreThoseOfThePaper) {
   const auto sample = make_sample<Dim>(Shape::kStar, 2, 0.2);
   const auto input = textbook_input<Dim>(sample, harmonic_weights(sample));
   TextbookAdmm<Dim> solver(input);
@@ -217,8 +208,7 @@ TYPED_TEST(TextbookTest, ResidualsAreThoseOfThePaper) {
             Eigen::Index{Dim} * sample.cage.size() * (Dim + 2) * sample.mesh.num_cells());
 }
 
-TYPED_TEST(TextbookTest, RefusesInputThatDoesNotFit) {
-  constexpr int Dim = TypeParam::value;
+TEST_IN_2D_AND_3D(TextbookTest, RefusesInputThatDoesNotFit) {
   const auto sample = make_sample<Dim>(Shape::kStar, 2);
   const auto good = textbook_input<Dim>(sample, harmonic_weights(sample));
   EXPECT_NO_THROW(TextbookAdmm<Dim>{good});

@@ -3,36 +3,20 @@
 // of very different cells, and with few and many control points.
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
-#include "flbc/meshing.h"
 #include "flbc/solver.h"
+#include "support/dimensions.h"
 #include "support/judge.h"
 #include "support/many_iterations.h"
-#include "support/model_cages.h"
 #include "support/sample_meshes.h"
+#include "support/solver_models.h"
 
 namespace flbc::testing {
 namespace {
-
-// The contract is a mean squared error of `tolerance`, up to this factor.
-constexpr double kAllowance = 3;
-
-template <class Dimension>
-class ToleranceTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(ToleranceTest, Dimensions);
-
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
-  return triangulate(cage, {vertices});
-}
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
-  return tetrahedralize(cage, {vertices});
-}
 
 // The optimum that errors are measured against, proven to be good enough for that.
 template <int Dim>
@@ -75,10 +59,9 @@ void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, int
 
 // ---- scale --------------------------------------------------------------------------------------
 
-TYPED_TEST(ToleranceTest, IsTheSameAtEveryScale) {
-  constexpr int kDim = TypeParam::value;
+TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
-    const auto sample = make_sample<kDim>(shape, kDim == 2 ? 12 : 4, 0.2);
+    const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 4, 0.2);
     const double width = bounding_box_diagonal(sample.cage.points);
     const auto expected = solve(sample.cage, sample.mesh, with_tolerance(1e-7));
     for (const double size : {0.001, 0.03, 7.0, 1000.0}) {
@@ -92,7 +75,7 @@ TYPED_TEST(ToleranceTest, IsTheSameAtEveryScale) {
       EXPECT_LT(mean_squared_difference(sample.mesh, solution.weights, expected.weights), 1e-11);
       EXPECT_NEAR(solution.report.certificate.relative_gap,
                   expected.report.certificate.relative_gap, 1e-3);
-      const double enlargement = std::pow(size / width, kDim - 1);
+      const double enlargement = std::pow(size / width, Dim - 1);
       EXPECT_NEAR(solution.report.objective, enlargement * expected.report.objective,
                   1e-4 * solution.report.objective);
     }
@@ -114,13 +97,12 @@ Sample<Dim> graded_box(Index subdivisions, double ratio) {
   return sample;
 }
 
-TYPED_TEST(ToleranceTest, HoldsOnMeshesGradedByAFactorOfAHundred) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = graded_box<kDim>(kDim == 2 ? 24 : 8, 100);
+TEST_IN_2D_AND_3D(ToleranceTest, HoldsOnMeshesGradedByAFactorOfAHundred) {
+  const auto sample = graded_box<Dim>(Dim == 2 ? 24 : 8, 100);
   double least = std::numeric_limits<double>::infinity();
   double largest = 0;
   for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
-    const double size = std::pow(std::abs(signed_measure(sample.mesh, s)), 1.0 / kDim);
+    const double size = std::pow(std::abs(signed_measure(sample.mesh, s)), 1.0 / Dim);
     least = std::min(least, size);
     largest = std::max(largest, size);
   }
@@ -245,9 +227,8 @@ TEST(Tolerance3dTest, IsNotClaimedTooSoonOnRoundCagesOfManyControlPoints) {
 }
 
 // Single precision ends all progress at some error, and no tolerance below it may be claimed.
-TYPED_TEST(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kCorner, kDim == 2 ? 12 : 4, 0.2);
+TEST_IN_2D_AND_3D(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
   const auto exact = optimum(problem, 6000, false);
   for (const double tolerance : {1e-9, 1e-11, 1e-13, 1e-15}) {
@@ -265,25 +246,18 @@ TYPED_TEST(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
 }
 
 // As many control points as make the weights unique: no iteration can go wrong.
-TYPED_TEST(ToleranceTest, ASimplexHasItsBarycentricCoordinates) {
-  constexpr int kDim = TypeParam::value;
-  const auto sample = make_sample<kDim>(Shape::kSimplex, 6, 0.2);
+TEST_IN_2D_AND_3D(ToleranceTest, ASimplexHasItsBarycentricCoordinates) {
+  const auto sample = make_sample<Dim>(Shape::kSimplex, 6, 0.2);
   const auto solution = solve(sample.cage, sample.mesh, with_tolerance(1e-8));
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-  Eigen::Matrix<double, kDim + 1, kDim + 1> system;
-  system << sample.cage.points, Eigen::Matrix<double, 1, kDim + 1>::Ones();
-  Eigen::MatrixXd right(kDim + 1, sample.mesh.num_vertices());
+  Eigen::Matrix<double, Dim + 1, Dim + 1> system;
+  system << sample.cage.points, Eigen::Matrix<double, 1, Dim + 1>::Ones();
+  Eigen::MatrixXd right(Dim + 1, sample.mesh.num_vertices());
   right << sample.mesh.points, Eigen::RowVectorXd::Ones(sample.mesh.num_vertices());
   EXPECT_LT((system * solution.weights - right).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 // ---- real cages ---------------------------------------------------------------------------------
-
-struct Model {
-  const char* name;
-  const char* file;
-  Index vertices;
-};
 
 template <int Dim>
 void expect_promise_kept_on(const Model& model) {
@@ -302,10 +276,6 @@ void expect_promise_kept_on(const Model& model) {
   }
 }
 
-std::string name_of(const ::testing::TestParamInfo<Model>& info) {
-  return info.param.name;
-}
-
 class LongTolerance2d : public ::testing::TestWithParam<Model> {};
 TEST_P(LongTolerance2d, Holds) {
   expect_promise_kept_on<2>(GetParam());
@@ -314,7 +284,7 @@ INSTANTIATE_TEST_SUITE_P(Models, LongTolerance2d,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 2000},
                                            Model{"cactus", "2d/cactus-control-edgeset.obj", 2000},
                                            Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000}),
-                         name_of);
+                         name_of_model);
 
 class LongTolerance3d : public ::testing::TestWithParam<Model> {};
 TEST_P(LongTolerance3d, Holds) {
@@ -325,7 +295,7 @@ INSTANTIATE_TEST_SUITE_P(Models, LongTolerance3d,
                                            Model{"shark", "3d/shark_cage.obj", 2000},
                                            Model{"beast", "3d/beast_cage.obj", 2000},
                                            Model{"arm", "3d/arm_cage.obj", 2500}),
-                         name_of);
+                         name_of_model);
 
 // ---- slow weights -------------------------------------------------------------------------------
 

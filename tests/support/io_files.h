@@ -10,11 +10,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "support/errors.h"
 #include "support/scratch.h"
 
 namespace flbc::testing {
@@ -51,24 +51,6 @@ class FolderTest : public ::testing::Test {
  protected:
   const std::filesystem::path& folder_ = scratch_.path();
 };
-
-//! That `action` throws an Exception whose message has all the pieces.
-template <class Exception, class Action>
-void expect_error(const Action& action, std::initializer_list<std::string> pieces) {
-  try {
-    action();
-  } catch (const Exception& error) {
-    for (const std::string& piece : pieces) {
-      EXPECT_NE(std::string(error.what()).find(piece), std::string::npos)
-          << "no '" << piece << "' in: " << error.what();
-    }
-    return;
-  } catch (const std::exception& error) {
-    ADD_FAILURE() << "another kind of exception: " << error.what();
-    return;
-  }
-  ADD_FAILURE() << "no exception; expected one about " << *pieces.begin();
-}
 
 inline std::uint64_t bits_of(double value) {
   std::uint64_t bits;

@@ -19,16 +19,23 @@ struct DoublePoints : OpenMesh::DefaultTraits {
   using Normal = OpenMesh::Vec3d;
 };
 
+struct PlanePoints : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec2d;
+};
+using FloatTri = OpenMesh::TriMesh_ArrayKernelT<>;
+using FloatPoly = OpenMesh::PolyMesh_ArrayKernelT<>;
+using DoubleTri = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
+using DoublePoly = OpenMesh::PolyMesh_ArrayKernelT<DoublePoints>;
+using PlaneTri = OpenMesh::TriMesh_ArrayKernelT<PlanePoints>;
+
 template <class MeshType, class Number>
 struct WideCase {
   using Mesh = MeshType;
   using Scalar = Number;
 };
 //! Every kind of mesh with every kind of number.
-using WideCases = ::testing::Types<WideCase<OpenMesh::TriMesh_ArrayKernelT<>, float>,
-                                   WideCase<OpenMesh::TriMesh_ArrayKernelT<DoublePoints>, double>,
-                                   WideCase<OpenMesh::PolyMesh_ArrayKernelT<>, double>,
-                                   WideCase<OpenMesh::PolyMesh_ArrayKernelT<DoublePoints>, float>>;
+using WideCases = ::testing::Types<WideCase<FloatTri, float>, WideCase<DoubleTri, double>,
+                                   WideCase<FloatPoly, double>, WideCase<DoublePoly, float>>;
 
 //! n x n squares; triangle meshes split them. All points are integers: sums of them are exact.
 template <class Mesh>
