@@ -3,7 +3,7 @@
 # Builds with GCC coverage counters (preset `coverage`), runs the tests, and prints line coverage of
 # the library, file formats, and bindings. At least 90% is required; LEAST=0 disables this. Report
 # by file: build/coverage/report/index.html. Options go to ctest. TARGETS limits the build:
-# TARGETS=weights_test scripts/coverage.sh -R Weights
+# TARGETS=io_tests scripts/coverage.sh -R Weights
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -3,7 +3,7 @@
 # Builds everything with AddressSanitizer and UndefinedBehaviorSanitizer (preset `asan`) and runs
 # the tests, except those of installed files, browsers, and Blender, which run code without
 # sanitizers. Options go to ctest. TARGETS limits the build:
-# TARGETS="weights_test replay_test" scripts/sanitize.sh -R 'Weights|Fuzz'
+# TARGETS="io_tests fuzz_tests" scripts/sanitize.sh -R 'Weights|Fuzz'
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -49,17 +49,11 @@ if ! "$folder/net" 2>"$folder/log" || "$folder/net" race 2>"$folder/log"; then
 fi
 
 cmake --preset tsan >/dev/null
-tests=(solver/{compact_splitting,gradient_admm}_test
-  solver/{solver,active_set,coarse_to_fine,continued_solve,moved_cage,solve_parts,set_up}_test
-  solver/error_estimate_test
-  linear/{multigrid,panel_cholesky,row_matrix}_test
-  problem/{boundary_values,bounded_distances,distance_weights,interpolated_distances}_test
-  polytope/non_negative_test certificate/certificate_test evaluation/check_test
-  coordinates/{deform,mean_value,placement,recovery,transfer_weights}_test
-  sparsify/{sparsify,poisson_reduction,poisson_optimality}_test)
-cmake --build --preset tsan --target "${tests[@]##*/}"
+folders=(solver linear problem polytope certificate evaluation coordinates sparsify)
+cmake --build --preset tsan --target "${folders[@]/%/_tests}"
 status=0
-for test in "${tests[@]}"; do
-  "build/tsan/tests/$test" "$@" || { status=1 && echo "$test: not without a race or a failure"; }
+for folder in "${folders[@]}"; do
+  "build/tsan/tests/$folder/${folder}_tests" "$@" ||
+    { status=1 && echo "$folder: not without a race or a failure"; }
 done
 exit $status

@@ -12,6 +12,7 @@
 #include "flbc/errors.h"
 #include "flbc/solver.h"
 #include "support/dimensions.h"
+#include "support/errors.h"
 #include "support/hollow_sample.h"
 #include "support/sample_meshes.h"
 
