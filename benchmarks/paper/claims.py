@@ -5,138 +5,116 @@ A claim is a file, a sentence in which {} stands for a number, the result it com
 that makes the numbers, as text, of the result's rows. Spaces of the sentence may be line ends.
 """
 
+import math
 import pathlib
 import re
 
 import results
-import tables
+from results import ratio, value
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 NUMBER = r"([0-9][0-9.,e+-]*[0-9]|[0-9]|" + "|".join(WORDS) + ")"
 
 
-def find(rows, **cells):
+def find(rows, **wanted):
     """The first row with these cells. Raises LookupError if there is none."""
-    found = [row for row in rows if all(row[column] == cell for column, cell in cells.items())]
+    found = [row for row in rows if all(row[column] == cell for column, cell in wanted.items())]
     if not found:
-        raise LookupError(cells)
+        raise LookupError(wanted)
     return found[0]
 
 
-def number(row, column, form):
-    return format(results.value(row, column), form)
+def where(*kinds, **wanted):
+    """The claim that gives cells of the row with these cells; kinds as in results.cell."""
+    return lambda rows: results.cells(find(rows, **wanted), *kinds)
 
 
-def ends(values, form):
-    """The least and the largest of some numbers."""
-    return [format(end(values), form) for end in (min, max)]
-
-
-def ends_of(column, form):
-    """The claim that gives the least and the largest number of a column."""
-    return lambda rows: ends([results.value(row, column) for row in rows if row[column]], form)
-
-
-def horse_by_default(rows):
-    row = find(rows, model="horse")
-    return [row["control_points"], results.thousands(row["vertices"]), number(row, "total_seconds", ".1f")]
-
-
-def made_cage(control_points, tolerance):
-    """The claim that gives the size and the seconds of a cage of that many control points."""
+def ends(form, number):
+    """The claim that gives the least and the largest number of the rows that have one."""
     def make(rows):
-        row = find(rows, control_points=control_points, tolerance=tolerance)
-        return [results.thousands(row["vertices"]), number(row, "seconds", ".1f")]
+        numbers = [x for x in map(number, rows) if not math.isnan(x)]
+        return [format(end(numbers), form) for end in (min, max)]
     return make
 
 
-def active_set_at_1000(rows):
-    """Speed and memory on all pairs relative to those on the active set."""
-    row = find(rows, cage="made", tolerance="1e-06", control_points="1000")
-    return [number(row, "times", ".0f"),
-            f"{results.value(row, 'all_mebibytes') / results.value(row, 'mebibytes'):.0f}"]
+def ends_of(column, form):
+    return ends(form, lambda row: value(row, column))
 
 
-def influences(rows):
-    return (ends_of("mean_influences", ".1f")(rows) + ends_of("harmonic_influences", ".1f")(rows))
+def ratio_of(column, other, form):
+    return lambda row: format(ratio(row, column, other), form)
 
 
 def default_in_race(rows):
-    return ends([results.value(row, "total_seconds") for row in rows if row["method"] == "value"], ".2f")
+    return ends_of("total_seconds", ".2f")([row for row in rows if row["method"] == "value"])
 
 
 def larger_than_published(rows):
     """On how many models method paper stops with a larger error than published, in words."""
     found = [row for row in rows if row["method"] == "paper" and row["paper_flbc_error"]]
-    return [WORDS[sum(results.value(row, "error") > results.value(row, "paper_flbc_error") for row in found)]]
+    return [WORDS[sum(ratio(row, "error", "paper_flbc_error") > 1 for row in found)]]
+
+
+def over_published(rows):
+    """Errors of method paper relative to those published."""
+    return [format(ratio(find(rows, model=model, method="paper"), "error", "paper_flbc_error"), ".2g")
+            for model in ("logo", "woody", "cactus", "horse", "armadillo")]
+
+
+def powers(rows, *columns):
+    vertices = [value(row, "vertices") for row in rows]
+    return [results.exponent(vertices, [value(row, column) for row in rows]) for column in columns]
 
 
 def powers_of_many(rows):
     """From 110 to 1,000 control points at 20,000 vertices, by the two ends."""
     curve = [find(rows, cage="made", tolerance="1e-06", control_points=n) for n in ("110", "1000")]
-    n = [results.value(row, "control_points") for row in curve]
-    return [f"{results.exponent(n, [results.value(row, column) for row in curve]):.2f}"
+    n = [value(row, "control_points") for row in curve]
+    return [f"{results.exponent(n, [value(row, column) for row in curve]):.2f}"
             for column in ("seconds", "mebibytes")]
 
 
-def over_value(rows, method):
-    """The least and the largest time of a method relative to that of value."""
-    times = [results.value(row, "total_seconds") /
-             results.value(find(rows, model=row["model"], method="value"), "total_seconds")
-             for row in rows if row["method"] == method]
-    return [f"{time:.1f}" if time < 9.95 else f"{time:.0f}" for time in (min(times), max(times))]
-
-
 def powers_of_growth(rows):
-    powers = []
-    for column in ("total_seconds", "peak_mebibytes"):
-        both = []
-        for model in results.in_order(row["model"] for row in rows):
-            curve = [row for row in rows if row["model"] == model]
-            both.append(results.exponent([results.value(row, "vertices") for row in curve],
-                                         [results.value(row, column) for row in curve]))
-        powers += [f"{min(both):.2f}", f"{max(both):.2f}"]
-    return powers
+    found = [powers(curve, "total_seconds", "peak_mebibytes") for curve in results.by(rows, "model")]
+    return [f"{end(mine):.2f}" for mine in zip(*found) for end in (min, max)]
 
 
-def iterations_within_and_beyond_caches(rows):
-    """Milliseconds that an iteration of value takes on a small and on a large horse."""
-    return [f"{1000 * results.value(row, 'solve_seconds') / results.value(row, 'iterations'):.2g}"
-            for row in (find(rows, model="horse", method="value", vertices=vertices)
-                        for vertices in ("2021", "20288"))]
-
-
-def million_cells(rows):
-    row = find(rows, model="horse", cells="1015389")
-    return [results.thousands(row["vertices"]), row["control_points"],
-            number(row, "peak_mebibytes", ",.0f")]
-
-
-def smallest_without(rows):
-    return [f"{-results.value(find(rows, model=model), 'min_weight_without'):.1e}"
-            for model in ("shark", "armadillo", "beast")]
-
-
-def over_published(rows):
-    """Errors of method paper relative to those published."""
-    found = [find(rows, model=model, method="paper")
-             for model in ("logo", "woody", "cactus", "horse", "armadillo")]
-    return [f"{results.value(row, 'error') / results.value(row, 'paper_flbc_error'):.2g}" for row in found]
+def over_value(method):
+    """The claim that gives the least and the largest time of a method relative to that of value."""
+    def make(rows):
+        times = [value(row, "total_seconds") /
+                 value(find(rows, model=row["model"], method="value"), "total_seconds")
+                 for row in rows if row["method"] == method]
+        return [f"{time:.1f}" if time < 9.95 else f"{time:.0f}" for time in (min(times), max(times))]
+    return make
 
 
 def published_penalty_over_value(rows):
     """Seconds to 1e-5 on woody with the 2014 solver's published penalty, relative to value's."""
-    seconds = []
-    for method in ("lbc2014", "value"):
-        curve = [dict(row, time=str(tables.after_setup(row))) for row in rows
-                 if row["model"] == "woody" and row["method"] == method]
-        seconds.append(tables.reach(curve, 1e-5, "time"))
+    seconds = [results.reach([(results.after_setup(row), value(row, "error")) for row in rows
+                              if row["model"] == "woody" and row["method"] == method], 1e-5)
+               for method in ("lbc2014", "value")]
     return [f"{seconds[0] / seconds[1]:.0f}"]
 
 
+def smallest_without(rows):
+    return [f"{-value(find(rows, model=model), 'min_weight_without'):.1e}"
+            for model in ("shark", "armadillo", "beast")]
+
+
+def iterations_within_and_beyond_caches(rows):
+    """Milliseconds that an iteration of value takes on a small and on a large horse."""
+    return [f"{1000 * ratio(find(rows, model='horse', method='value', vertices=vertices), 'solve_seconds', 'iterations'):.2g}"
+            for vertices in ("2021", "20288")]
+
+
+def influences(rows):
+    return ends_of("mean_influences", ".1f")(rows) + ends_of("harmonic_influences", ".1f")(rows)
+
+
 def worst_promise(rows):
-    return [f"{max(results.value(row, 'error') for row in rows):.2f}"]
+    return [f"{max(value(row, 'error') for row in rows):.2f}"]
 
 
 INDEX, SPEED, MANY, ACCURACY, TABLES, FIGURES = (
@@ -148,24 +126,29 @@ CLAIMS = [
     ("README.md", "takes {} times as long on woody as the default method", "figure5",
      published_penalty_over_value),
     (INDEX, "| seven models | {} to {} s |", "race", default_in_race),
-    (INDEX, "| horse, n = {}, V = {} | {} s |", "models", horse_by_default),
-    (INDEX, "| n = 250, V = {} | {} s |", "many", made_cage("250", "1e-07")),
-    (INDEX, "| n = 1,000, V = {} | {} s |", "many", made_cage("1000", "1e-05")),
-    (INDEX, "| horse, V = {}, n = {} | {} MiB |", "growth", million_cells),
+    (INDEX, "| horse, n = {}, V = {} | {} s |", "models",
+     where("control_points", "vertices:,.0f", "total_seconds:.1f", model="horse")),
+    (INDEX, "| n = 250, V = {} | {} s |", "many",
+     where("vertices:,.0f", "seconds:.1f", control_points="250", tolerance="1e-07")),
+    (INDEX, "| n = 1,000, V = {} | {} s |", "many",
+     where("vertices:,.0f", "seconds:.1f", control_points="1000", tolerance="1e-05")),
+    (INDEX, "| horse, V = {}, n = {} | {} MiB |", "growth",
+     where("vertices:,.0f", "control_points", "peak_mebibytes:,.0f", model="horse", cells="1015389")),
     (INDEX, "| default settings | {} to {}, instead of {} to {} |", "models", influences),
     (INDEX, "| nine models | {} |", "tolerance", worst_promise),
-    (INDEX, f"The 2014 splitting with its tuned penalty {RATIO}", "race",
-     lambda rows: over_value(rows, "lbc2014-tuned")),
-    (INDEX, f"The gradient ADMM {RATIO}", "race", lambda rows: over_value(rows, "gradient")),
-    (INDEX, f"The published 2019 method {RATIO}", "race", lambda rows: over_value(rows, "paper")),
+    (INDEX, f"The 2014 splitting with its tuned penalty {RATIO}", "race", over_value("lbc2014-tuned")),
+    (INDEX, f"The gradient ADMM {RATIO}", "race", over_value("gradient")),
+    (INDEX, f"The published 2019 method {RATIO}", "race", over_value("paper")),
     (INDEX, "With its published penalty, the 2014 splitting takes {} times as long on woody", "figure5",
      published_penalty_over_value),
     (INDEX, "certified relative gap of the references is {} to {}", "table2",
      ends_of("reference_gap", ".1e")),
-    (SPEED, "takes {} to {} times as long as harmonic coordinates", "speed", ends_of("over_harmonic", ".1f")),
+    (SPEED, "takes {} to {} times as long as harmonic coordinates", "speed",
+     ends(".1f", lambda row: ratio(row, "total_seconds", "harmonic_seconds"))),
     (SPEED, "Time grows as V^{} to V^{} and memory as V^{} to V^{}", "growth", powers_of_growth),
     (MANY, "the active set is {} times as fast as all pairs, which need {} times the memory", "many",
-     active_set_at_1000),
+     where(ratio_of("all_seconds", "seconds", ".0f"), ratio_of("all_mebibytes", "mebibytes", ".0f"),
+           cage="made", tolerance="1e-06", control_points="1000")),
     (MANY, "From 110 to 1,000 control points, time grows as n^{} and memory as n^{}", "many",
      powers_of_many),
     (ACCURACY, "so the worst ratio, {}, is a fitted figure", "tolerance", worst_promise),

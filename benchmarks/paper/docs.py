@@ -7,7 +7,7 @@
     docs.py --check       fails if a table or a number differs from the stored results it is made of
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
-docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that doc_tables.SOURCES names. Its
+docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
 last line has the commit that made it.
 """
 
@@ -17,8 +17,8 @@ import shutil
 import sys
 
 import claims
-import doc_tables
 import results
+import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
@@ -28,37 +28,24 @@ PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
-def written(name):
-    """The table of a stored result, with the commit that made it."""
-    source = doc_tables.source_of(name)
-    rows, comments = results.read(STORED, source)
-    header, body = doc_tables.TABLES.get(name, doc_tables.plain)(rows)
-    lines = ["| " + " | ".join(header) + " |", "|---" * len(header) + "|"]
-    lines += ["| " + " | ".join(row) + " |" for row in body]
-    commit = next((c for c in comments if c.startswith("commit ")), "commit unknown")
-    if claims.of_busy_machine(comments):
-        commit += "; seconds are too long: other programs ran on the machine"
-    return "\n".join(lines) + f"\n\n(docs/results/{source}.csv, {commit})\n"
-
-
 def is_stored(name):
-    return (STORED / f"{doc_tables.source_of(name)}.csv").exists()
+    return (STORED / f"{tables.source_of(name)}.csv").exists()
 
 
 def with_tables(page):
-    return MARKED.sub(lambda m: m[1] + (written(m[2]) if is_stored(m[2]) else m[3]) + m[4], page)
+    return MARKED.sub(lambda m: m[1] + (tables.markdown(STORED, m[2]) if is_stored(m[2]) else m[3]) + m[4], page)
 
 
 def check():
     found = [match for page in PAGES for match in MARKED.finditer(page.read_text())]
-    marked = {doc_tables.source_of(m[2]) for m in found}
+    marked = {tables.source_of(m[2]) for m in found}
     stored = {path.stem for path in STORED.glob("*.csv")}
     problems = [f"docs/results/{name}.csv has no table on a page" for name in stored - marked]
     for match in found:
         if not is_stored(match[2]):
             print(f"{match[2]}: nothing stored yet, so not checked")
-        elif match[3] != written(match[2]):
-            problems.append(f"the table {match[2]} differs from docs/results/{doc_tables.source_of(match[2])}.csv")
+        elif match[3] != tables.markdown(STORED, match[2]):
+            problems.append(f"the table {match[2]} differs from docs/results/{tables.source_of(match[2])}.csv")
     problems += claims.check(STORED)
     for problem in problems:
         print(problem, file=sys.stderr)
@@ -67,7 +54,7 @@ def check():
 
 def take_over(out):
     STORED.mkdir(exist_ok=True)
-    for name in {doc_tables.source_of(m[2]) for page in PAGES for m in MARKED.finditer(page.read_text())}:
+    for name in {tables.source_of(m[2]) for page in PAGES for m in MARKED.finditer(page.read_text())}:
         _, comments = results.read(out, name)
         if any(c.startswith(UNFIT) or "samples in place" in c for c in comments):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")

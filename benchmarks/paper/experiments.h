@@ -1,37 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The paper's tables and figures. Each function writes OUT/NAME.csv and returns false if a part of
-//! it failed, after a message on stderr.
+//! Tables and figures. Each function writes OUT/NAME.csv and returns false if a part of it failed,
+//! after a message on stderr.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "paper/context.h"
+#include "toolkit.h"
 
 namespace flbc::bench {
 
-struct Experiment {
-  const char* name;
-  bool (*run)(const Context&);
-};
-
-//! In the order in which to run them.
-const std::vector<Experiment>& experiments();
-
-bool run_table1(const Context& context);         //!< with and without non-negativity
-bool run_table2(const Context& context);         //!< methods compared at the paper's sizes
-bool run_figure2(const Context& context);        //!< pictures at growing resolution
-bool run_figure3(const Context& context);        //!< time and memory against resolution
-bool run_figure4(const Context& context);        //!< slices of 3D functions
-bool run_figure5(const Context& context);        //!< error against time
-bool run_figure6(const Context& context);        //!< the same on large meshes
-bool run_speed(const Context& context);          //!< total time to an error of 1e-5, beside others
-bool run_race(const Context& context);           //!< iterations and time to a true error of 1e-5
-bool run_many(const Context& context);           //!< many control points: all pairs, supports
-bool run_growth(const Context& context);         //!< time and memory up to millions of cells
-bool run_models(const Context& context);         //!< from cage to coordinates, beside harmonic ones
-bool run_tolerance(const Context& context);  //!< true errors relative to those promised
+bool run_table1(const Context& context);      //!< with and without non-negativity
+bool run_table2(const Context& context);      //!< methods compared at the paper's sizes
+bool run_figure2(const Context& context);     //!< pictures at growing resolution
+bool run_figure3(const Context& context);     //!< time and memory against resolution
+bool run_figure4(const Context& context);     //!< slices of 3D functions
+bool run_figure5(const Context& context);     //!< error against time
+bool run_figure6(const Context& context);     //!< the same on large meshes
+bool run_speed(const Context& context);       //!< time to a tolerance of 1e-5
+bool run_race(const Context& context);        //!< iterations and time to a true error of 1e-5
+bool run_many(const Context& context);        //!< many control points: all pairs, active set
+bool run_growth(const Context& context);      //!< time and memory up to millions of cells
+bool run_models(const Context& context);      //!< by default, next to harmonic coordinates
+bool run_tolerance(const Context& context);   //!< true errors relative to the tolerance
 bool run_smoothness(const Context& context);  //!< what SolverOptions::smoothness gives and costs
 
 }  // namespace flbc::bench

@@ -1,61 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regenerates the numbers of the paper's tables and figures; see README.md in this folder.
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
 
-#include "paper/experiments.h"
-#include "paper/machine.h"
-#include "paper/models.h"
-#include "paper/stopwatch.h"
+#include "experiments.h"
+#include "problems.h"
 
 namespace flbc::bench {
-
-const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> kExperiments = {{"table1", run_table1},
-                                                       {"table2", run_table2},
-                                                       {"figure2", run_figure2},
-                                                       {"figure3", run_figure3},
-                                                       {"figure4", run_figure4},
-                                                       {"figure5", run_figure5},
-                                                       {"figure6", run_figure6},
-                                                       {"speed", run_speed},
-                                                       {"race", run_race},
-                                                       {"many", run_many},
-                                                       {"growth", run_growth},
-                                                       {"models", run_models},
-                                                       {"tolerance", run_tolerance},
-                                                       {"smoothness", run_smoothness}};
-  return kExperiments;
-}
-
 namespace {
 
-// Those of programs.py are accepted and left to it.
-std::vector<std::string> experiment_names() {
-  std::vector<std::string> names{"cages", "sparsify"};
-  for (const auto& experiment : experiments()) names.emplace_back(experiment.name);
-  return names;
-}
-
-std::vector<std::string> model_names() {
-  std::vector<std::string> names;
-  for (const auto& model : models()) names.emplace_back(model.name);
-  return names;
-}
+// In the order in which to run them.
+constexpr struct {
+  const char* name;
+  bool (*run)(const Context&);
+} kExperiments[] = {
+    {"table1", run_table1},       {"table2", run_table2},        {"figure2", run_figure2},
+    {"figure3", run_figure3},     {"figure4", run_figure4},      {"figure5", run_figure5},
+    {"figure6", run_figure6},     {"speed", run_speed},          {"race", run_race},
+    {"many", run_many},           {"growth", run_growth},        {"models", run_models},
+    {"tolerance", run_tolerance}, {"smoothness", run_smoothness}};
 
 bool run_all(const Context& context, const std::vector<std::string>& only) {
   std::filesystem::create_directories(context.out);
   bool complete = true;
-  for (const auto& experiment : experiments()) {
-    const auto wanted = std::find(only.begin(), only.end(), experiment.name);
-    if (!only.empty() && wanted == only.end()) continue;
+  for (const auto& [name, run] : kExperiments) {
+    if (!only.empty() && std::find(only.begin(), only.end(), name) == only.end()) continue;
     const Stopwatch watch;
-    complete = experiment.run(context) && complete;
-    std::printf("%s: %.1f s\n\n", experiment.name, watch.seconds());
+    complete = run(context) && complete;
+    std::printf("%s: %.1f s\n\n", name, watch.seconds());
     std::fflush(stdout);
   }
   return complete;
@@ -65,6 +40,10 @@ int run(int argc, char** argv) {
   Context context;
   context.threads = available_cores();
   std::vector<std::string> only;
+  std::vector<std::string> names{"cages", "sparsify"};  // accepted here and left to programs.py
+  for (const auto& experiment : kExperiments) names.emplace_back(experiment.name);
+  std::vector<std::string> model_names;
+  for (const auto& model : models()) model_names.push_back(model.name);
   CLI::App app("Regenerates the numbers of the paper's tables and figures");
   app.add_option("MODELS", context.models, "folder of the cages, with 2d/ and 3d/")
       ->required()
@@ -73,10 +52,10 @@ int run(int argc, char** argv) {
   app.add_flag("--quick", context.quick, "small meshes and few iterations");
   app.add_option("--only", only, "names of tables and figures, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember(experiment_names()));
+      ->check(CLI::IsMember(names));
   app.add_option("--models", context.only_models, "names of models, separated by commas (all)")
       ->delimiter(',')
-      ->check(CLI::IsMember(model_names()));
+      ->check(CLI::IsMember(model_names));
   app.add_option("--threads", context.threads, "number of threads (all cores)")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--busy", context.busy, "say in the results that other programs ran as well");

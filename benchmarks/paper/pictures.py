@@ -4,26 +4,23 @@
 import subprocess
 
 import results
+from curves import plt, saved
 
 WIDTH = 4.2  # of a picture, in inches
 
 
-def draw_all(plt, models, out, flbc):
-    """Draws every figure whose CSV there is; returns the paths."""
-    paths = []
+def draw_all(models, out, flbc):
+    """Draws every figure whose CSV there is; yields the paths."""
     for figure in ("figure2", "figure4"):
         rows, _ = results.read(out, figure)
-        if not rows:
-            continue
-        for row in rows:
+        for row in rows or []:
             draw(row, models, out, flbc)
         # A line per model; models with a single picture share one.
-        lines = [[row for row in rows if row["model"] == model]
-                 for model in results.in_order(row["model"] for row in rows)]
+        lines = results.by(rows or [], "model")
         if all(len(line) == 1 for line in lines):
             lines = [[line[0] for line in lines]]
-        paths.append(montage(plt, lines, out / f"{figure}.png", out))
-    return paths
+        if rows:
+            yield saved(montage(lines, out), out / f"{figure}.png")
 
 
 def draw(row, models, out, flbc):
@@ -38,7 +35,7 @@ def draw(row, models, out, flbc):
     subprocess.run([str(word) for word in command], check=True)
 
 
-def montage(plt, lines, path, out):
+def montage(lines, out):
     """Pictures in lines, each with its title, all of the same width."""
     images = [[plt.imread(out / row["picture"]) for row in line] for line in lines]
     heights = [max(image.shape[0] / image.shape[1] for image in line) * WIDTH + 0.35
@@ -53,11 +50,5 @@ def montage(plt, lines, path, out):
         for axis, row, image in zip(axes[k], line, images[k]):
             axis.imshow(image)
             axis.set_anchor("N")  # titles of a line at one height
-            axis.set_title(title(row))
-    figure.savefig(path)
-    plt.close(figure)
-    return path
-
-
-def title(row):
-    return f"{row['model']}, {results.thousands(row['vertices'])} vertices"
+            axis.set_title(f"{row['model']}, {results.thousands(row['vertices'])} vertices")
+    return figure

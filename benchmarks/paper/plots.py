@@ -12,40 +12,30 @@ import sys
 import tables
 
 
+def write_tables(out):
+    """All tables of the pages of which there are results."""
+    found = [name for name in tables.TABLES if (out / f"{tables.source_of(name)}.csv").exists()]
+    path = out / "tables.md"
+    path.write_text("\n".join(f"## {name}\n\n{tables.markdown(out, name)}" for name in found))
+    return path
+
+
 def main(models, out, flbc):
-    written = [tables.write(out)]
+    print(write_tables(out))
     try:
-        import matplotlib
+        import curves
+        import pictures
     except ImportError:
-        report(written)
-        print(f"plots.py: no pictures without matplotlib: install the Debian package "
-              f"python3-matplotlib and run again; the numbers are in {out}", file=sys.stderr)
-        return 1
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    import curves
-    import pictures
-
-    curves.style(plt)
-    written += curves.draw_all(plt, out)
+        sys.exit("plots.py: no pictures without matplotlib: install the Debian package python3-matplotlib "
+                 f"and run again; the numbers are in {out}")
     try:
-        written += pictures.draw_all(plt, models, out, flbc)
-    except subprocess.CalledProcessError as error:
-        report(written)
-        print(f"plots.py: {' '.join(error.cmd)} failed", file=sys.stderr)
-        return 1
-    report(written)
-    return 0
-
-
-def report(written):
-    for path in written:
-        if path:
+        for path in [*curves.draw_all(out), *pictures.draw_all(models, out, flbc)]:
             print(path)
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"plots.py: {' '.join(error.cmd)} failed")
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 4:
         sys.exit(__doc__.strip())
-    sys.exit(main(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:])))
+    main(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:]))

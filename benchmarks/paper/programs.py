@@ -11,35 +11,29 @@ experiment writes OUT/NAME.csv with the same comment lines as flbc_bench_paper.
 
 import argparse
 import csv
+import dataclasses
 import os
 import pathlib
 import subprocess
 import sys
 import time
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "cages"))
-import measure  # noqa: E402
-import reductions  # noqa: E402
+import cages
+import reductions
 
 # Name to (what it is, function of the context that yields rows as dictionaries).
-EXPERIMENTS = {"cages": measure.CAGES, "sparsify": reductions.SPARSIFY}
+EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY}
 
 
 class Context:
     """Settings of all experiments, and how they run programs."""
 
     def __init__(self, arguments):
-        self.models = arguments.models_folder.resolve()
-        self.out = arguments.out.resolve()
-        self.build = arguments.build.resolve()
-        self.flbc = self.build / "flbc"
-        self.meshes = HERE.parents[1] / "meshes"
-        self.quick = arguments.quick
-        self.threads = arguments.threads
-        self.commit = arguments.commit
-        self.busy = arguments.busy
-        self.only_models = arguments.models
+        self.models, self.out = arguments.models_folder.resolve(), arguments.out.resolve()
+        self.flbc = arguments.build.resolve() / "flbc"
+        self.meshes = pathlib.Path(__file__).resolve().parents[2] / "meshes"
+        self.quick, self.busy, self.threads = arguments.quick, arguments.busy, arguments.threads
+        self.commit, self.only_models = arguments.commit, arguments.models
         self.complete = True
 
     def wants(self, name):
@@ -62,36 +56,30 @@ class Context:
         return Done(done.returncode, time.monotonic() - start, processor, done.stdout, done.stderr.strip())
 
 
+@dataclasses.dataclass
 class Done:
-    def __init__(self, status, seconds, processor_seconds, output, errors):
-        self.status, self.seconds, self.processor_seconds = status, seconds, processor_seconds
-        self.output, self.errors = output, errors
+    status: int
+    seconds: float
+    processor_seconds: float
+    output: str
+    errors: str
 
 
 def machine(context):
     """Processor, cores, threads and program, as flbc_bench_paper describes them."""
-    processor = "unknown processor"
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            processor = line.split(":", 1)[1].strip()
-            break
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    processor = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")),
+                     "unknown processor")
     version = context.run([context.flbc, "--version"]).output.split("\n")[0]
     return f"{processor}, {os.cpu_count()} cores; {context.threads} threads; {version}"
 
 
 def comments(context, about):
-    lines = [about, machine(context)]
-    if context.commit:
-        lines.append("commit " + context.commit)
-    if context.busy:
-        lines.append("busy machine: seconds are too long")
-    if context.quick:
-        lines.append("quick run: small meshes, few cases")
-    if context.only_models:
-        lines.append("only models that were asked for")
-    if not context.complete:
-        lines.append("incomplete: some cases failed")
-    return lines
+    said = {"commit " + context.commit: context.commit, "busy machine: seconds are too long": context.busy,
+            "quick run: small meshes, few cases": context.quick,
+            "only models that were asked for": context.only_models,
+            "incomplete: some cases failed": not context.complete}
+    return [about, machine(context)] + [comment for comment, holds in said.items() if holds]
 
 
 def text(cell):
@@ -111,10 +99,6 @@ def write(context, name, about, rows):
     part.replace(path)
 
 
-def names(words):
-    return words.split(",")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models_folder", type=pathlib.Path)
@@ -123,8 +107,8 @@ def main():
     parser.add_argument("--commit", default="")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--busy", action="store_true")
-    parser.add_argument("--only", type=names, default=[])
-    parser.add_argument("--models", type=names, default=[])
+    parser.add_argument("--only", type=lambda words: words.split(","), default=[])
+    parser.add_argument("--models", type=lambda words: words.split(","), default=[])
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading the CSV files that flbc_bench_paper writes."""
+"""Reading the CSV files that flbc_bench_paper and programs.py write, and formatting their cells."""
 
 import csv
 import math
@@ -13,10 +13,7 @@ METHODS = [
     ("gradient-local", "gradient ADMM, no linear system", "#8856a7", "P"),
     ("value", "default", "#1b9e4b", "o"),
 ]
-
-
 LABELS = {name: label for name, label, _, _ in METHODS}
-TWO_DIMENSIONAL = ("logo", "woody", "cactus")
 
 
 def read(out, name):
@@ -35,13 +32,45 @@ def value(row, column):
     return float(row[column]) if row[column] else math.nan
 
 
+def ratio(row, column, other):
+    return value(row, column) / value(row, other)
+
+
+def text(number, form):
+    if number == 0:
+        return "0"
+    return "-" if math.isnan(number) else format(number, form)
+
+
+def cell(row, kind):
+    """Kind: a column, a column with a format as in 'error:.1e', or a function of the row."""
+    if callable(kind):
+        return kind(row)
+    column, _, form = kind.partition(":")
+    return text(value(row, column), form) if form else row[column]
+
+
+def cells(row, *kinds):
+    return [cell(row, kind) for kind in kinds]
+
+
+def thousands(number):
+    return f"{int(number):,}"
+
+
 def in_order(names):
     """Without repetition, in order of first appearance."""
     return list(dict.fromkeys(names))
 
 
-def thousands(number):
-    return f"{int(number):,}"
+def by(rows, column):
+    """Lists of the rows that have the same cell."""
+    return [[row for row in rows if row[column] == name] for name in in_order(row[column] for row in rows)]
+
+
+def after_setup(row):
+    """Seconds of solve and recovery: the setup before is the same for all methods."""
+    return value(row, "solve_seconds") + value(row, "recover_seconds")
 
 
 def exponent(x, y):
@@ -52,3 +81,16 @@ def exponent(x, y):
     mean_x, mean_y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
     return (sum((a - mean_x) * (b - mean_y) for a, b in points) /
             sum((a - mean_x) ** 2 for a, _ in points))
+
+
+def reach(points, threshold):
+    """The x at which the error first falls to the threshold, interpolated between (x, error) by logarithms."""
+    before = None
+    for x, error in points:
+        if error <= threshold:
+            if before is None:
+                return x
+            part = math.log(before[1] / threshold) / math.log(before[1] / error)
+            return before[0] * (x / before[0]) ** part
+        before = (x, error)
+    return math.nan

@@ -5,11 +5,6 @@
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks" / "paper"))
 import curves  # noqa: E402
@@ -21,10 +16,8 @@ CHARTS = {"figure5": (curves.convergence, "error_against_time"),
 
 
 def main(folder):
-    curves.style(plt)
     for name, (draw, picture) in CHARTS.items():
-        rows, comments = results.read(ROOT / "docs" / "results", name)
-        draw(plt, rows, comments, folder / f"{picture}.png")
+        curves.saved(draw(*results.read(ROOT / "docs" / "results", name)), folder / f"{picture}.png")
 
 
 if __name__ == "__main__":

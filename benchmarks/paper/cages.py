@@ -29,7 +29,7 @@ def solve(context, words, weights):
 
 
 def measure_cage(context, model, folder):
-    import judge
+    import judge_cages as judge
     import numpy as np
     folder.mkdir(parents=True, exist_ok=True)
     cage = folder / "cage.obj"
