@@ -49,7 +49,7 @@ if ! "$folder/net" 2>"$folder/log" || "$folder/net" race 2>"$folder/log"; then
 fi
 
 cmake --preset tsan >/dev/null
-folders=(solver linear problem polytope certificate evaluation coordinates sparsify)
+folders=(base solver linear problem polytope certificate evaluation coordinates sparsify)
 cmake --build --preset tsan --target "${folders[@]/%/_tests}"
 status=0
 for folder in "${folders[@]}"; do

@@ -16,12 +16,12 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstring>
+#include <future>
 #include <list>
 #include <map>
 #include <mutex>
 #include <queue>
 #include <random>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -457,15 +457,26 @@ void LocalServer::set_answer(const std::string& name,
 }
 
 void LocalServer::serve(const std::function<bool()>& is_interrupted) {
-  std::thread connections([this] { state_->exchange(); });
-  constexpr milliseconds kLook(50);
-  while (!is_interrupted() && !state_->is_abandoned()) state_->work(kLook);
+  struct End {
+    ~End() {
+      {
+        const std::lock_guard lock(state.mutex);
+        state.ended = true;
+      }
+      state.alert();
+    }
+    State& state;
+  };
+  auto connections = std::async(std::launch::async, [this] { state_->exchange(); });
   {
-    const std::lock_guard lock(state_->mutex);
-    state_->ended = true;
+    const End end{*state_};
+    constexpr milliseconds kLook(50);
+    while (connections.wait_for(milliseconds(0)) != std::future_status::ready &&
+           !is_interrupted() && !state_->is_abandoned()) {
+      state_->work(kLook);
+    }
   }
-  state_->alert();
-  connections.join();
+  connections.get();  // throws what ended the other thread
 }
 
 }  // namespace flbc::app

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <exception>
 #include <sstream>
 #include <utility>
 
@@ -25,7 +26,12 @@ std::string meshing_stage(double limit) {
 ProgressBar::ProgressBar(bool quiet, std::string stage, const SolverOptions& options)
     : stage_(std::move(stage)), estimate_(options) {
   if (quiet || isatty(STDERR_FILENO) == 0) return;
-  drawer_ = std::thread([this] { draw_until_ended(); });
+  drawer_ = std::thread([this] {
+    try {
+      draw_until_ended();
+    } catch (const std::exception&) {  // such as out of memory: the work goes on without a bar
+    }
+  });
 }
 
 ProgressBar::~ProgressBar() {
@@ -48,8 +54,7 @@ void ProgressBar::show(const Progress& progress) {
 void ProgressBar::show(const std::string& stage, double done) {
   if (!drawer_.joinable()) return;
   const std::lock_guard lock(mutex_);
-  estimate_.update_stage(stage, done,
-                         std::chrono::duration<double>(Clock::now() - start_).count());
+  estimate_.update_stage(stage, done, std::chrono::duration<double>(Clock::now() - start_).count());
 }
 
 void ProgressBar::draw_until_ended() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/parallel.h"
 #include "coordinates/weighted_sums.h"
 
 namespace flbc::openmesh::internal {
@@ -60,18 +61,17 @@ void move_points(const Block& weights, const PointList<Dim>& control_points,
   require_control_points(control_points_of(weights), control_points.cols());
   const auto cage = arranged<Dim>(weights, control_points);
   const auto count = static_cast<std::int64_t>(weights.size());
-  const int team = deform_threads(numbers_in(weights), threads);
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-  for (std::int64_t p = 0; p < count; ++p) {
+  const ThreadScope scope(deform_threads(numbers_in(weights), threads));
+  parallel_for(count, [&](std::int64_t p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);
-    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) continue;
+    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) return;
     if (offsets) {
       const auto offset = (*offsets)[static_cast<std::size_t>(p)];
       for (int d = 0; d < Dim; ++d) place[d] += offset[static_cast<std::size_t>(d)];
     }
     Scalar* point = points.data + static_cast<std::size_t>(p) * points.stride;
     for (int d = 0; d < Dim; ++d) point[d] = static_cast<Scalar>(place[d]);
-  }
+  });
 }
 
 #define FLBC_INSTANTIATE(Block, Scalar, Dim)                                                   \

@@ -2,11 +2,13 @@
 #include "flbc/openmesh/gradient_problem.h"
 
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
 #include <Eigen/LU>
 
+#include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "flbc/harmonic.h"
 #include "flbc/openmesh/gradients.h"
@@ -140,6 +142,15 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   problem.penalty =
       kFactor * std::pow(bounding_box_diagonal(cage.points), 2) * std::pow(length, Dim - 1);
   return problem;
+}
+
+void for_blocks(int count, const std::function<void(int, int, int)>& body) {
+  const auto start_of = [&](std::int64_t block) {
+    return static_cast<int>(block * count / kSumBlocks);
+  };
+  const int fewest = count < kFewestInParallel ? kSumBlocks + 1 : kSumBlocks;
+  parallel_for(
+      kSumBlocks, [&](int b) { body(b, start_of(b), start_of(b + 1)); }, fewest);
 }
 
 template GradientProblem<2> make_gradient_problem(const Cage<2>&, Domain<2>, DistanceScheme,

@@ -119,44 +119,31 @@ py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
 
 // --------------------------------------------------------------------------------------- solving
 
-// Watches a solve that runs without the GIL.
-class Watch {
- public:
-  //! \param callback  a Python function or None; outlives the solve
-  explicit Watch(const py::object& callback) {
-    observer_.poll = [this] { poll(); };
-    if (callback.is_none()) return;
-    observer_.progress = [handle = py::handle(callback)](const Progress& progress) {
-      const py::gil_scoped_acquire gil;
-      const auto object = py::cast(progress);
-      const auto result = handle(object);
-      object.cast<Progress&>().objective = {};  // refers to the running solve
-      const int goes_on = result.is_none() ? 1 : PyObject_IsTrue(result.ptr());
-      if (goes_on < 0) throw py::error_already_set();
-      return goes_on != 0;
-    };
-  }
-
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
-
-  const Observer& observer() const { return observer_; }
-
- private:
+// The observer of a solve that runs without the GIL.
+// \param callback  a Python function or None; outlives the solve
+Observer observer_of(const py::object& callback) {
   using Clock = std::chrono::steady_clock;
-
+  Observer observer;
   // Waiting for the GIL takes up to 5 ms while other Python threads compute.
-  void poll() {
+  observer.poll = [last = Clock::now()]() mutable {
     constexpr std::chrono::milliseconds kInterval(100);
     const auto now = Clock::now();
-    if (now - last_ < kInterval) return;
-    last_ = now;
+    if (now - last < kInterval) return;
+    last = now;
     throw_if_interrupted();
-  }
-
-  Observer observer_;
-  Clock::time_point last_ = Clock::now();
-};
+  };
+  if (callback.is_none()) return observer;
+  observer.progress = [handle = py::handle(callback)](const Progress& progress) {
+    const py::gil_scoped_acquire gil;
+    const auto object = py::cast(progress);
+    const auto result = handle(object);
+    object.cast<Progress&>().objective = {};  // refers to the running solve
+    const int goes_on = result.is_none() ? 1 : PyObject_IsTrue(result.ptr());
+    if (goes_on < 0) throw py::error_already_set();
+    return goes_on != 0;
+  };
+  return observer;
+}
 
 // The smoothness that bind() takes if the options do not set it; none for other coordinates.
 std::optional<double> smoothness_of_bind(const py::dict& keywords) {
@@ -184,10 +171,9 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
     const auto cage = cage_of<kDim>(points, facets);
     const auto domain = mesh_of<kDim>(vertices, cells);
     const auto options = options_here(keywords);
-    const Watch watch(callback);
-    auto solution = without_gil([&] {
-      return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), watch.observer());
-    });
+    const auto observer = observer_of(callback);
+    auto solution = without_gil(
+        [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); });
     return solved(std::move(solution), options.sparse);
   });
 }
@@ -215,9 +201,9 @@ class AnySolver {
   template <class Action>
   py::tuple run(const py::object& callback, const Action& action) {
     return use([&](auto& solver) {
-      const Watch watch(callback);
+      const auto observer = observer_of(callback);
       // A copy, because the Solver needs its weights for the next move.
-      return solved(without_gil([&] { return Solution(action(solver, watch.observer())); }), false);
+      return solved(without_gil([&] { return Solution(action(solver, observer)); }), false);
     });
   }
 

@@ -5,10 +5,12 @@
 
 #include <map>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 
+#include "base/parallel.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/solver.h"
 #include "solver/methods/gradient/gradient_admm.h"
@@ -96,6 +98,25 @@ TYPED_TEST(MeshAdmm, HasTheIteratesOfTheArrayKernel) {
     SCOPED_TRACE(sample.name);
     expect_iterates_of_kernel<TypeParam>(sample, 1);
     expect_iterates_of_kernel<TypeParam>(sample, 1.7);
+  }
+}
+
+TYPED_TEST(MeshAdmm, ResidualsDoNotDependOnThreads) {
+  constexpr int kDim = Admm<TypeParam>::kDim;
+  const auto sample = moved(make_sample<kDim>(Shape::kRing, kDim == 2 ? 8 : 3, 0.2));
+  std::vector<double> alone;
+  for (const int threads : {1, 2, 3, 4}) {
+    SCOPED_TRACE(threads);
+    const ThreadScope scope(threads);
+    auto mesh = openmesh::to_mesh<TypeParam>(sample.mesh);
+    Admm<TypeParam> admm(mesh, sample.cage);
+    ASSERT_GE(sample.mesh.num_cells(), kFewestInParallel);
+    for (std::size_t k = 0; k < 20; ++k) {
+      const auto [primal, dual] = admm.iterate();
+      if (threads == 1) alone.insert(alone.end(), {primal, dual});
+      EXPECT_EQ(primal, alone[2 * k]);
+      EXPECT_EQ(dual, alone[2 * k + 1]);
+    }
   }
 }
 

@@ -245,6 +245,10 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
     EXPECT_TRUE(warm.report.coarse_levels.empty());
     EXPECT_TRUE((warm.weights.array() == cold.weights.array()).all());
   }
+  const CoarseMesher<Dim> without_memory = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
+    throw std::bad_alloc();
+  };
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options, without_memory), std::bad_alloc);
 }
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {

@@ -46,12 +46,13 @@ class ThreadScope {
 constexpr int kFewestInParallel = 256;
 
 //! Calls body(thread, number of threads) once in each thread of a team. When all are done, rethrows
-//! the exception of the first thread that threw one.
+//! the exception of the first thread that threw one. \param several  false: the calling thread
+//! only. Teams do not differ in size otherwise, since OpenMP would end and start threads each time
 template <class Body>
-void in_threads(int num_threads, const Body& body) {
+void in_threads(bool several, const Body& body) {
   std::exception_ptr error;
-  int first = num_threads;
-#pragma omp parallel num_threads(num_threads)
+  int first = omp_get_max_threads();
+#pragma omp parallel if (several)
   {
     const int thread = omp_get_thread_num();
     try {
@@ -69,14 +70,13 @@ void in_threads(int num_threads, const Body& body) {
 
 //! Calls a body for [0, count) in parallel: `body(k)` for each k, or `body(begin, end)` once per
 //! thread, which can hold what the thread needs. The exception of the lowest k reaches the caller.
-//! \param fewest  the least count for several threads, > 0
+//! \param fewest  the least count for several threads
 template <class Integer, class Body>
 void parallel_for(Integer count, const Body& body, int fewest = kFewestInParallel) {
   const auto size = static_cast<std::int64_t>(count);
-  const auto most = std::min<std::int64_t>(omp_get_max_threads(), size);
-  in_threads(size < fewest ? 1 : static_cast<int>(most), [&](int thread, int team) {
-    const auto begin = static_cast<Integer>(size * thread / team);
-    const auto end = static_cast<Integer>(size * (thread + 1) / team);
+  in_threads(size >= fewest, [&](int thread, int num_threads) {
+    const auto begin = static_cast<Integer>(size * thread / num_threads);
+    const auto end = static_cast<Integer>(size * (thread + 1) / num_threads);
     if constexpr (std::is_invocable_v<const Body&, Integer, Integer>) {
       if (begin < end) body(begin, end);
     } else {
@@ -88,31 +88,29 @@ void parallel_for(Integer count, const Body& body, int fewest = kFewestInParalle
 //! Calls body(k, scratch) for each k in [0, count) in parallel, if the work for some k takes much
 //! longer than for others: a thread that is done takes the next chunk. An exception reaches the
 //! caller, and the remaining chunks are left out. \param make_scratch  called once per thread
-template <class Integer, class MakeScratch, class Body>
-void parallel_for_chunks(Integer count, Integer chunk, const MakeScratch& make_scratch,
+template <class MakeScratch, class Body>
+void parallel_for_chunks(Index count, Index chunk, const MakeScratch& make_scratch,
                          const Body& body) {
-  const auto size = static_cast<std::int64_t>(count);
-  const auto most = std::min<std::int64_t>(omp_get_max_threads(), (size + chunk - 1) / chunk);
   std::atomic<std::int64_t> next{0};
-  in_threads(static_cast<int>(std::max<std::int64_t>(most, 1)), [&](int, int) {
+  in_threads(count > chunk, [&](int, int) {
     try {
       auto scratch = make_scratch();
-      for (std::int64_t begin = 0; (begin = next.fetch_add(chunk)) < size;) {
-        const auto end = static_cast<Integer>(std::min<std::int64_t>(size, begin + chunk));
-        for (auto k = static_cast<Integer>(begin); k < end; ++k) body(k, scratch);
+      for (std::int64_t begin = 0; (begin = next.fetch_add(chunk)) < count;) {
+        const auto end = static_cast<Index>(std::min<std::int64_t>(count, begin + chunk));
+        for (auto k = static_cast<Index>(begin); k < end; ++k) body(k, scratch);
       }
     } catch (...) {
-      next = size;
+      next = count;
       throw;
     }
   });
 }
 
 //! The same for a body(k) without scratch memory.
-template <class Integer, class Body>
-void parallel_for_chunks(Integer count, Integer chunk, const Body& body) {
+template <class Body>
+void parallel_for_chunks(Index count, Index chunk, const Body& body) {
   parallel_for_chunks(
-      count, chunk, [] { return 0; }, [&](Integer k, int) { body(k); });
+      count, chunk, [] { return 0; }, [&](Index k, int) { body(k); });
 }
 
 //! Calls `body(begin, end)` for blocks of [0, count) in parallel and adds up what it returns. The

@@ -5,13 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "base/parallel.h"
 #include "flbc/errors.h"
 
 namespace flbc {
 namespace {
 
 // Below this number of points, starting threads takes longer than collecting their weights.
-constexpr Eigen::Index kParallelPoints = 2000;
 
 [[noreturn]] void refuse(Index point, const char* what) {
   throw InputError("the sparse weights of point " + std::to_string(point) + " " + what);
@@ -27,22 +27,20 @@ SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
                       std::to_string(threshold));
   }
   const Eigen::Index count = weights.cols();
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
-  for (Eigen::Index p = 0; p < count; ++p) {
+  parallel_for(count, [&](Eigen::Index p) {
     starts_[p + 1] = weights.rows() - (weights.col(p).array().abs() <= threshold).count();
-  }
+  });
   for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
   control_points_.resize(starts_.back());
   values_.resize(starts_.back());
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
-  for (Eigen::Index p = 0; p < count; ++p) {
+  parallel_for(count, [&](Eigen::Index p) {
     std::int64_t entry = starts_[p];
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
       if (std::abs(weights(i, p)) <= threshold) continue;  // keeps NaN
       control_points_[entry] = static_cast<std::uint32_t>(i);
       values_[entry++] = weights(i, p);
     }
-  }
+  });
 }
 
 SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t> starts,
@@ -78,14 +76,13 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
     double value;
   };
   std::vector<std::vector<Entry>> rows(num_points);
-#pragma omp parallel for schedule(dynamic, 64) if (num_points >= kParallelPoints)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for_chunks(num_points, 64, [&](Index p) {
     const Eigen::VectorXd weights = of_point(p);
     rows[p].reserve((weights.array() != 0).count());
     for (Index i = 0; i < num_control_points; ++i) {
       if (weights[i] != 0) rows[p].push_back({static_cast<std::uint32_t>(i), weights[i]});
     }
-  }
+  });
   SparseWeights result;
   result.num_control_points_ = num_control_points;
   for (auto& row : rows) {
@@ -107,8 +104,7 @@ Eigen::VectorXd SparseWeights::at(Index point) const {
 
 WeightMatrix SparseWeights::dense() const {
   WeightMatrix weights(num_control_points_, num_points());
-#pragma omp parallel for schedule(static) if (num_points() >= kParallelPoints)
-  for (Index p = 0; p < num_points(); ++p) weights.col(p) = at(p);
+  parallel_for(num_points(), [&](Index p) { weights.col(p) = at(p); });
   return weights;
 }
 

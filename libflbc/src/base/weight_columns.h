@@ -6,6 +6,7 @@
 
 #include <type_traits>
 
+#include "base/parallel.h"
 #include "flbc/sparse_weights.h"
 
 namespace flbc {
@@ -49,8 +50,7 @@ Weights weights_of_points(Index n, Index num_points, const OfPoint& of_point) {
     return SparseWeights::of(n, num_points, of_point);
   } else {
     WeightMatrix weights(n, num_points);
-#pragma omp parallel for schedule(dynamic, 64) if (num_points >= 256)
-    for (Index p = 0; p < num_points; ++p) weights.col(p) = of_point(p);
+    parallel_for_chunks(num_points, 64, [&](Index p) { weights.col(p) = of_point(p); });
     return weights;
   }
 }

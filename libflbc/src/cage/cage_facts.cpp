@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -126,10 +127,9 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
   const CageLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_outside(num_points);  // not bool: neighbors are written concurrently
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for(num_points, [&](Index p) {
     is_outside[p] = locator.locate(points.col(p)) == Containment::kOutside;
-  }
+  });
   std::vector<Index> outside;
   for (Index p = 0; p < num_points; ++p) {
     if (is_outside[p]) outside.push_back(p);

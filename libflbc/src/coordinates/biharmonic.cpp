@@ -2,7 +2,9 @@
 #include "flbc/biharmonic.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "base/parallel.h"
 #include "flbc/errors.h"
 #include "problem/laplacian.h"
 
@@ -143,11 +145,10 @@ WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>& problem) {
   WeightMatrix weights = WeightMatrix::Zero(n, problem.mesh.num_vertices());
   problem.boundary.impose_on(weights);
   const BoxedEnergy<Dim> energy(problem);
-  bool converged = true;
-#pragma omp parallel for schedule(dynamic) reduction(&& : converged)
-  for (Index first = 0; first < n; first += kColumns) {
-    converged = energy.minimize(first, weights) && converged;
-  }
+  std::atomic<bool> converged{true};
+  parallel_for_chunks((n + kColumns - 1) / kColumns, 1, [&](Index block) {
+    if (!energy.minimize(block * kColumns, weights)) converged = false;
+  });
   if (!converged) {
     throw SolverError("bounded biharmonic weights did not converge in " +
                       std::to_string(kMostCycles * kStepsPerPenalty * std::size(kPenalties)) +

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/parallel.h"
 #include "coordinates/weighted_sums.h"
 #include "flbc/errors.h"
 
@@ -25,11 +26,10 @@ PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control
   const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
   const Eigen::Index count = weights.cols();
   PointList<Dim> points(Dim, count);
-  const int team = deform_threads(static_cast<std::size_t>(weights.size()), threads);
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-  for (Eigen::Index p = 0; p < count; ++p) {
+  const ThreadScope scope(deform_threads(static_cast<std::size_t>(weights.size()), threads));
+  parallel_for(count, [&](Eigen::Index p) {
     for (int d = 0; d < Dim; ++d) points(d, p) = coordinates.col(d).dot(weights.col(p));
-  }
+  });
   return points;
 }
 
@@ -43,12 +43,11 @@ PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& contro
   const auto* starts = weights.starts().data();
   const auto* of = weights.control_points().data();
   const auto* values = weights.values().data();
-  const int team = deform_threads(weights.values().size(), threads);
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-  for (Eigen::Index p = 0; p < count; ++p) {
+  const ThreadScope scope(deform_threads(weights.values().size(), threads));
+  parallel_for(count, [&](Eigen::Index p) {
     const auto start = starts[p];
     points.col(p) = cage.sum(values + start, of + start, starts[p + 1] - start);
-  }
+  });
   return points;
 }
 

@@ -12,7 +12,6 @@
 namespace flbc {
 namespace {
 
-constexpr Index kParallelPoints = 2000;
 constexpr double kBoxesPerCell = 8;  // for many points
 
 // The outside points of a placement as a placement of their own.
@@ -84,14 +83,13 @@ PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
   const auto count = static_cast<Index>(placement.places.size());
   PointList<Dim> moved(Dim, count);
   const auto& cells = parts_->mesh.cells;
-#pragma omp parallel for schedule(static) if (count >= kParallelPoints)
-  for (Index p = 0; p < count; ++p) {
+  parallel_for(count, [&](Index p) {
     const auto& [cell, coordinates] = placement.places[p];
-    if (cell < 0) continue;
+    if (cell < 0) return;
     Vector<Dim> sum = coordinates[0] * pose.vertices.col(cells(0, cell));
     for (int k = 1; k <= Dim; ++k) sum += coordinates[k] * pose.vertices.col(cells(k, cell));
     moved.col(p) = sum;
-  }
+  });
   const Cage<Dim> posed_cage{pose.control_points, parts_->cage.facets};
   for (const auto& point : placement.on_cage) {
     moved.col(point.point) = place_on_cage(posed_cage, point);

@@ -113,15 +113,14 @@ WeightMatrix green_coordinates(const Cage<Dim>& cage, const PointList<Dim>& poin
   const auto num_points = static_cast<Index>(points.cols());
   WeightMatrix weights = WeightMatrix::Zero(n + oriented.facets.cols(), num_points);
   std::vector<char> is_outside(static_cast<std::size_t>(num_points), 0);
-#pragma omp parallel for schedule(dynamic, 64)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for_chunks(num_points, 64, [&](Index p) {
     Vector<Dim> x = points.col(p);
     auto place = on_cage.locate(x);
     if (place.facet < 0 && inside.locate(x) == Containment::kOutside) {
       place = near_cage.locate(x);
       if (place.facet < 0) {
         is_outside[p] = 1;
-        continue;
+        return;
       }
     }
     const bool is_on_cage = place.facet >= 0;
@@ -135,13 +134,13 @@ WeightMatrix green_coordinates(const Cage<Dim>& cage, const PointList<Dim>& poin
       for (int k = 0; k < Dim; ++k) column[oriented.facets(k, f)] += share.corners[k];
       column[n + static_cast<Index>(f)] = share.normal;
     }
-    if (!is_on_cage) continue;
+    if (!is_on_cage) return;
     // Seen from just inside, the facets at x fill the remaining angle.
     const double remaining = 1 - column.head(n).sum();
     for (int k = 0; k < Dim; ++k) {
       column[oriented.facets(k, place.facet)] += remaining * place.coordinates[k];
     }
-  }
+  });
   const auto p = first_where(num_points, [&](Index k) { return is_outside[k] != 0; });
   if (p == num_points) return weights;
   throw InputError("point " + std::to_string(p) + " at " + format_point(points.col(p)) +

@@ -2,6 +2,7 @@
 #include "flbc/mean_value.h"
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "cage/facet_locator.h"
 #include "cage/oriented_cage.h"
 #include "coordinates/points_in_cage.h"
@@ -23,17 +24,16 @@ WeightMatrix mean_value_coordinates(const Cage<Dim>& cage, const PointList<Dim>&
     for (int k = 0; k < Dim; ++k) weights(oriented.facets(k, facet), point) += share[k];
   };
   const auto num_points = static_cast<Index>(points.cols());
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for(num_points, [&](Index p) {
     const Vector<Dim> x = points.col(p);
     const auto place = locator.locate(x);
     if (place.facet >= 0) {
       add(p, place.facet, place.coordinates);
-      continue;
+      return;
     }
     for (std::size_t f = 0; f < facets.size(); ++f) add(p, f, facets[f].share(x));
     weights.col(p) /= weights.col(p).sum();
-  }
+  });
   return weights;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/parallel.h"
 #include "base/weight_columns.h"
 #include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
@@ -216,13 +217,12 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
   std::vector<PointBeside<Dim>> result(which.size());
   const NearestSimplex<Dim, Dim> nearest(cage.points, cage.facets);
   const auto count = static_cast<Index>(which.size());
-#pragma omp parallel for schedule(static)
-  for (Index k = 0; k < count; ++k) {
+  parallel_for(count, [&](Index k) {
     HullPoint<Dim> place{};
     const Index facet = nearest(points.col(which[k]), place);
     result[k] = {which[k], facet, Vector<Dim>::Zero(), place.distance};
     for (int c = 0; c < place.size; ++c) result[k].coordinates[place.support[c]] = place.weights[c];
-  }
+  });
   return result;
 }
 
@@ -242,10 +242,9 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   placement.policy = policy;
   placement.points = points;
   placement.places.resize(static_cast<std::size_t>(num_points));
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for(num_points, [&](Index p) {
     placement.places[p] = locate<Dim>(locator, mesh, points.col(p), size);
-  }
+  });
   std::vector<Index> beside;
   for (Index p = 0; p < num_points; ++p) {
     if (placement.places[p].cell < 0) beside.push_back(p);
@@ -260,10 +259,9 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
   const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_beside(static_cast<std::size_t>(num_points));
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for(num_points, [&](Index p) {
     is_beside[p] = locator.locate(points.col(p)) == Containment::kOutside;
-  }
+  });
   std::vector<Index> beside;
   for (Index p = 0; p < num_points; ++p) {
     if (is_beside[p]) beside.push_back(p);

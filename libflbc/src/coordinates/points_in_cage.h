@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/messages.h"
+#include "base/parallel.h"
 #include "cage/facet_locator.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -48,8 +49,7 @@ WeightMatrix weights_in_cage(const Cage<Dim>& cage, const PointList<Dim>& points
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<State> states(static_cast<std::size_t>(num_points), State::kDone);
   WeightMatrix weights = WeightMatrix::Zero(cage.size(), num_points);
-#pragma omp parallel for schedule(dynamic, 64)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for_chunks(num_points, 64, [&](Index p) {
     const Vector<Dim> x = points.col(p);
     auto place = on_cage.locate(x);
     const bool is_inside = place.facet < 0 && inside.locate(x) != Containment::kOutside;
@@ -65,7 +65,7 @@ WeightMatrix weights_in_cage(const Cage<Dim>& cage, const PointList<Dim>& points
     } else {
       states[p] = State::kOutside;
     }
-  }
+  });
   const auto bad =
       std::find_if(states.begin(), states.end(), [](State state) { return state != State::kDone; });
   if (bad == states.end()) return weights;

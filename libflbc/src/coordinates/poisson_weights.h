@@ -3,6 +3,7 @@
 //! Harmonic coordinates and least-squares recovery with a shared Poisson problem.
 #pragma once
 
+#include "base/parallel.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/sparse_weights.h"
 #include "problem/barycentric_constraints.h"
@@ -27,12 +28,11 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
 template <int Dim>
 void project_interior(const LbcProblem<Dim>& problem, WeightMatrix& weights) {
   const BarycentricConstraints<Dim> constraints(problem.cage.points);
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+  parallel_for(problem.mesh.num_vertices(), [&](Index v) {
     if (problem.boundary.is_interior(v)) {
       constraints.project_weights(problem.mesh.points.col(v), weights.col(v));
     }
-  }
+  });
 }
 
 //! The same for sparse weights, which stay zero where they are zero.

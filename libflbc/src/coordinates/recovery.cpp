@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "coordinates/poisson_weights.h"
 #include "flbc/harmonic.h"
 #include "linear/dense.h"
@@ -53,8 +54,7 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
   problem.boundary.impose_on(weights);
   for (std::size_t level = 1; level < levels.size(); ++level) {
     const auto& vertices = levels[level];
-#pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
+    parallel_for(vertices.size(), [&](std::size_t k) {
       const Index v = vertices[k];
       int paths = 0;
       for (const Index s : around.cells_of(v)) {
@@ -67,7 +67,7 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
         }
       }
       weights.col(v) /= paths;
-    }
+    });
   }
   project_interior(problem, weights);
   return weights;
@@ -80,9 +80,8 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (!problem.boundary.is_interior(v)) continue;
+  parallel_for(mesh.num_vertices(), [&](Index v) {
+    if (!problem.boundary.is_interior(v)) return;
     for (const Index s : around.cells_of(v)) {
       const auto geometry = cell_geometry(mesh, s);
       Index corner = 0;
@@ -90,7 +89,7 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
       divergence.col(v) +=
           gradients.cell(s).transpose() * (geometry.measure * geometry.hat_gradients.col(corner));
     }
-  }
+  });
   auto weights = poisson.solve(boundary_matrix(problem.boundary, gradients.n), divergence);
   project_interior(problem, weights);
   return weights;

@@ -7,6 +7,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "coordinates/nearest_simplex.h"
 #include "flbc/errors.h"
@@ -57,15 +58,14 @@ WeightMatrix transfer_weights(const PointList<Dim>& control_points, const ModelE
   const auto num_points = static_cast<Index>(to.cols());
   WeightMatrix result = WeightMatrix::Zero(weights.rows(), num_points);
   Eigen::VectorXd found(num_points);
-#pragma omp parallel for schedule(dynamic, 64)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for_chunks(num_points, 64, [&](Index p) {
     HullPoint<Dim> place;
     const Index element = nearest(to.col(p), place);
     found[p] = place.distance;
     for (int k = 0; k < place.size; ++k) {
       result.col(p) += place.weights[k] * weights.col(from.corners(place.support[k], element));
     }
-  }
+  });
   refuse_unmatched(to, found, limit);
   project_non_negative(control_points, to, result);
   if (distances != nullptr) *distances = std::move(found);

@@ -236,8 +236,7 @@ std::vector<KnownWeights<Dim>> find_points_on_cage(const Cage<Dim>& cage,
   const FacetLocator<Dim> locator(cage, tolerance);
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<FacetPlace<Dim>> places(num_points);
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) places[p] = locator.locate(points.col(p));
+  parallel_for(num_points, [&](Index p) { places[p] = locator.locate(points.col(p)); });
 
   std::vector<KnownWeights<Dim>> known;
   for (Index p = 0; p < num_points; ++p) {

@@ -82,14 +82,12 @@ RowMatrix smoothed_prolongation(const RowMatrix& matrix) {
   group_the_rest(couplings, group, num_groups);
   const Eigen::VectorXd diagonal = matrix.diagonal();
   // Gershgorin bound of the largest eigenvalue of D^-1 A.
-  double largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-  for (Index row = 0; row < static_cast<Index>(matrix.rows()); ++row) {
-    double sum = 0;
-    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) sum += std::abs(it.value());
-    largest = std::max(largest, sum / diagonal[row]);
-  }
-  const double omega = 4 / (3 * std::min(largest, 2.0));
+  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(matrix.rows());
+  parallel_for(static_cast<Index>(matrix.rows()), [&](Index row) {
+    for (RowMatrix::InnerIterator it(matrix, row); it; ++it) bounds[row] += std::abs(it.value());
+    bounds[row] /= diagonal[row];
+  });
+  const double omega = 4 / (3 * std::min(bounds.lpNorm<Eigen::Infinity>(), 2.0));
 
   return assemble_rows(static_cast<Index>(matrix.rows()), num_groups,
                        [&](Index row, const auto& add) {

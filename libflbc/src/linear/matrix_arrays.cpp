@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/matrix_arrays.h"
 
+#include "base/parallel.h"
+
 namespace flbc {
 
 template <class Scalar>
@@ -17,8 +19,7 @@ SweepArrays<Scalar>::SweepArrays(const RowMatrix& matrix)
   off_diagonal.starts.resize(num_rows + 1);
   off_diagonal.columns.resize(matrix.nonZeros() - num_rows);
   off_diagonal.values.resize(matrix.nonZeros() - num_rows);
-#pragma omp parallel for schedule(static)
-  for (Index row = 0; row < num_rows; ++row) {
+  parallel_for(num_rows, [&](Index row) {
     Index place = matrix.outerIndexPtr()[row] - row;  // each previous row has a diagonal entry
     for (RowMatrix::InnerIterator it(matrix, row); it; ++it) {
       const auto column = static_cast<Index>(it.col());
@@ -31,7 +32,7 @@ SweepArrays<Scalar>::SweepArrays(const RowMatrix& matrix)
       off_diagonal.values[place++] = static_cast<Scalar>(it.value());
     }
     off_diagonal.starts[row + 1] = place;
-  }
+  });
 }
 
 RowMatrix reordered(const RowMatrix& matrix, const std::vector<Index>& rows,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/multigrid_cg.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "base/parallel.h"
 
 namespace flbc {
 namespace {
@@ -108,14 +108,12 @@ void MultigridCg::solve(double* rows, std::size_t stride) const {
   stride_ = stride;
   const std::size_t room = position_.size() * stride;
   AlignedArray<double> r(room), p(room), q(room);
-#pragma omp parallel
-  {
-    const Slice slice = slice_of(stride, omp_get_thread_num(), omp_get_num_threads());
-    if (slice.begin < slice.end) {
-      ColumnSlice columns{matrix_, *multigrid_, stride, slice, rows, r.data(), p.data(), q.data()};
-      columns.solve();
-    }
-  }
+  in_threads(true, [&](int thread, int num_threads) {
+    const Slice slice = slice_of(stride, thread, num_threads);
+    if (slice.begin == slice.end) return;
+    ColumnSlice columns{matrix_, *multigrid_, stride, slice, rows, r.data(), p.data(), q.data()};
+    columns.solve();
+  });
 }
 
 }  // namespace flbc

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/panel_cholesky.h"
 
-#include <omp.h>
-
 #include <algorithm>
 
 #include <Eigen/Core>
 
+#include "base/parallel.h"
 #include "linear/sparse_factor.h"
 
 namespace flbc {
@@ -83,10 +82,9 @@ PanelCholesky<Scalar>::PanelCholesky(const Eigen::SparseMatrix<double>& matrix,
     entries_ = AlignedArray<Scalar>(last.entries + std::size_t(last.width) * (last.width + 1) / 2 +
                                     std::size_t(last.width) * last.num_below);
   }
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
+  parallel_for_chunks(static_cast<Index>(panels_.size()), 16, [&](Index p) {
     copy_inverted(sources[p], panels_[p], entries_.data() + panels_[p].entries);
-  }
+  });
   position_ = std::move(factor.position);
 }
 
@@ -101,12 +99,10 @@ void PanelCholesky<Scalar>::solve_slice(Scalar* rows, std::size_t stride, std::s
 
 template <class Scalar>
 void PanelCholesky<Scalar>::solve(Scalar* rows, std::size_t stride) const {
-  const auto units = static_cast<int>((stride + kSliceUnit - 1) / kSliceUnit);
-#pragma omp parallel num_threads(std::max(1, std::min(units, omp_get_max_threads())))
-  {
-    const Slice slice = slice_of(stride, omp_get_thread_num(), omp_get_num_threads());
-    solve_slice(rows, stride, slice.begin, slice.end);
-  }
+  in_threads(stride > kSliceUnit, [&](int thread, int num_threads) {
+    const Slice slice = slice_of(stride, thread, num_threads);
+    if (slice.begin < slice.end) solve_slice(rows, stride, slice.begin, slice.end);
+  });
 }
 
 template class PanelCholesky<float>;

@@ -3,14 +3,13 @@
 //! Sparse matrices by rows, assembled by all threads.
 #pragma once
 
-#include <omp.h>
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
+#include "base/parallel.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -22,10 +21,9 @@ class RowSum {
  public:
   explicit RowSum(Index num_columns) : mark_(num_columns, -1), sum_(num_columns) {}
 
-  //! Begins a row. \param mark  unique per row \param columns  output for its columns, or null to
-  //! count
-  void begin(Index mark, Index* columns) {
-    now_ = mark;
+  //! \param row  a new one \param columns  output for its columns, or null to count
+  void begin(Index row, Index* columns) {
+    now_ = row;
     columns_ = columns;
     count_ = 0;
   }
@@ -54,33 +52,31 @@ class RowSum {
 
 //! Sums by row and column, bit-identical for any number of threads.
 //! \param emit  (row, add): calls add(column, value) for the parts of a row in a fixed order;
-//! called twice for each row, by several threads; must not throw
+//! called twice for each row, by several threads
 template <class Emit>
 RowMatrix assemble_rows(Index num_rows, Index num_columns, const Emit& emit) {
-  constexpr Index kFewest = 1000;  // minimum number of rows for several threads
-  const int threads = num_rows < kFewest ? 1 : omp_get_max_threads();
-  // Memory is allocated outside the parallel loops, which must not throw.
-  std::vector<RowSum> sums(threads, RowSum(num_columns));
-  const auto sum_up = [&](Index row, Index mark, Index* columns) -> RowSum& {
-    RowSum& sum = sums[omp_get_thread_num()];
-    sum.begin(mark, columns);
-    emit(row, [&](Index column, double value) { sum.add(column, value); });
-    return sum;
-  };
   RowMatrix matrix(num_rows, num_columns);
   Index* starts = matrix.outerIndexPtr();
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (Index row = 0; row < num_rows; ++row) starts[row + 1] = sum_up(row, row, nullptr).count();
+  // Calls use(row, sums, columns) for all rows; without `writes`, columns are only counted.
+  const auto sum_up = [&](bool writes, const auto& use) {
+    parallel_for(num_rows, [&](Index begin, Index end) {
+      RowSum sum(num_columns);
+      for (Index row = begin; row < end; ++row) {
+        Index* columns = writes ? matrix.innerIndexPtr() + starts[row] : nullptr;
+        sum.begin(row, columns);
+        emit(row, [&](Index column, double value) { sum.add(column, value); });
+        use(row, sum, columns);
+      }
+    });
+  };
+  sum_up(false, [&](Index row, const RowSum& sum, Index*) { starts[row + 1] = sum.count(); });
   std::partial_sum(starts, starts + num_rows + 1, starts);
   matrix.resizeNonZeros(starts[num_rows]);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (Index row = 0; row < num_rows; ++row) {
-    Index* columns = matrix.innerIndexPtr() + starts[row];
-    const RowSum& sum = sum_up(row, num_rows + row, columns);
+  sum_up(true, [&](Index row, const RowSum& sum, Index* columns) {
     std::sort(columns, columns + sum.count());
     double* values = matrix.valuePtr() + starts[row];
     for (Index k = 0; k < sum.count(); ++k) values[k] = sum.sum_at(columns[k]);
-  }
+  });
   return matrix;
 }
 

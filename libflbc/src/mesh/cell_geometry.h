@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include "base/parallel.h"
 #include "flbc/domain_mesh.h"
 
 namespace flbc {
@@ -57,8 +58,7 @@ double distance_beyond(const Vector<Dim + 1>& coordinates,
 template <int Dim>
 Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
   Eigen::VectorXd measures(mesh.num_cells());
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < mesh.num_cells(); ++s) measures[s] = cell_geometry(mesh, s).measure;
+  parallel_for(mesh.num_cells(), [&](Index s) { measures[s] = cell_geometry(mesh, s).measure; });
   return measures;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
@@ -156,8 +157,7 @@ std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh,
   const CellLocator<Dim> locator(mesh);
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<Location<Dim>> places(num_points);
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) places[p] = locator.locate(points.col(p), tolerance);
+  parallel_for(num_points, [&](Index p) { places[p] = locator.locate(points.col(p), tolerance); });
 
   const auto outside = [](const Location<Dim>& place) { return place.cell < 0; };
   const auto first = std::find_if(places.begin(), places.end(), outside);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 
@@ -17,8 +18,7 @@ class Walk {
  public:
   Walk(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
       : mesh_(mesh), topology_(topology), geometries_(mesh.num_cells()) {
-#pragma omp parallel for schedule(static)
-    for (Index s = 0; s < mesh.num_cells(); ++s) geometries_[s] = cell_geometry(mesh, s);
+    parallel_for(mesh.num_cells(), [&](Index s) { geometries_[s] = cell_geometry(mesh, s); });
   }
 
   //! \return cell -1 if the walk ends at the boundary or is too long
@@ -72,17 +72,16 @@ std::vector<Location<Dim>> walk_to_points(const DomainMesh<Dim>& mesh,
   const Walk<Dim> walk(mesh, topology);
   const auto count = static_cast<Index>(points.cols());
   std::vector<Location<Dim>> places(count);
-  bool complete = true;
-#pragma omp parallel for schedule(dynamic, 1) reduction(&& : complete)
-  for (Index begin = 0; begin < count; begin += kBlock) {
+  parallel_for_chunks((count + kBlock - 1) / kBlock, 1, [&](Index block) {
     Index cell = -1;
-    for (Index p = begin; p < std::min(count, begin + kBlock); ++p) {
+    for (Index p = block * kBlock; p < std::min(count, (block + 1) * kBlock); ++p) {
       if (cell >= 0) places[p] = walk.go(points.col(p), cell);
       if (places[p].cell < 0) places[p] = locator.locate(points.col(p), tolerance);
       cell = places[p].cell;
-      complete = complete && cell >= 0;
     }
-  }
+  });
+  const auto is_outside = [](const Location<Dim>& place) { return place.cell < 0; };
+  const bool complete = std::none_of(places.begin(), places.end(), is_outside);
   if (!complete) places = locate_points(mesh, points);  // throws, naming points outside
   for (auto& place : places) {
     place.coordinates = place.coordinates.cwiseMax(0);

@@ -2,6 +2,7 @@
 #include "flbc/meshing.h"
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "cage/close_points.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -15,10 +16,9 @@ EmbeddablePoints<Dim> embeddable_points(const Cage<Dim>& cage, const PointList<D
   const auto num_points = static_cast<Index>(points.cols());
   const CageLocator<Dim> locator(cage, tolerance);
   std::vector<char> is_inside(std::size_t(num_points), 0);  // written concurrently
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < num_points; ++p) {
+  parallel_for(num_points, [&](Index p) {
     is_inside[p] = locator.locate(points.col(p)) == Containment::kInside;
-  }
+  });
   // Each coincident point is paired with an earlier one, so the first one represents all.
   std::vector<Index> same(std::size_t(num_points), -1);
   for (const auto& [first, second] :

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/messages.h"
+#include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
@@ -44,13 +45,6 @@ void check_input(const PointList<Dim>& control_points, const PointList<Dim>& poi
   }
 }
 
-// The smallest index that failed so far; exceptions cannot leave a parallel loop.
-void lower_to(std::atomic<Index>& least, Index number) {
-  Index current = least.load();
-  while (number < current && !least.compare_exchange_weak(current, number)) {
-  }
-}
-
 // \param weights_of  returns the weights of a point \param replace  called with the position of a
 // column in `columns` and its new weights
 template <int Dim, class WeightsOf, class Replace>
@@ -62,24 +56,19 @@ void project_columns(const PointList<Dim>& control_points, const PointList<Dim>&
   const auto count = static_cast<Index>(columns.size());
   std::atomic<Index> outside{static_cast<Index>(points.cols())};
   LoopProgress progress(count);
-#pragma omp parallel if (count >= 256)
-  {
-    typename WeightProjection<Dim>::Workspace work(projection);
-    Eigen::VectorXd column(control_points.cols());
-#pragma omp for schedule(dynamic, 64)
-    for (Index k = 0; k < count; ++k) {
-      const Index point = columns[k];
-      progress.add(1);
-      // Only the first failure is reported, so later columns can be skipped.
-      if (outside.load(std::memory_order_relaxed) < point) continue;
-      column = weights_of(point);
-      if (projection.project(points.col(point), column, work) > 0) {
-        lower_to(outside, point);
-      } else {
-        replace(k, column);
-      }
+  const auto make_work = [&] { return typename WeightProjection<Dim>::Workspace(projection); };
+  parallel_for_chunks(count, 64, make_work, [&](Index k, auto& work) {
+    const Index point = columns[k];
+    progress.add(1);
+    // Only the first failure is reported, so later columns can be skipped.
+    if (outside.load(std::memory_order_relaxed) < point) return;
+    Eigen::VectorXd column = weights_of(point);
+    if (projection.project(points.col(point), column, work) > 0) {
+      lower_to(outside, point);
+    } else {
+      replace(k, column);
     }
-  }
+  });
   const Index point = outside.load();
   if (point == points.cols()) return;
   throw InputError(

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
 
@@ -13,11 +14,10 @@ RowMatrix stiffness_matrix(const DomainMesh<Dim>& mesh, const Eigen::VectorXd& c
                            const std::vector<Index>& vertices) {
   using Local = Eigen::Matrix<double, Dim + 1, Dim + 1>;
   std::vector<Local> locals(mesh.num_cells());
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
+  parallel_for(mesh.num_cells(), [&](Index s) {
     const auto hat = cell_geometry(mesh, s).hat_gradients;
     locals[s] = cell_factors[s] * (hat.transpose() * hat);
-  }
+  });
   constexpr Index kNone = -1;
   std::vector<Index> place(mesh.num_vertices(), kNone);
   for (std::size_t row = 0; row < vertices.size(); ++row) {
@@ -103,14 +103,13 @@ WeightMatrix DirichletProblem<Dim>::solve(const Eigen::MatrixXd& boundary_values
     return Eigen::Map<Eigen::VectorXd>(rows.data() + position[i] * stride, k);
   };
 
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < interior_.size(); ++i) {
+  parallel_for(interior_.size(), [&](std::size_t i) {
     auto row = row_of(i);
     if (divergence.size() > 0) row = divergence.col(interior_[i]);
     for (typename decltype(coupling_)::InnerIterator it(coupling_, i); it; ++it) {
       row -= it.value() * boundary_values.col(it.col());
     }
-  }
+  });
   std::visit([&](const auto& solver) { solver.solve(rows.data(), stride); }, *interior_solver_);
 
   WeightMatrix weights(k, interior_.size() + boundary_.size());

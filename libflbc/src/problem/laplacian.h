@@ -49,7 +49,7 @@ class DirichletProblem {
   //! \param boundary_values  k x B, known values, one row per function
   //! \param divergence  k x V, the right-hand side sum_s A_s grad(lambda_v) . g_i(s); empty means
   //! zero, which gives harmonic functions
-  //! \return k x V, including boundary values
+  //! \return k x V, including boundary values. Called by one thread at a time
   WeightMatrix solve(const Eigen::MatrixXd& boundary_values,
                      const Eigen::MatrixXd& divergence = {}) const;
 

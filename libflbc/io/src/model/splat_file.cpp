@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/parallel.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "linear/dense.h"
@@ -256,16 +256,11 @@ void SplatFile::write(std::ostream& out, const PointList<3>& points,
   for (Index first = 0; first < count; first += kBlock) {
     const Index size = std::min(kBlock, static_cast<Index>(count) - first);
     moved.assign(text, done, size * stride);
-    std::atomic<Index> first_bad{size};
-#pragma omp parallel for schedule(static)
-    for (Index k = 0; k < size; ++k) {
+    const Index first_bad = first_where(size, [&](Index k) {
       const Index p = first + k;
       const Matrix3d j = jacobians.col(p).reshaped(3, 3);
-      if (content_->deform(moved.data() + k * stride, p, points.col(p), j)) continue;
-      Index known = first_bad;
-      while (k < known && !first_bad.compare_exchange_weak(known, k)) {
-      }
-    }
+      return !content_->deform(moved.data() + k * stride, p, points.col(p), j);
+    });
     if (first_bad < size) {
       throw InputError("splat " + std::to_string(first + first_bad) +
                        " would have numbers that are not finite in single precision");

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "flbc/domain_mesh.h"
 #include "mesh/cell_geometry.h"
 
@@ -201,15 +202,14 @@ float mean_length_of(const std::vector<EdgeTo>& edges) {
 
 std::vector<Triangle> eikonal_facets(const DomainMesh<3>& mesh, const MeshTopology<3>& topology) {
   std::vector<Triangle> facets(topology.num_facets());
-#pragma omp parallel for schedule(static)
-  for (Index f = 0; f < topology.num_facets(); ++f) {
+  parallel_for(topology.num_facets(), [&](Index f) {
     const auto corner = [&](int k) { return mesh.points.col(topology.facets(k, f)); };
     const Vector<3> first = corner(1) - corner(0);
     const Vector<3> second = corner(2) - corner(0);
     const double aa = first.squaredNorm(), bb = second.squaredNorm(), ab = first.dot(second);
     facets[f] = triangle((second - first).squaredNorm(), bb, aa,
                          std::sqrt(std::max(0.0, aa * bb - ab * ab)));
-  }
+  });
   return facets;
 }
 
@@ -240,12 +240,11 @@ EikonalMesh<Dim>::EikonalMesh(const DomainMesh<Dim>& mesh, const MeshTopology<Di
       edges(edges_of_vertices(mesh, corners)),
       mean_length(mean_length_of(edges.items)),
       topology(the_topology) {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
+  parallel_for(mesh.num_cells(), [&](Index s) {
     const CellLengths<Dim> lengths(mesh, s);
     cells[s] = eikonal_cell(mesh, s, lengths);
     look_back[s] = look_back_of(lengths);
-  }
+  });
   if constexpr (Dim == 3) {
     facets = eikonal_facets(mesh, topology);
     bends = bends_of_vertices(topology, on_reflex_edges(mesh, topology));

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "base/stage_progress.h"
 #include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/march.h"
@@ -56,20 +58,21 @@ DistanceMatrix by_source_rows(Index num_sources, Index num_points,
       std::clamp<Index>(num_sources / (kPerThread * omp_get_max_threads()), 1, kMost);
   DistanceMatrix result(num_sources, num_points);
   LoopProgress progress(num_sources);
-#pragma omp parallel
-  {
-    SourceRows rows(num_rows, num_points);
-    auto measure = make_measure();
-#pragma omp for schedule(dynamic, 1)
-    for (Index first = 0; first < num_sources; first += num_rows) {
-      const Index count = std::min(num_rows, num_sources - first);
-      for (Index row = 0; row < count; ++row) {
-        measure(first + row, rows, row);
-        progress.add(1);
-      }
-      rows.write(first, count, result);
-    }
-  }
+  struct Scratch {
+    SourceRows rows;
+    std::invoke_result_t<const MakeMeasure&> measure;
+  };
+  const auto make_scratch = [&] { return Scratch{{num_rows, num_points}, make_measure()}; };
+  parallel_for_chunks((num_sources + num_rows - 1) / num_rows, 1, make_scratch,
+                      [&](Index block, auto& scratch) {
+                        const Index first = block * num_rows;
+                        const Index count = std::min(num_rows, num_sources - first);
+                        for (Index row = 0; row < count; ++row) {
+                          scratch.measure(first + row, scratch.rows, row);
+                          progress.add(1);
+                        }
+                        scratch.rows.write(first, count, result);
+                      });
   return result;
 }
 

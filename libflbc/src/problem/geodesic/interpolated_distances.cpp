@@ -2,6 +2,7 @@
 #include "problem/geodesic/interpolated_distances.h"
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 
 namespace flbc {
 namespace {
@@ -26,20 +27,18 @@ DistanceMatrix interpolated_distances(const KnownDistances<Dim>& known,
                                       const std::vector<Location<Dim>>& places) {
   const Sources<Dim> sources = known.sources.transpose().template cast<float>().array();
   DistanceMatrix detours = known.distances;
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < known.mesh.num_vertices(); ++v) {
+  parallel_for(known.mesh.num_vertices(), [&](Index v) {
     const auto straight = straight_distances<Dim>(sources, known.mesh.points.col(v));
     detours.col(v).array() = (detours.col(v).array() - straight).max(0.0f);  // rounding
-  }
+  });
   DistanceMatrix distances(known.sources.cols(), points.cols());
-#pragma omp parallel for schedule(static)
-  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
+  parallel_for(static_cast<Index>(points.cols()), [&](Index p) {
     distances.col(p) = straight_distances<Dim>(sources, points.col(p));
     for (int k = 0; k <= Dim; ++k) {
       distances.col(p) += static_cast<float>(places[p].coordinates[k]) *
                           detours.col(known.mesh.cells(k, places[p].cell));
     }
-  }
+  });
   return distances;
 }
 

@@ -2,6 +2,7 @@
 #include "solver/multilevel/coarse_problem.h"
 
 #include <exception>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -30,6 +31,8 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
     normalize_and_validate(mesh);
     require_connected(mesh);
     return mesh;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 
 namespace flbc {
 
@@ -12,11 +13,10 @@ FluxDensities<Dim>::FluxDensities(Index num_control_points, Index num_cells,
                                   const VectorsAt<Dim>& of_cell)
     : num_control_points_(num_control_points),
       blocks_((num_cells + kBlockCells - 1) / kBlockCells) {
-#pragma omp parallel
-  {
+  const auto store = [&](Index begin, Index end) {
     Block block;  // grows once, which avoids fragmentation
-#pragma omp for schedule(static)
-    for (Index first = 0; first < num_cells; first += kBlockCells) {
+    for (Index b = begin; b < end; ++b) {
+      const Index first = b * kBlockCells;
       block.starts.assign(1, 0);
       block.control_points.clear();
       block.vectors.clear();
@@ -31,9 +31,10 @@ FluxDensities<Dim>::FluxDensities(Index num_control_points, Index num_cells,
         }
         block.starts.push_back(static_cast<Index>(block.control_points.size()));
       }
-      blocks_[first / kBlockCells] = block;
+      blocks_[b] = block;
     }
-  }
+  };
+  parallel_for(static_cast<Index>(blocks_.size()), store, kFewestInParallel / kBlockCells);
 }
 
 template <int Dim>

@@ -76,10 +76,8 @@ double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const
   const WeightMatrix difference = after - before;
   const auto num_points = static_cast<Index>(difference.cols());
   Eigen::MatrixXd potential(difference.rows(), num_points);
-#pragma omp parallel for schedule(static) if (num_points >= 256)
-  for (Index a = 0; a < num_points; ++a) {
-    potential.col(a).noalias() = energy.metric * difference.col(a);
-  }
+  parallel_for(num_points,
+               [&](Index a) { potential.col(a).noalias() = energy.metric * difference.col(a); });
   const auto square = [&](Index a) { return difference.col(a).dot(potential.col(a)); };
   return parallel_sum<double>(
       static_cast<Index>(edges.ends.size()), 0, [&](Index begin, Index end) {

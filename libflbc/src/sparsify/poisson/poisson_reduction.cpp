@@ -2,11 +2,13 @@
 #include "flbc/sparsify.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "flbc/types.h"
@@ -92,18 +94,17 @@ class PoissonDescent {
   // visit of a point removes the excess.
   void start(const WeightMatrix& weights) {
     const auto num_points = static_cast<Index>(points_.cols());
-#pragma omp parallel for schedule(static) if (num_points >= 256)
-    for (Index a = 0; a < num_points; ++a) {
+    parallel_for(num_points, [&](Index a) {
       gather(weights.col(a), weights_[a]);
       potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
-    }
+    });
     // If all differences are 0 there is nothing to gain, but influences may have to be removed.
-    std::fill(open_.begin(), open_.end(), 0);
+    std::fill(open_.begin(), open_.end(), false);
     for (Index a = 0; a < num_points; ++a) {
-      if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = 1;
+      if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = true;
       if (weights.col(a) == given_.col(a)) continue;
-      open_[a] = 1;
-      for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = 1;
+      open_[a] = true;
+      for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = true;
     }
   }
 
@@ -118,7 +119,7 @@ class PoissonDescent {
     }
     const StagePart part(kAdopted, 1);
     exchanges_ = true;
-    std::fill(open_.begin(), open_.end(), 1);
+    std::fill(open_.begin(), open_.end(), true);
     sweep_until_settled(kExchanges, least_gain);
     exchanges_ = false;
   }
@@ -154,29 +155,22 @@ class PoissonDescent {
   // Processes color by color. Points of one color are independent, so order and threads have no
   // effect.
   bool sweep(double least_gain) {
-    Index changes = 0;
+    std::atomic<bool> changes{false};
     LoopProgress progress(static_cast<Index>(points_.cols()));
-#pragma omp parallel reduction(+ : changes) if (points_.cols() >= 256)
-    {
-      Workspace work(energy_.metric, control_points_);
-      for (const auto& color : graph_.colors()) {
-        const auto count = static_cast<Index>(color.size());
-#pragma omp for schedule(dynamic, 16)
-        for (Index k = 0; k < count; ++k) {
-          const Index point = color[k];
-          progress.add(1);
-          if (!open_[point] || fixed_[point]) continue;
-          open_[point] = 0;
-          if (!improve(point, least_gain, work)) continue;
-          ++changes;
-          for (const auto& neighbour : graph_.neighbours_of(point)) {
-#pragma omp atomic write
-            open_[neighbour.point] = 1;
-          }
-        }
-      }
+    const auto make_work = [&] { return Workspace(energy_.metric, control_points_); };
+    for (const auto& color : graph_.colors()) {
+      const auto visit = [&](Index k, Workspace& work) {
+        const Index point = color[k];
+        progress.add(1);
+        if (!open_[point] || fixed_[point]) return;
+        open_[point] = false;
+        if (!improve(point, least_gain, work)) return;
+        changes = true;
+        for (const auto& neighbour : graph_.neighbours_of(point)) open_[neighbour.point] = true;
+      };
+      parallel_for_chunks(static_cast<Index>(color.size()), 16, make_work, visit);
     }
-    return changes > 0;
+    return changes;
   }
 
   // \return whether the weights have changed
@@ -265,9 +259,9 @@ class PoissonDescent {
   std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
   std::vector<bool> fixed_;
   std::vector<PointWeights> weights_;
-  Eigen::MatrixXd potential_;        // n x P: H (w - given)
-  std::vector<unsigned char> open_;  // per point: whether it may gain
-  bool exchanges_ = false;           // whether influences may enter that no neighbor has
+  Eigen::MatrixXd potential_;            // n x P: H (w - given)
+  std::vector<std::atomic<bool>> open_;  // per point: whether it may gain
+  bool exchanges_ = false;               // whether influences may enter that no neighbor has
 };
 
 // Minimum gain of a change of one point, relative to the mean energy of a point.
@@ -281,18 +275,17 @@ WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph
                       const WeightMatrix& plain) {
   WeightMatrix result = plain;
   const auto num_points = static_cast<Index>(plain.cols());
-#pragma omp parallel for schedule(dynamic, 64) if (num_points >= 256)
-  for (Index a = 0; a < num_points; ++a) {
+  parallel_for_chunks(num_points, 64, [&](Index a) {
     const Index representative = graph.representative(a);
     const auto neighbours = graph.neighbours_of(representative);
-    if (neighbours.begin() == neighbours.end()) continue;
+    if (neighbours.begin() == neighbours.end()) return;
     const Eigen::VectorXd weights = descent.weights_of(representative);
-    if (weights == plain.col(a)) continue;
+    if (weights == plain.col(a)) return;
     Eigen::VectorXd exact;
     if (projection.project(points.col(a), positive_entries(weights), weights, exact)) {
       result.col(a) = exact;
     }
-  }
+  });
   return result;
 }
 

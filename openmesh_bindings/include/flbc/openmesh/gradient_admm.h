@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -157,6 +159,7 @@ class GradientAdmm {
       dual += other.dual, gradient += other.gradient, lead += other.lead;
       return *this;
     }
+    friend Change operator+(Change sum, const Change& other) { return sum += other; }
   };
 
   Change x_step() {
@@ -219,21 +222,16 @@ class GradientAdmm {
     });
   }
 
-  // Blocks of cells are summed in a fixed order: the result must not depend on the threads.
   Change period_step() {
-    constexpr int kBlocks = 64;
-    const std::int64_t num_cells = problem_.base.mesh.num_cells();
     Change change;
     for (std::size_t p = 0; p < problem_.periods.size(); ++p) {
       const auto& period = problem_.periods[p];
-      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n_, kBlocks);
-#pragma omp parallel for schedule(static)
-      for (int b = 0; b < kBlocks; ++b) {
-        for (auto s = b * num_cells / kBlocks; s < (b + 1) * num_cells / kBlocks; ++s) {
-          const Cell cell(static_cast<int>(s));
-          sums.col(b) += rows(extrapolated_, cell).transpose() * period.field.col(s);
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n_, kSumBlocks);
+      for_blocks(problem_.base.mesh.num_cells(), [&](int block, int begin, int end) {
+        for (int s = begin; s < end; ++s) {
+          sums.col(block) += rows(extrapolated_, Cell(s)).transpose() * period.field.col(s);
         }
-      }
+      });
       const Eigen::RowVectorXd step = period.values - sums.rowwise().sum().transpose();
       period_duals().row(p) += alpha_ * mu_ * step;
       change.dual += step.squaredNorm();
@@ -248,23 +246,19 @@ class GradientAdmm {
     return {sides * target.squaredNorm() / (mu_ * mu_), 0, 0};
   }
 
-  // The sum of what `step` returns for all elements of a range of the mesh, in parallel. Each
-  // thread passes two work matrices to it.
+  // The sum of what `step` returns for all elements of a range of the mesh, in parallel. `step`
+  // gets two work matrices.
   template <class Range, class Step>
   Change for_all(const Range& range, const Step& step) const {
-    Change sum;
+    std::array<Change, kSumBlocks> parts{};
     auto first = range.begin();
-    const int count = (*range.end()).idx();
-#pragma omp parallel
-    {
-      Change part;
+    for_blocks((*range.end()).idx(), [&](int block, int begin, int end) {
       Rows a(kDim, n_), b(kDim, n_);
-#pragma omp for schedule(static)
-      for (int k = 0; k < count; ++k) part += step(*(first + k), a, b);
-#pragma omp critical
-      sum += part;
-    }
-    return sum;
+      for (int k = begin; k < end; ++k) {
+        parts[static_cast<std::size_t>(block)] += step(*(first + k), a, b);
+      }
+    });
+    return std::accumulate(parts.begin(), parts.end(), Change{});
   }
 
   Eigen::Map<Rows> rows(Property* property, OpenMesh::BaseHandle element) const {
@@ -273,12 +267,8 @@ class GradientAdmm {
   const auto& projector(Facet facet) const {
     return problem_.projector[static_cast<std::size_t>(facet.idx())];
   }
-  auto sides(Facet facet) const {
-    return Elements<Mesh>::sides(mesh_, facet);
-  }
-  auto period_duals() const {
-    return (*period_dual_)[0].matrix();
-  }
+  auto sides(Facet facet) const { return Elements<Mesh>::sides(mesh_, facet); }
+  auto period_duals() const { return (*period_dual_)[0].matrix(); }
 
   template <class Handle>
   bool attach(Property*& property, const char* name, std::size_t components) {

@@ -3,6 +3,7 @@
 //! Constants of the GradientAdmm iteration, in the units of the mesh.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "flbc/lbc_problem.h"
@@ -43,5 +44,11 @@ struct GradientProblem {
 template <int Dim>
 GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
                                            DistanceScheme phi, double smoothness);
+
+constexpr int kSumBlocks = 64;  //!< blocks of for_blocks()
+
+//! Calls body(block, begin, end) for kSumBlocks blocks of [0, count), in parallel. What is added up
+//! per block, and then over the blocks, does not depend on the threads.
+void for_blocks(int count, const std::function<void(int block, int begin, int end)>& body);
 
 }  // namespace flbc::openmesh

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/padded_rows.h"
+#include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 
 namespace flbc::active_set {
@@ -114,12 +115,11 @@ AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& c
                                const PointList<Dim>& points, std::vector<Scalar>* targets) {
   AlignedArray<Scalar> bases((Dim + 1) * lists.size());
   if (targets != nullptr) targets->assign((Dim + 1) * lists.counts.size(), Scalar(0));
-#pragma omp parallel for schedule(static)
-  for (Index row = 0; row < lists.num_rows(); ++row) {
+  parallel_for(lists.num_rows(), [&](Index row) {
     const std::size_t start = lists.starts[row];
     const std::size_t length = lists.starts[row + 1] - start;
     const Index count = lists.counts[row];
-    if (count == 0) continue;
+    if (count == 0) return;
     Vector<Dim> center = Vector<Dim>::Zero();
     for (Index j = 0; j < count; ++j) center += control_points.col(lists.items[start + j]) / count;
     ListBasis<Dim> basis;
@@ -134,14 +134,14 @@ AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& c
       Scalar* numbers = bases.data() + (Dim + 1) * start + k * length;
       for (Index j = 0; j < count; ++j) numbers[j] = static_cast<Scalar>(basis.q(j, k));
     }
-    if (targets == nullptr) continue;
+    if (targets == nullptr) return;
     Vector<Dim + 1> sums;
     sums << 1, points.col(row) - center;
     const Vector<Dim + 1> target = basis.target(sums);
     for (int k = 0; k <= Dim; ++k) {
       (*targets)[row * (Dim + 1) + k] = static_cast<Scalar>(target[k]);
     }
-  }
+  });
   return bases;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/aligned_array.h"
 #include "base/padded_rows.h"
+#include "base/parallel.h"
 #include "solver/methods/active_set/active_kernel.h"
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/methods/splitting/compact_data.h"
@@ -85,11 +86,9 @@ template <int Rows, class Scalar, int Dim, class OfCell>
 void store_in_cells(const CellPatches<Scalar, Dim>& patches,
                     const compact::Loops<Scalar, Dim>& loops, Index n,
                     AlignedArray<unsigned char>& stored, const OfCell& of_cell) {
-#pragma omp parallel
-  {
+  const auto store = [&](std::size_t begin, std::size_t end) {
     AlignedArray<Scalar> rows(Rows * padded(static_cast<std::size_t>(n)));
-#pragma omp for schedule(static)
-    for (std::size_t p = 0; p < patches.patches.size(); ++p) {
+    for (std::size_t p = begin; p < end; ++p) {
       const Patch& patch = patches.patches[p];
       for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
         const auto number_at = of_cell(patches.cell_index[k]);
@@ -102,7 +101,8 @@ void store_in_cells(const CellPatches<Scalar, Dim>& patches,
         loops.encode(rows.data(), stored.data(), Rows * patch.number_of(k), Rows * patch.stride);
       }
     }
-  }
+  };
+  parallel_for(patches.patches.size(), store, 2);
 }
 
 }  // namespace flbc::active_set

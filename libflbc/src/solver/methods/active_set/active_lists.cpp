@@ -23,8 +23,7 @@ using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 template <int Dim, class MattersAt>
 Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const MattersAt& matters_at) {
   Flags matters(num_control_points, mesh.num_vertices());
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < mesh.num_vertices(); ++v) matters.col(v) = matters_at(v);
+  parallel_for(mesh.num_vertices(), [&](Index v) { matters.col(v) = matters_at(v); });
   Flags near = matters;
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     Eigen::Array<bool, Eigen::Dynamic, 1> any = matters.col(mesh.cells(0, s)).array();
@@ -89,11 +88,10 @@ ActiveLists lists_from(const Flags& is_in) {
 template <int Dim>
 ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
   add_boundary(problem, flags);
-#pragma omp parallel for schedule(dynamic, 64)
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (!problem.boundary.is_interior(v) || is_feasible(problem, v, flags)) continue;
+  parallel_for_chunks(problem.mesh.num_vertices(), 64, [&](Index v) {
+    if (!problem.boundary.is_interior(v) || is_feasible(problem, v, flags)) return;
     flags.col(v).array() = flags.col(v).array() || weights(v).array() > 0;
-  }
+  });
   return lists_from(flags);
 }
 
@@ -138,14 +136,13 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
   const Flags near = flags_of(mesh, problem.num_control_points(),
                               [&](Index v) { return (weights.at(v).array() > threshold).eval(); });
   Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+  parallel_for(problem.mesh.num_vertices(), [&](Index v) {
     const auto& place = coarse.place_of(v);
     for (int k = 0; k <= Dim; ++k) {
       if (place.coordinates[k] <= kNotInterpolated) continue;
       flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
     }
-  }
+  });
   return completed(problem, coarse.start().weights, std::move(flags));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/methods/active_set/active_multigrid.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -225,12 +227,14 @@ void ActiveMultigrid<Scalar, Dim>::ascend(std::size_t l, const Scalar* right_sid
 
 template <class Scalar, int Dim>
 void ActiveMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
+  // The threads wait for each other, so none of them may throw.
+  AlignedArray<Scalar> works(2 * work_size_ * static_cast<std::size_t>(omp_get_max_threads()));
 #pragma omp parallel
   {
     const FlushDenormals flush;
-    AlignedArray<Scalar> work(2 * work_size_);
-    for (std::size_t l = 0; l < levels_.size(); ++l) descend(l, rows, work.data());
-    for (std::size_t l = levels_.size(); l-- > 0;) ascend(l, rows, work.data());
+    Scalar* const work = works.data() + 2 * work_size_ * omp_get_thread_num();
+    for (std::size_t l = 0; l < levels_.size(); ++l) descend(l, rows, work);
+    for (std::size_t l = levels_.size(); l-- > 0;) ascend(l, rows, work);
   }
   const LevelData& finest = levels_.front();
   std::copy_n(finest.solution.data(), lists_.starts[finest.num_rows()], rows);

@@ -101,12 +101,10 @@ double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation
   const auto num_patches = static_cast<Index>(patches_.patches.size());
   const Lists lists = lists_.view();
   std::vector<double> violations(num_patches, 0);
-#pragma omp parallel
-  {
+  const auto pass = [&](Index begin, Index end) {
     const FlushDenormals flush;
     PatchRows<Scalar> rows(patches_.largest_block, n_ + 1, measures);
-#pragma omp for schedule(static)
-    for (Index p = 0; p < num_patches; ++p) {
+    for (Index p = begin; p < end; ++p) {
       const Patch& patch = patches_.patches[p];
       const Index* numbers = patches_.rows.data() + patch.first_row;
       for (std::size_t j = 0; j < patch.stride; ++j) {
@@ -137,21 +135,21 @@ double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation
       list_kernel_.scatter(lists, numbers, patch.num_interior, rows.slot_of.data(), state.residual,
                            patch.stride, patches_.leaves.data() + patch.first_row, left_.data());
     }
-  }
+  };
+  parallel_for(num_patches, pass, 2);
   return std::accumulate(violations.begin(), violations.end(), 0.0);
 }
 
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::collect_divergence() {
   const auto num_rows = static_cast<Index>(data_.vertices.size());
-#pragma omp parallel for schedule(static)
-  for (Index row = 0; row < num_rows; ++row) {
+  parallel_for(num_rows, [&](Index row) {
     Scalar* residual = residual_.data() + lists_.starts[row];
     const std::size_t length = lists_.starts[row + 1] - lists_.starts[row];
     for (const std::size_t place : patches_.left.of(row)) {
       for (std::size_t j = 0; j < length; ++j) residual[j] += left_[place + j];
     }
-  }
+  });
 }
 
 template <class Scalar, int Dim>
@@ -232,15 +230,14 @@ double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
   const auto of_vertex = with_known_values(problem_, weights);
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
+  parallel_for(problem_.mesh.num_vertices(), [&](Index v) {
     const Eigen::VectorXd numbers = of_vertex(v);
     const Index row = data_.row_of[v];
     const std::size_t start = lists_.starts[row];
     for (Index j = 0; j < lists_.counts[row]; ++j) {
       a_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
     }
-  }
+  });
   // Truncated weights must be compensated elsewhere in the row.
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
   pass_rows(loops_.correct);
@@ -258,8 +255,7 @@ void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_dens
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
   const std::size_t num_rows = has_vertex_dual() ? data_.vertices.size() : 0;
-#pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < num_rows; ++row) {
+  parallel_for(num_rows, [&](std::size_t row) {
     const std::size_t start = lists_.starts[row];
     Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
     if (vertex_dual) numbers = vertex_dual(data_.vertices[row]);
@@ -267,7 +263,7 @@ void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_du
       S_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
       residual_[start + j] = data_.vertex_metric[row] * S_[start + j];
     }
-  }
+  });
 }
 
 // As in CompactSplitting: subtracts the effect of the duals on the weights from W.

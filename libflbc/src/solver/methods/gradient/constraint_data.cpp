@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
 #include "solver/methods/gradient/gradient_kernel.h"
@@ -92,15 +93,14 @@ void set_up_proximal_maps(const LbcProblem<Dim>& problem, double penalty, std::s
   const Index n = problem.num_control_points();
   data.smoothing.resize(problem.mesh.num_cells());
   data.radius = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_cells()) * stride);
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+  parallel_for(problem.mesh.num_cells(), [&](Index s) {
     const double scale = cell_geometry(problem.mesh, s).measure / penalty;
     const double quadratic = problem.smoothness * scale;
     data.smoothing[s] = static_cast<Scalar>(quadratic / (1 + quadratic));
     for (Index i = 0; i < n; ++i) {
       data.radius[s * stride + i] = static_cast<Scalar>(scale * problem.phi(i, s));
     }
-  }
+  });
 }
 
 }  // namespace

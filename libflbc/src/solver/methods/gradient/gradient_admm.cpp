@@ -18,10 +18,9 @@ namespace {
 // numbers, because they are slow, and because all steps must agree for bit-identical results.
 template <class Body>
 void parallel_blocks(Index count, const Body& body) {
-  parallel_sum(count, 0, [&](Index begin, Index end) {
+  parallel_for(count, [&](Index begin, Index end) {
     const FlushDenormals scope;
     body(begin, end);
-    return 0;
   });
 }
 
@@ -91,8 +90,7 @@ double GradientAdmm<Scalar, Dim>::update_periods() {
 
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_least_norm() {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
     for (int d = 0; d < Dim; ++d) {
       const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
       for (std::size_t i = 0; i < stride_; ++i) {
@@ -102,13 +100,12 @@ void GradientAdmm<Scalar, Dim>::start_from_least_norm() {
         gradient_[row + i] = extrapolated_[row + i] = value;
       }
     }
-  }
+  });
 }
 
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
     const auto gradient =
         weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights);
     for (int d = 0; d < Dim; ++d) {
@@ -117,7 +114,7 @@ void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) 
         gradient_[row + i] = extrapolated_[row + i] = static_cast<Scalar>(gradient(i, d));
       }
     }
-  }
+  });
 }
 
 // A sweep takes the G-step of one iteration and the duals of the next one together. With periods, a
@@ -161,12 +158,14 @@ Change GradientAdmm<Scalar, Dim>::g_step(const Arrays<Scalar, Dim>& arrays) {
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool note) {
   const auto num_parts = static_cast<Index>(sweep_.parts.size());
-#pragma omp parallel for schedule(static, 1) if (num_parts > 1)
-  for (Index p = 0; p < num_parts; ++p) {
-    const FlushDenormals scope;
-    (note ? kernel_.sweep_and_note : kernel_.sweep)(arrays, sweep_.parts[p].path(),
-                                                    slots_[p].data());
-  }
+  parallel_for(
+      num_parts,
+      [&](Index p) {
+        const FlushDenormals scope;
+        (note ? kernel_.sweep_and_note : kernel_.sweep)(arrays, sweep_.parts[p].path(),
+                                                        slots_[p].data());
+      },
+      2);
   parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
     kernel_.listed_xy_step(arrays, sweep_.seams.data() + begin, end - begin, note);
   });
@@ -203,8 +202,7 @@ CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() const {
   using ConstRow = Eigen::Map<const Eigen::Array<Scalar, 1, Eigen::Dynamic>>;
   const auto columns = static_cast<Eigen::Index>(stride_);
   flux_ = AlignedArray<Scalar>(tv_dual_.size());
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < problem_.mesh.num_cells(); ++s) {
+  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
     const std::size_t block = static_cast<std::size_t>(s) * Dim * stride_;
     Rows flux(flux_.data() + block, Dim, columns);
     flux = ConstRows(extrapolated_.data() + block, Dim, columns) -
@@ -217,7 +215,7 @@ CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() const {
         static_cast<Scalar>(penalty_) *
         (theta + (Scalar(1) - theta) * (radius / length).min(Scalar(1)));
     flux.rowwise() *= shrink;
-  }
+  });
   return {flux_.data(), stride_, n_};
 }
 

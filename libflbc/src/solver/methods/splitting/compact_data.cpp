@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/instantiate.h"
+#include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
 #include "problem/boundary_flux.h"
@@ -64,8 +65,7 @@ void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metri
     }
   }
   data.cells.resize(data.cell_index.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t place = 0; place < data.cells.size(); ++place) {
+  parallel_for(data.cells.size(), [&](std::size_t place) {
     const Index s = data.cell_index[place];
     std::array<int, Dim + 1> corners;
     std::iota(corners.begin(), corners.end(), 0);
@@ -79,7 +79,7 @@ void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metri
         cell.hats[k][d] = static_cast<Scalar>(root * hats(d, corners[k]));
       }
     }
-  }
+  });
 }
 
 }  // namespace
@@ -125,11 +125,9 @@ void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, 
                CompactData<Scalar, Dim>& data) {
   const Index n = problem.num_control_points();
   data.radius = AlignedArray<unsigned char>(data.cells.size() * slices.stride() * loops.bytes);
-#pragma omp parallel
-  {
+  parallel_for(data.cells.size(), [&](std::size_t first, std::size_t last) {
     AlignedArray<Scalar> row(slices.stride());
-#pragma omp for schedule(static)
-    for (std::size_t k = 0; k < data.cells.size(); ++k) {
+    for (std::size_t k = first; k < last; ++k) {
       const Index s = data.cell_index[k];
       const double scale = dual_scale(problem, metric, unit, s);
       const Eigen::VectorXd phi = problem.phi.col(s);
@@ -141,7 +139,7 @@ void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, 
                         loops.encode(row.data() + begin, data.radius.data(), place, width);
                       });
     }
-  }
+  });
 }
 
 FLBC_INSTANTIATE_FUNCTION(radius_unit)
