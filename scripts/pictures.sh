@@ -41,7 +41,7 @@ for name in "${names[@]}"; do
     automatic_cages) scripts/pictures/automatic_cages.py "$images/automatic_cages.png" "$work/cages" "$models" ;;
     smoothness) scripts/pictures/smoothness.py "$images/smoothness.png" "$work/smoothness" ;;
     blender) scripts/pictures/blender.sh "$PWD/$flbc" "$PWD/$images" "$PWD/$work/blender" ;;
-    charts) scripts/pictures/charts.py "$images" ;;
+    charts) benchmarks/paper/curves.py docs/results "$images" figure5 figure6 race ;;
     view)
       run 3d limb 20
       [ -d tests/browser/node_modules/puppeteer-core ] || npm --prefix tests/browser ci --silent

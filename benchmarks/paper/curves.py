@@ -1,7 +1,13 @@
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 3, 5 and 6: curves. And the bars of the race."""
+"""Figures 3, 5 and 6: curves. And the bars of the race.
+
+    curves.py RESULTS_FOLDER PICTURES_FOLDER NAME...   draws results of these names
+"""
 
 import math
+import pathlib
+import sys
 
 import matplotlib
 import matplotlib.ticker
@@ -26,15 +32,6 @@ plt.rcParams.update({
     "grid.color": "#e4e4e4", "grid.linewidth": 0.7, "axes.axisbelow": True,
     "lines.linewidth": 1.6, "lines.markersize": 5, "legend.frameon": False,
     "legend.fontsize": 8.5})
-
-
-def draw_all(out):
-    """Draws every figure whose CSV there is; yields the paths."""
-    for name, draw, picture in (("figure3", scaling, "figure3"), ("figure5", convergence, "figure5"),
-                                ("figure6", convergence, "figure6"), ("race", bars, "seconds_to_error")):
-        rows, comments = results.read(out, name)
-        if rows:
-            yield saved(draw(rows, comments), out / f"{picture}.png")
 
 
 def saved(figure, path):
@@ -204,3 +201,21 @@ def bars(rows, comments):
     figure.supxlabel(f"n: control points. Both gray methods are our implementations. {machine}.",
                      fontsize=8, color="#666666")
     return figure
+
+
+DRAWN = {"figure3": (scaling, "figure3"), "figure5": (convergence, "error_against_time"),
+         "figure6": (convergence, "error_against_time_large"), "race": (bars, "seconds_to_error")}
+
+
+def draw_all(stored, folder, names=DRAWN):
+    """Draws those of which there are results; yields the paths."""
+    for name in names:
+        draw, picture = DRAWN[name]
+        rows, comments = results.read(stored, name)
+        if rows:
+            yield saved(draw(rows, comments), folder / f"{picture}.png")
+
+
+if __name__ == "__main__":
+    for path in draw_all(*map(pathlib.Path, sys.argv[1:3]), sys.argv[3:]):
+        print(path)

@@ -29,7 +29,7 @@ def main(models, out, flbc):
         sys.exit("plots.py: no pictures without matplotlib: install the Debian package python3-matplotlib "
                  f"and run again; the numbers are in {out}")
     try:
-        for path in [*curves.draw_all(out), *pictures.draw_all(models, out, flbc)]:
+        for path in [*curves.draw_all(out, out), *pictures.draw_all(models, out, flbc)]:
             print(path)
     except subprocess.CalledProcessError as error:
         sys.exit(f"plots.py: {' '.join(error.cmd)} failed")
