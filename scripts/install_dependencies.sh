@@ -12,7 +12,8 @@ packages=(
   pybind11-dev python3-dev                # the Python module
   libgtest-dev poppler-utils librsvg2-bin python3-numpy  # tests; the last three read results
   python3-scipy python3-pytest            # tests of the Python module
-  mkdocs mkdocs-material libjs-katex codespell groff-base  # tests of pages
+  mkdocs mkdocs-material libjs-katex groff-base  # tests of pages
+  clang-format codespell                  # test of sources
 )
 packages+=("$@")
 headers=/usr/src/openfoam

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds, and runs all tests. Options go to ctest, for example
-# scripts/test.sh -R solver
+# Installs missing packages, builds, runs all tests, and lists what was skipped. Options go to ctest,
+# for example scripts/test.sh -R solver
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,12 +10,19 @@ cmake --build --preset release
 # Without them, tests of glTF in other programs and of pages in a browser are skipped.
 if command -v npm >/dev/null; then
   scripts/install_dependencies.sh chromium fonts-dejavu-core ||
-    echo "no browser: the test of pages in one will be skipped" >&2
+    echo "chromium cannot be installed" >&2
   for folder in tests/gltf tests/browser; do
     lock=$folder/package-lock.json
     [ $folder/node_modules/.package-lock.json -nt $lock ] && continue
     npm ci --prefix $folder --ignore-scripts --no-audit --no-fund --silent ||
-      echo "npm ci failed: the test in $folder will be skipped" >&2
+      echo "npm ci failed in $folder" >&2
   done
 fi
-ctest --preset release "$@"
+results=$PWD/build/release/tests.xml
+rm -f "$results"
+status=0
+ctest --preset release --output-junit "$results" --test-output-size-passed 100000 "$@" || status=$?
+[ ! -f "$results" ] || /usr/bin/python3 scripts/list_skipped.py "$results"
+grep -q '^FLBC_WITH_OPENFOAM:BOOL=ON' build/release/CMakeCache.txt ||
+  echo "Skipped the tests of the OpenFOAM plugin: OpenFOAM is missing"
+exit $status

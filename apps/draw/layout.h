@@ -74,8 +74,8 @@ struct SheetLayout {
   }
 };
 
-//! Pictures are as wide as the content demands, their number per row makes the sheet about 4:3, with
-//! few gaps in the last row.
+//! Pictures are as wide as the content demands, their number per row makes the sheet about 4:3,
+//! with few gaps in the last row.
 //! \param count  of pictures, >= 1
 SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options);
 

@@ -16,8 +16,8 @@ namespace flbc::app {
 //! Where the weights are wanted and how they are computed. Files may be empty for none.
 struct SolveSettings {
   std::string cage;
-  std::string domain;  //!< mesh of the interior; empty: one is made
-  std::string model;   //!< whose vertices get weights; empty: those of the mesh do
+  std::string domain;         //!< mesh of the interior; empty: one is made
+  std::string model;          //!< whose vertices get weights; empty: those of the mesh do
   bool needs_domain = false;  //!< a mesh is made even if the method needs none
   bool embed = false;         //!< the model's vertices become vertices of the mesh
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
@@ -25,7 +25,7 @@ struct SolveSettings {
   MesherSettings meshing{};
   bool history = false;             //!< the report tells how the iteration came nearer to its end
   std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
-  SolverOptions options{};  //!< but for the penalty, which depends on the mesh
+  SolverOptions options{};          //!< but for the penalty, which depends on the mesh
 };
 
 //! Whether the weights are those of a model by a method that needs no mesh, and none is made.

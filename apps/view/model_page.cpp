@@ -5,11 +5,11 @@
 #include <system_error>
 #include <variant>
 
+#include "draw/base64.h"
 #include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
-#include "draw/base64.h"
 
 namespace flbc::app {
 
@@ -69,11 +69,11 @@ std::string data_uri(const std::string& media_type, const std::string& bytes) {
   return "data:" + media_type + ";base64," + draw::to_base64(bytes);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                           \
-  template view::ShownCage<Dim> load_shown_cage(const std::string&);                    \
+#define FLBC_INSTANTIATE(Dim)                                                            \
+  template view::ShownCage<Dim> load_shown_cage(const std::string&);                     \
   template view::ShownCage<Dim> cage_as_shown(const io::ModelFile&, const std::string&); \
-  template view::ShownModel<Dim> load_shown_model(const std::string&);                  \
-  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&, \
+  template view::ShownModel<Dim> load_shown_model(const std::string&);                   \
+  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&,  \
                                                          const std::vector<double>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

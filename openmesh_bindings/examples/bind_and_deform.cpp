@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binds a model to a cage and deforms it with a posed cage. Reads all OpenMesh formats.
 #include <iostream>
+
+#include <flbc/openmesh/bind.h>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <flbc/openmesh/bind.h>
 
 int main(int argc, char** argv) try {
   OpenMesh::TriMesh_ArrayKernelT<> cage, model, pose;

@@ -23,32 +23,30 @@ class CageCommand : public CommandLineTest {
 };
 
 TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
-  for (const char* name : {"2d/figure", "2d/letter", "3d/limb", "3d/torus"}) {
-    const auto model = sample(std::string(name) + "_model.obj"), cage = path("cage.obj");
-    expect("cage " + model + " -o " + cage + " --control-points 40", 0, " control points, ");
-    const auto report = check(cage, model);
+  for (const std::string name : {"2d/figure", "2d/letter", "3d/limb", "3d/torus"}) {
+    const auto model = name + "_model.obj";
+    expect("cage " + model + " -o cage.obj --control-points 40", 0, " control points, ");
+    const auto report = check("cage.obj", model);
     EXPECT_TRUE(report["fine"]) << name;
     EXPECT_LE(report["cage"]["control_points"], 40);
     EXPECT_EQ(report["model"]["outside"], 0);
-    const std::string weights = path("weights.npy");
-    expect("solve " + cage + " --vertices 1500 --model " + model + " -o " + weights + " -q", 0, "");
+    expect("solve cage.obj --vertices 1500 --model " + model + " -o weights.npy -q");
   }
 }
 
 TEST_F(CageCommand, SameModelSameFile) {
-  const auto model = sample("3d/limb_model.obj");
-  for (const char* name : {"one.off", "other.off"}) {
-    expect("cage " + model + " -q -o " + path(name), 0, "");
+  for (const std::string name : {"one.off", "other.off"}) {
+    expect("cage 3d/limb_model.obj -q -o " + name, 0, "");
   }
-  EXPECT_FALSE(slurp(path("one.off")).empty());
-  EXPECT_EQ(slurp(path("one.off")), slurp(path("other.off")));
+  EXPECT_FALSE(slurp("one.off").empty());
+  EXPECT_EQ(slurp("one.off"), slurp("other.off"));
 }
 
 TEST_F(CageCommand, CurvesKeepTheirHeight) {
   const auto curve = file("curve.obj", "v 0 0 3\nv 1 2 3\nv 3 1 3\nl 1 2 3\n");
-  expect("cage " + curve + " -q -o " + path("cage.obj"), 0, "");
-  EXPECT_NE(slurp(path("cage.obj")).find(" 3\n"), std::string::npos);
-  EXPECT_TRUE(check(path("cage.obj"), curve)["fine"]);
+  expect("cage " + curve + " -q -o cage.obj", 0, "");
+  EXPECT_NE(slurp("cage.obj").find(" 3\n"), std::string::npos);
+  EXPECT_TRUE(check("cage.obj", curve)["fine"]);
 }
 
 // A disc that is to be seen, one pixel apart from it, and nothing round them.
@@ -68,10 +66,10 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
       const int x = pixel % kSize, y = kSize - 1 - pixel / kSize;
       if (channels == 4 && is_seen(x, y)) bytes[4 * pixel + 3] = 1;
     }
-    EXPECT_NE(png_image_write_to_file(&image, path(name).c_str(), 0, bytes.data(), 0, nullptr), 0);
-    return path(name);
+    EXPECT_NE(png_image_write_to_file(&image, name.c_str(), 0, bytes.data(), 0, nullptr), 0);
+    return name;
   };
-  expect("cage " + write("disc.png", PNG_FORMAT_RGBA) + " -q -o " + path("cage.obj"), 0, "");
+  expect("cage " + write("disc.png", PNG_FORMAT_RGBA) + " -q -o cage.obj", 0, "");
   std::string corners;
   for (int x = 0; x < kSize; ++x) {
     for (int y = 0; y < kSize; ++y) {
@@ -81,13 +79,13 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
       }
     }
   }
-  const auto report = check(path("cage.obj"), file("corners.obj", corners));
+  const auto report = check("cage.obj", file("corners.obj", corners));
   EXPECT_TRUE(report["fine"]);
   EXPECT_EQ(report["model"]["outside"], 0);
   EXPECT_LT(report["cage"]["measure"], 0.7 * kSize * kSize);
-  expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o " + path("none.obj"), 2,
+  expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o none.obj", 2,
          "full.png: no pixel is transparent");
-  expect("cage " + file("no.png", "text") + " -o " + path("none.obj"), 2, "no.png: ");
+  expect("cage " + file("no.png", "text") + " -o none.obj", 2, "no.png: ");
 }
 
 TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
@@ -100,43 +98,43 @@ TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
   for (std::size_t y = 0; y < kSize; ++y) {
     for (std::size_t x = y % 2; x < kSize; x += 2) bytes[2 * (y * kSize + x) + 1] = 255;
   }
-  const auto noise = path("noise.png");
+  const std::string noise = "noise.png";
   ASSERT_NE(png_image_write_to_file(&image, noise.c_str(), 0, bytes.data(), 0, nullptr), 0);
-  expect("cage " + noise + " -o " + path("none.obj"), 2,
+  expect("cage " + noise + " -o none.obj", 2,
          "noise.png: the silhouette has more than 4,000,000 pixel edges");
 }
 
 TEST_F(CageCommand, NamesTheLimitsThatACageExceeds) {
-  const auto star = sample("3d/star_model.obj"), out = " -o " + path("cage.obj");
-  const std::string far = "the cage is far from the model";
-  expect("cage " + star + out + " --control-points 5", 0, far);
-  EXPECT_EQ(expect("cage " + star + out, 0, "volume ").errors.find(far), std::string::npos);
+  const std::string star = "3d/star_model.obj", out = " -o cage.obj";
+  expect("cage " + star + out + " --control-points 5", 0, "the cage is far from the model");
+  EXPECT_EQ(
+      expect("cage " + star + out, 0, "volume ").errors.find("the cage is far from the model"),
+      std::string::npos);
 }
 
 TEST_F(CageCommand, RefusesWithReason) {
-  const auto out = " -o " + path("out.obj");
+  const std::string out = " -o out.obj";
   expect("cage" + out, 1, "give either a MODEL");
   expect("cage " + square() + out + " --control-points 2", 1, "at least 3");
   expect("cage " + square() + out + " --offset -1", 1, "offset");
   expect("cage " + square() + out + " --symmetric z", 1, "symmetric across z");
   expect("cage " + square() + out + " --symmetric w", 1, "--symmetric");
-  expect("cage " + square() + " -o " + path("out.ply"), 1, ".obj");
-  expect("cage " + sample("3d/limb_model.obj") + " -o " + path("out.stl"), 1,
-         "must end in .obj, .off or .ply");
+  expect("cage " + square() + " -o out.ply", 1, ".obj");
+  expect("cage 3d/limb_model.obj -o out.stl", 1, "must end in .obj, .off or .ply");
   expect("cage " + file("dot.obj", "v 1 1 1\n") + out, 2, "dot.obj: the model size of 0 is out");
-  expect("cage " + path("none.obj") + out, 4, "none.obj");
-  EXPECT_EQ(slurp(path("out.obj")), "");
+  expect("cage none.obj" + out, 4, "none.obj");
+  EXPECT_EQ(slurp("out.obj"), "");
 }
 
 TEST_F(CageCommand, RepairTellsWhatWasDoneAndNumbersThatChanged) {
   const auto defective = file("open.obj", "v 5 5\nv 0 0\nv 1 0\nv 1 1\nv 0 1\nl 2 3 4 5\n");
-  expect("mesh " + defective + " -o " + path("mesh.obj"), 2, "flbc cage --repair");
-  const auto told = expect("cage --repair " + defective + " -o " + path("mended.obj"), 0,
+  expect("mesh " + defective + " -o mesh.obj", 2, "flbc cage --repair");
+  const auto told = expect("cage --repair " + defective + " -o mended.obj", 0,
                            "a new edge joins the open ends at control points 1 and 4");
   EXPECT_NE(told.errors.find("control point 0 at (5, 5) belongs to no facet"), std::string::npos);
   EXPECT_NE(told.errors.find("mended.numbers.txt"), std::string::npos);
-  EXPECT_EQ(slurp(path("mended.numbers.txt")), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
-  expect("mesh " + path("mended.obj") + " -o " + path("mesh.obj") + " -q", 0, "");
+  EXPECT_EQ(slurp("mended.numbers.txt"), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
+  expect("mesh mended.obj -o mesh.obj -q", 0, "");
 }
 
 TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
@@ -144,27 +142,27 @@ TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                           "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nl 1 2\n");
   const auto solve = [&](const std::string& cage) {
-    return "solve " + cage + " --vertices 100 -o " + path("w.npy");
+    return "solve " + cage + " --vertices 100 -o w.npy";
   };
   expect(solve(mixed), 2, "has both polygons and polylines");
   expect(solve(mixed), 2, "flbc cage --repair");
-  expect("cage --repair " + mixed + " -o " + path("mended.obj"), 0, "1 polylines next to");
-  expect(solve(path("mended.obj")), 0, "");
+  expect("cage --repair " + mixed + " -o mended.obj", 0, "1 polylines next to");
+  expect(solve("mended.obj"), 0, "");
 }
 
 TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {
-  expect("cage --repair " + square() + " -o " + path("same.obj"), 0, "no defects found");
-  EXPECT_EQ(slurp(path("same.numbers.txt")), "");
-  EXPECT_TRUE(check(path("same.obj"), square())["fine"]);
+  expect("cage --repair " + square() + " -o same.obj", 0, "no defects found");
+  EXPECT_EQ(slurp("same.numbers.txt"), "");
+  EXPECT_TRUE(check("same.obj", square())["fine"]);
 }
 
 TEST_F(CageCommand, RunFromTheModelAlone) {
-  for (const std::string& name : {std::string("2d/figure"), std::string("3d/limb")}) {
-    const auto model = sample(name + "_model.obj"), out = path("out");
+  for (const std::string name : {"2d/figure", "3d/limb"}) {
+    const auto model = name + "_model.obj";
     // Options may precede the model.
-    expect("run --auto-cage --control-points 30 " + model + " --vertices 1500 -o " + out, 0,
+    expect("run --auto-cage --control-points 30 " + model + " --vertices 1500 -o out", 0,
            "cage.obj");
-    const auto report = nlohmann::json::parse(slurp(out + "/report.json"));
+    const auto report = nlohmann::json::parse(slurp("out/report.json"));
     double sum = 0;
     for (const auto& [step, seconds] : report["seconds"].items()) {
       EXPECT_GT(seconds.get<double>(), step == "cage" ? 1e-3 : 0);
@@ -172,16 +170,15 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
     }
     EXPECT_GE(report["seconds"]["total"].get<double>(), sum);
     EXPECT_TRUE(report["check"]["fine"]);
-    const auto cage = path("cage.obj");
-    expect("cage " + model + " -q --control-points 30 -o " + cage, 0, "");
-    EXPECT_EQ(slurp(out + "/cage.obj"), slurp(cage));
+    expect("cage " + model + " -q --control-points 30 -o cage.obj", 0, "");
+    EXPECT_EQ(slurp("out/cage.obj"), slurp("cage.obj"));
   }
-  const auto model = sample("2d/figure_model.obj");
+  const std::string model = "2d/figure_model.obj";
   const auto symmetric = model + " -q --symmetric x -o ";
-  expect("run --auto-cage --vertices 1500 --force " + symmetric + path("out"), 0, "");
-  expect("cage " + symmetric + path("cage.obj"), 0, "");
-  EXPECT_EQ(slurp(path("out/cage.obj")), slurp(path("cage.obj")));
-  const auto into = [&](const std::string& folder) { return " -q -o " + path(folder); };
+  expect("run --auto-cage --vertices 1500 --force " + symmetric + "out", 0, "");
+  expect("cage " + symmetric + "cage.obj", 0, "");
+  EXPECT_EQ(slurp("out/cage.obj"), slurp("cage.obj"));
+  const auto into = [&](const std::string& folder) { return " -q -o " + folder; };
   expect("run " + model + " --auto-cage --vertices 1500" + into("plain"), 0, "");
   expect("run " + model + " --auto-cage --control-points two" + into("none"), 1,
          "--control-points");

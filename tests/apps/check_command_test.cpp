@@ -42,11 +42,11 @@ class CheckCommand : public CommandLineTest {
 };
 
 TEST_F(CheckCommand, SoundCagesWithTheirFacts) {
-  expect_check(sample("2d/ring_cage.obj"), 0,
+  expect_check("2d/ring_cage.obj", 0,
                {"a sound 2D cage", "control points  22\n", "edges           22\n",
                 "outer loops     1\n", "holes           1\n", "area            23.26"});
   expect_check(
-      sample("3d/torus_cage.obj"), 0,
+      "3d/torus_cage.obj", 0,
       {"a sound 3D cage", "triangles       96\n", "cavities        0\n", "volume          40."});
 }
 
@@ -54,11 +54,11 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
   const auto cage = file("bad.obj",
                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 0\nv 6 6 0\n"
                          "l 1 2 3 4\n");
-  expect_check(cage + " --json " + path("r.json"), 2,
+  expect_check(cage + " --json r.json", 2,
                {"not a cage, 4 defects", "control point 5 at (6, 6) belongs to no edge",
                 "open at control point 0 at (0, 0)"},
                {"bad.obj: control point 4 at (5, 5) belongs to no edge"});
-  const auto json = Json::parse(slurp(path("r.json")));
+  const auto json = Json::parse(slurp("r.json"));
   EXPECT_EQ(json["fine"], false);
   EXPECT_EQ(json["cage"]["sound"], false);
   EXPECT_EQ(json["cage"]["defects"].size(), 4);
@@ -66,7 +66,7 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
 
   const auto crossed = file("crossed.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n");
   expect_check(crossed, 2, {"(0.5, 0.5)"}, {"crossed.obj: "});
-  expect_check(crossed + " --model " + path("absent.obj"), 2, {"were skipped"});
+  expect_check(crossed + " --model absent.obj", 2, {"were skipped"});
 }
 
 TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
@@ -75,7 +75,7 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
                          "v 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n"
                          "f 2 6 8 4\n");
-  for (const std::string& command : {"check " + cube, "mesh " + cube + " -o " + path("m.mesh")}) {
+  for (const std::string& command : {"check " + cube, "mesh " + cube + " -o m.mesh"}) {
     expect(command, 2, "and 5 of the file)");
   }
 }
@@ -88,7 +88,7 @@ TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
   const auto away = [&](const std::string& name, int dim, double distance) {
     std::ostringstream text;
     text.precision(17);
-    std::istringstream lines(slurp(sample(name)));
+    std::istringstream lines(slurp(name));
     for (std::string line; std::getline(lines, line);) {
       std::istringstream words(line);
       std::string keyword;
@@ -107,17 +107,16 @@ TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
     SCOPED_TRACE(dim);
     const auto name = dim == 2 ? "2d/letter_cage.obj" : "3d/star_cage.obj";
     const auto farther = away(name, dim, 5e9);
-    expect("run " + farther + " -o " + path("out"), 2, "too far from the origin");
-    EXPECT_FALSE(std::filesystem::exists(path("out")));
+    expect("run " + farther + " -o out", 2, "too far from the origin");
+    EXPECT_FALSE(std::filesystem::exists("out"));
     const auto cage = away(name, dim, 1e8);
     const auto checked = expect("check " + cage);
     EXPECT_NE(checked.output.find("sound"), std::string::npos);
     EXPECT_EQ(checked.output.find("e+08"), std::string::npos) << checked.output;
     EXPECT_EQ(expect("info " + cage).output.find("e+08"), std::string::npos);
-    expect("solve " + cage + " --vertices 500 -q --save-domain " +
-           path(dim == 2 ? "d.obj" : "d.mesh") + " -o " + path("w.npy"));
-    expect("check " + cage + " --domain " + path(dim == 2 ? "d.obj" : "d.mesh") + " --weights " +
-           path("w.npy"));
+    expect("solve " + cage + " --vertices 500 -q --save-domain " + (dim == 2 ? "d.obj" : "d.mesh") +
+           " -o w.npy");
+    expect("check " + cage + " --domain " + (dim == 2 ? "d.obj" : "d.mesh") + " --weights w.npy");
   }
 }
 
@@ -129,7 +128,7 @@ TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
                          "f 2 8 9\nf 2 9 6\n");
   expect_check(cage, 0, {": too thin to mesh"});
   const auto start = std::chrono::steady_clock::now();
-  const auto refused = expect("solve " + cage + " -o " + path("w.npy"), 2,
+  const auto refused = expect("solve " + cage + " -o w.npy", 2,
                               "control point 8 at (1, 1, 1) is too close to triangle");
   EXPECT_EQ(refused.errors.find("Netgen"), std::string::npos) << refused.errors;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -138,7 +137,7 @@ TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
 
 TEST_F(CheckCommand, RepairIsAdvisedWhereItHelps) {
   const auto solve = [&](const std::string& content) {
-    return run("solve " + file("bad.obj", content) + " -o " + path("w.npy")).errors;
+    return run("solve " + file("bad.obj", content) + " -o w.npy").errors;
   };
   const auto huge = solve("v 0 0\nv 1e31 0\nv 0 1e31\n");
   EXPECT_NE(huge.find("use another unit of length"), std::string::npos) << huge;
@@ -152,20 +151,19 @@ TEST_F(CheckCommand, RepairIsAdvisedWhereItHelps) {
 
 // Smoothness trades locality for smaller jumps of gradients, and weaker creases of a pose.
 TEST_F(CheckCommand, SmoothnessShowsInJumpsAndCreases) {
-  const auto cage = sample("3d/limb_cage.obj");
-  const auto model = sample("3d/limb_model.obj");
+  const std::string cage = "3d/limb_cage.obj";
+  const std::string model = "3d/limb_model.obj";
   const auto measured = [&](const std::string& smoothness) {
     const auto end = "_" + smoothness;
     expect("solve " + cage + " --model " + model + " --vertices 2000 --smoothness " + smoothness +
-               " -o " + path("w" + end + ".npy") + " --report " + path("s" + end + ".json"),
+               " -o w" + end + ".npy --report s" + end + ".json",
            0);
-    EXPECT_EQ(Json::parse(slurp(path("s" + end + ".json")))["options"]["smoothness"],
+    EXPECT_EQ(Json::parse(slurp("s" + end + ".json"))["options"]["smoothness"],
               std::stod(smoothness));
-    expect_check(cage + " --model " + model + " --weights " + path("w" + end + ".npy") +
-                     " --pose " + sample("3d/limb_cage_pose.obj") + " --json " +
-                     path("c" + end + ".json"),
+    expect_check(cage + " --model " + model + " --weights w" + end +
+                     ".npy --pose 3d/limb_cage_pose.obj --json c" + end + ".json",
                  0, {"Creases in the pose: "});
-    return Json::parse(slurp(path("c" + end + ".json")));
+    return Json::parse(slurp("c" + end + ".json"));
   };
   const auto rough = measured("0"), smooth = measured("0.01");
   EXPECT_GT(rough["creases"]["edges"], 100);
@@ -173,21 +171,20 @@ TEST_F(CheckCommand, SmoothnessShowsInJumpsAndCreases) {
   EXPECT_GT(smooth["weights"]["mean_influences"], rough["weights"]["mean_influences"]);
 
   expect_check(cage + " --model " + model + " --pose " + model, 1, {}, {"--pose"});
-  expect_check(cage + " --model " + model + " --weights " + path("w_0.npy") + " --pose " + model, 2,
-               {}, {"limb_model.obj"});
+  expect_check(cage + " --model " + model + " --weights w_0.npy --pose " + model, 2, {},
+               {"limb_model.obj"});
 }
 
 TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
-  expect_check(cage + " --model " + model + " --json " + path("r.json"), 0,
+  expect_check(cage + " --model " + model + " --json r.json", 0,
                {"2 of 4 vertices are outside the cage; the farthest is vertex 1 at (5, 1)"});
-  const auto json = Json::parse(slurp(path("r.json")))["model"];
+  const auto json = Json::parse(slurp("r.json"))["model"];
   EXPECT_EQ(json["outside"], 2);
   EXPECT_EQ(json["first_outside"]["point"], 1);
   EXPECT_EQ(json["farthest_outside"]["distance"], 1);
-  expect_check(sample("3d/limb_cage.obj") + " --model " + sample("3d/limb_model.obj"), 0,
-               {"none outside the cage"});
+  expect_check("3d/limb_cage.obj --model 3d/limb_model.obj", 0, {"none outside the cage"});
   if (!has_model("defective/half_outside_cage.obj")) GTEST_SKIP() << "the real models are absent";
   expect_check(model_path("defective/half_outside_cage.obj") + " --model " +
                    model_path("defective/half_outside_model.obj"),
@@ -211,49 +208,45 @@ TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
   const auto check = [&](const std::string& name, const std::string& domain_file) {
     SCOPED_TRACE(name);
     solve(name, domain_file);
-    const auto cage = sample(name + "_cage.obj");
-    const auto model = sample(name + "_model.obj");
-    const auto result = expect_check(
-        cage + " --model " + model + " --weights " + path("w.npy") + " --json " + path("m.json"), 0,
-        {"sum to 1"});
+    const auto cage = name + "_cage.obj";
+    const auto model = name + "_model.obj";
+    const auto result = expect_check(cage + " --model " + model + " --weights w.npy --json m.json",
+                                     0, {"sum to 1"});
     EXPECT_EQ(result.output.find("total variation"), std::string::npos) << result.output;
-    expect_check(cage + " --domain " + path(domain_file) + " --weights " + path("v.npy") +
-                     " --json " + path("d.json"),
-                 0, {"linear on facets", "influences / harmonic           1 "});
-    return std::pair(Json::parse(slurp(path("m.json"))), Json::parse(slurp(path("d.json"))));
+    expect_check(cage + " --domain " + domain_file + " --weights v.npy --json d.json", 0,
+                 {"linear on facets", "influences / harmonic           1 "});
+    return std::pair(Json::parse(slurp("m.json")), Json::parse(slurp("d.json")));
   };
   {
     const auto [at_model, on_mesh] = check("2d/letter", "d.obj");
-    const auto model = sample("2d/letter_model.obj");
-    expect_measures<2>(at_model, sample("2d/letter_cage.obj"),
-                       io::to_points<2>(io::read_polygons(model), model), path("w.npy"));
-    expect_measures<2>(on_mesh, sample("2d/letter_cage.obj"),
-                       io::read_domain<2>(path("d.obj")).points, path("v.npy"));
+    expect_measures<2>(
+        at_model, "2d/letter_cage.obj",
+        io::to_points<2>(io::read_polygons("2d/letter_model.obj"), "2d/letter_model.obj"), "w.npy");
+    expect_measures<2>(on_mesh, "2d/letter_cage.obj", io::read_domain<2>("d.obj").points, "v.npy");
     EXPECT_EQ(on_mesh["weights"]["control_points_found"], 24);
     EXPECT_NEAR(on_mesh["weights"]["mesh"]["influence_ratio"].get<double>(), 1, 1e-3);
   }
   const auto [at_model, on_mesh] = check("3d/limb", "d.mesh");
-  const auto model = sample("3d/limb_model.obj");
-  expect_measures<3>(at_model, sample("3d/limb_cage.obj"),
-                     io::to_points<3>(io::read_polygons(model), model), path("w.npy"));
-  expect_measures<3>(on_mesh, sample("3d/limb_cage.obj"), io::read_domain<3>(path("d.mesh")).points,
-                     path("v.npy"));
+  expect_measures<3>(at_model, "3d/limb_cage.obj",
+                     io::to_points<3>(io::read_polygons("3d/limb_model.obj"), "3d/limb_model.obj"),
+                     "w.npy");
+  expect_measures<3>(on_mesh, "3d/limb_cage.obj", io::read_domain<3>("d.mesh").points, "v.npy");
   EXPECT_FALSE(at_model["weights"].contains("mesh"));
 }
 
 // What the program delivers by default passes its own check, and beats harmonic coordinates in what
 // it minimizes.
 TEST_F(CheckCommand, DefaultResultsAreFine) {
-  const auto cage = sample("2d/figure_cage.obj");
-  expect("solve " + cage + " --vertices 2500 --distances exact -q -o " + path("w.npy") +
-         " --save-domain " + path("d.obj") + " --report " + path("r.json"));
-  const auto checked = expect_check(cage + " --domain " + path("d.obj") + " --weights " +
-                                        path("w.npy") + " --json " + path("c.json"),
-                                    0, {" deep (within solver accuracy), ", "weighted total"});
+  expect(
+      "solve 2d/figure_cage.obj --vertices 2500 --distances exact -q -o w.npy --save-domain d.obj "
+      "--report r.json");
+  const auto checked =
+      expect_check("2d/figure_cage.obj --domain d.obj --weights w.npy --json c.json", 0,
+                   {" deep (within solver accuracy), ", "weighted total"});
   EXPECT_EQ(checked.output.find("  no  "), std::string::npos) << checked.output;
-  const auto mesh = Json::parse(slurp(path("c.json")))["weights"]["mesh"];
+  const auto mesh = Json::parse(slurp("c.json"))["weights"]["mesh"];
   const double weighted = mesh["weighted_variation"];
-  const double objective = Json::parse(slurp(path("r.json")))["objective"];
+  const double objective = Json::parse(slurp("r.json"))["objective"];
   EXPECT_NEAR(weighted, objective, 1e-6 * objective);
   EXPECT_LT(weighted, 0.9 * mesh["harmonic_weighted_variation"].get<double>());
 }
@@ -261,41 +254,39 @@ TEST_F(CheckCommand, DefaultResultsAreFine) {
 // An extremum that no solve leaves.
 TEST_F(CheckCommand, DeepExtremaAreNotFine) {
   ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
-  auto weights = io::read_weights(path("v.npy"));
+  auto weights = io::read_weights("v.npy");
   Eigen::Index inside = 0;  // on the cage, one of two weights is 0.5 at least
   ASSERT_LT(weights.colwise().maxCoeff().minCoeff(&inside), 0.5);
   weights(3, inside) += 2;
-  io::write_weights(path("x.npy"), weights);
-  const auto checked = run("check " + sample("2d/ring_cage.obj") + " --domain " + path("d.obj") +
-                           " --weights " + path("x.npy"));
+  io::write_weights("x.npy", weights);
+  const auto checked = run("check 2d/ring_cage.obj --domain d.obj --weights x.npy");
   EXPECT_NE(checked.output.find(" no   at most "), std::string::npos) << checked.output;
 }
 
 TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
   ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
-  const auto cage = sample("2d/ring_cage.obj");
-  const auto on_mesh = cage + " --domain " + path("d.obj") + " --weights " + path("x.npy");
-  const auto sound = io::read_weights(path("v.npy"));
+  const std::string on_mesh = "2d/ring_cage.obj --domain d.obj --weights x.npy";
+  const auto sound = io::read_weights("v.npy");
 
   auto weights = sound;
   const auto last = static_cast<Index>(weights.cols() - 1);  // inside
   weights(3, last) += 1e-3;
-  io::write_weights(path("x.npy"), weights);
+  io::write_weights("x.npy", weights);
   const auto point = "point " + std::to_string(last) + " at (";
   expect_check(on_mesh, 2, {"sum to 1                        0.001         no   " + point},
                {"x.npy: the weights of " + point, "do not reproduce it"});
 
   weights = sound;
   weights(7, 7) = 0.75;  // the first vertices are the control points
-  io::write_weights(path("x.npy"), weights);
+  io::write_weights("x.npy", weights);
   expect_check(on_mesh, 2, {"Lagrange, 22 control points     0.25          no   point 7 at ("},
                {"at point 7 at ("});
 
   // At another model point than its own, a row reproduces another point.
-  weights = io::read_weights(path("w.npy"));
+  weights = io::read_weights("w.npy");
   weights.col(0).swap(weights.col(1));
-  io::write_weights(path("x.npy"), weights);
-  expect_check(cage + " --model " + sample("2d/ring_model.obj") + " --weights " + path("x.npy"), 2,
+  io::write_weights("x.npy", weights);
+  expect_check("2d/ring_cage.obj --model 2d/ring_model.obj --weights x.npy", 2,
                {"reproduce points"}, {"do not reproduce it"});
 }
 
@@ -307,14 +298,14 @@ TEST_F(CheckCommand, NegativeWeightsAreReportedOnly) {
       0.25, -0.25,        //
       0.25, 0.75,         //
       0.25, -0.25;
-  io::write_weights(path("w.npy"), weights);
-  expect_check(cage + " --model " + model + " --weights " + path("w.npy"), 0,
+  io::write_weights("w.npy", weights);
+  expect_check(cage + " --model " + model + " --weights w.npy", 0,
                {"smallest weight                 -0.25         no   point 1 at (2, 2)",
                 "negative weights                2             no"});
 }
 
 TEST_F(CheckCommand, JsonInPlaceOfTheTable) {
-  const auto result = expect("check " + sample("2d/ring_cage.obj") + " --json -");
+  const auto result = expect("check 2d/ring_cage.obj --json -");
   const auto json = Json::parse(result.output);
   EXPECT_EQ(json["fine"], true);
   EXPECT_EQ(json["cage"]["holes"], 1);
@@ -323,29 +314,25 @@ TEST_F(CheckCommand, JsonInPlaceOfTheTable) {
 
 TEST_F(CheckCommand, FilesThatDoNotBelongAndWrongUsage) {
   ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
-  const auto cage = sample("2d/ring_cage.obj");
+  const std::string cage = "2d/ring_cage.obj";
   const auto refused = [&](const std::string& arguments, int status, const std::string& words) {
     const auto result = expect_check(arguments, status, {}, {words});
     EXPECT_EQ(result.output, "");
   };
-  refused(cage + " --weights " + path("w.npy"), 1, "--model or --domain");
-  refused(cage + " --domain " + path("d.obj"), 1, "--weights");
+  refused(cage + " --weights w.npy", 1, "--model or --domain");
+  refused(cage + " --domain d.obj", 1, "--weights");
   refused("", 1, "CAGE");
-  refused(cage + " --json " + path("r.txt"), 1, ".json");
+  refused(cage + " --json r.txt", 1, ".json");
   refused(cage + " --model ''", 1, "the value is empty");
-  refused(path("missing.obj"), 4, "missing.obj");
-  refused(cage + " --weights " + path("w.npy") + " --domain " + path("d.obj"), 2, "d.obj has ");
-  refused(cage + " --weights " + path("w.npy") + " --model " + sample("2d/letter_model.obj"), 2,
-          "letter_model.obj has 1148");
-  refused(
-      sample("2d/letter_cage.obj") + " --weights " + path("v.npy") + " --domain " + path("d.obj"),
-      2, "for 22 control points, but");
+  refused("missing.obj", 4, "missing.obj");
+  refused(cage + " --weights w.npy --domain d.obj", 2, "d.obj has ");
+  refused(cage + " --weights w.npy --model 2d/letter_model.obj", 2, "letter_model.obj has 1148");
+  refused("2d/letter_cage.obj --weights v.npy --domain d.obj", 2, "for 22 control points, but");
   // A mesh of the cage at another place.
-  auto domain = io::read_domain<2>(path("d.obj"));
+  auto domain = io::read_domain<2>("d.obj");
   domain.points.array() += 0.5;
-  io::write_domain(path("moved.obj"), domain);
-  refused(cage + " --weights " + path("v.npy") + " --domain " + path("moved.obj"), 2,
-          "moved.obj: boundary vertex");
+  io::write_domain("moved.obj", domain);
+  refused(cage + " --weights v.npy --domain moved.obj", 2, "moved.obj: boundary vertex");
   EXPECT_NE(run("check --help").output.find("--weights"), std::string::npos);
 }
 

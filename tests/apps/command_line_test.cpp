@@ -28,12 +28,12 @@ class CommandLine : public CommandLineTest {
   // Expects exit status and words in the one message, and that no file is left behind.
   void expect_failure(const std::string& arguments, int status, const std::string& words) const {
     SCOPED_TRACE(arguments);
-    const auto before = std::distance(fs::directory_iterator(path("")), fs::directory_iterator());
+    const auto before = std::distance(fs::directory_iterator("."), fs::directory_iterator());
     const auto result = run(arguments);
     EXPECT_EQ(result.status, status) << result.errors;
     EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
     EXPECT_EQ(result.output, "");
-    EXPECT_EQ(std::distance(fs::directory_iterator(path("")), fs::directory_iterator()), before);
+    EXPECT_EQ(std::distance(fs::directory_iterator("."), fs::directory_iterator()), before);
   }
 };
 
@@ -46,19 +46,19 @@ class SolveSamples : public CommandLineTest, public ::testing::WithParamInterfac
 // Solves a sample at its model and on its mesh, and checks the files against each other.
 template <int Dim>
 void SolveSamples::expect_solved(const std::string& domain_file) const {
-  const auto cage_file = sample(std::string(GetParam()) + "_cage.obj");
-  const auto model_file = sample(std::string(GetParam()) + "_model.obj");
-  expect("solve " + cage_file + " -o " + path("w.mtx") + " --vertices 2000 --model " + model_file +
-         " --save-domain " + path(domain_file) + " --report " + path("r.json"));
+  const auto cage_file = std::string(GetParam()) + "_cage.obj";
+  const auto model_file = std::string(GetParam()) + "_model.obj";
+  expect("solve " + cage_file + " -o w.mtx --vertices 2000 --model " + model_file +
+         " --save-domain " + domain_file + " --report r.json");
   const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
   const auto model = io::to_points<Dim>(io::read_polygons(model_file), model_file);
-  const auto rows = io::read_weights(path("w.mtx"));
+  const auto rows = io::read_weights("w.mtx");
   const auto quality = measure_quality(cage.points, model, rows);
   EXPECT_LT(quality.max_partition_error, 1e-12);
   EXPECT_LT(quality.max_reproduction_error, 1e-12);
   EXPECT_GT(quality.min_weight, -0.05);
 
-  const auto report = nlohmann::json::parse(slurp(path("r.json")));
+  const auto report = nlohmann::json::parse(slurp("r.json"));
   for (const char* key : {"method", "dim", "control_points", "vertices", "cells", "iterations",
                           "converged", "objective", "seconds", "min_weight", "max_partition_error",
                           "max_reproduction_error", "version", "options"}) {
@@ -67,7 +67,7 @@ void SolveSamples::expect_solved(const std::string& domain_file) const {
   EXPECT_EQ(report["dim"], Dim);
   EXPECT_EQ(report["converged"], true);
   EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
-  const auto domain = io::read_domain<Dim>(path(domain_file));
+  const auto domain = io::read_domain<Dim>(domain_file);
   EXPECT_EQ(report["vertices"], domain.num_vertices());
   EXPECT_EQ(report["cells"], domain.num_cells());
 }
@@ -83,11 +83,12 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, SolveSamples,
 TEST_F(CommandLine, ReportsTellTheRelaxationInUse) {
   const auto relaxation = [&](const std::string& options) {
     const int not_converged = 3;
-    expect("solve " + sample("2d/letter_cage.obj") +
-               " --vertices 300 --max-iterations 20 -q --method lbc2014 -o " + path("w.npy") +
-               " --report " + path("r.json") + options,
-           not_converged);
-    return nlohmann::json::parse(slurp(path("r.json")))["options"]["relaxation"].get<double>();
+    expect(
+        "solve 2d/letter_cage.obj --vertices 300 --max-iterations 20 -q --method lbc2014 -o "
+        "w.npy --report r.json" +
+            options,
+        not_converged);
+    return nlohmann::json::parse(slurp("r.json"))["options"]["relaxation"].get<double>();
   };
   EXPECT_EQ(relaxation(""), 1.9);
   EXPECT_EQ(relaxation(" --penalty 10"), 1.65);
@@ -95,95 +96,87 @@ TEST_F(CommandLine, ReportsTellTheRelaxationInUse) {
 }
 
 TEST_F(CommandLine, DrawsOnlyWhatFits) {
-  const auto cage = sample("2d/letter_cage.obj");
-  expect("solve " + cage + " -o " + path("w.npy") + " --vertices 500 --method harmonic -q" +
-         " --save-domain " + path("d.obj"));
-  const auto draw =
-      "draw " + path("d.obj") + " --weights " + path("w.npy") + " -o " + path("p.png") + " --cage ";
+  const std::string cage = "2d/letter_cage.obj";
+  expect("solve " + cage + " -o w.npy --vertices 500 --method harmonic -q --save-domain d.obj");
+  const std::string draw = "draw d.obj --weights w.npy -o p.png --cage ";
   expect_failure(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
   // Of two kinds of weights, both functions and their difference.
-  expect("solve " + cage + " --domain " + path("d.obj") + " -q --method meanvalue -o " +
-         path("m.npy"));
-  expect(draw + cage + " --compare " + path("m.npy"));
-  const auto three = slurp(path("p.png"));
-  expect(draw + cage + " --compare " + path("w.npy"));
-  EXPECT_NE(slurp(path("p.png")), three);
-  fs::remove(path("p.png"));
-  expect_failure(draw + cage + " --all --compare " + path("m.npy"), 1, "cannot be combined");
-  expect_failure(draw + sample("2d/ring_cage.obj"), 2, "has weights for 24 control points, but");
+  expect("solve " + cage + " --domain d.obj -q --method meanvalue -o m.npy");
+  expect(draw + cage + " --compare m.npy");
+  const auto three = slurp("p.png");
+  expect(draw + cage + " --compare w.npy");
+  EXPECT_NE(slurp("p.png"), three);
+  fs::remove("p.png");
+  expect_failure(draw + cage + " --all --compare m.npy", 1, "cannot be combined");
+  expect_failure(draw + "2d/ring_cage.obj", 2, "has weights for 24 control points, but");
 }
 
 TEST_F(CommandLine, ComparesFunctionsIn3D) {
-  const auto cage = sample("3d/torus_cage.obj");
-  const auto solve = "solve " + cage + " -q --vertices 500 --save-domain " + path("d.mesh");
-  expect(solve + " --method harmonic -o " + path("w.npy"));
-  expect("solve " + cage + " --domain " + path("d.mesh") + " -q --method meanvalue -o " +
-         path("m.npy"));
-  const auto draw = "draw --model " + path("d.mesh") + " --cage " + cage + " --weights " +
-                    path("w.npy") + " -o " + path("p.svg");
-  expect(draw + " --compare " + path("w.npy"));
-  const auto same = slurp(path("p.svg"));
-  expect(draw + " --compare " + path("m.npy"));
-  EXPECT_NE(slurp(path("p.svg")), same);
-  expect_failure("draw " + path("d.mesh") + " --cage " + cage + " --weights " + path("w.npy") +
-                     " -o " + path("q.svg") + " --compare " + path("m.npy"),
-                 1, "--compare in 3D needs --model");
+  const std::string cage = "3d/torus_cage.obj";
+  const auto solve = "solve " + cage + " -q --vertices 500 --save-domain d.mesh";
+  expect(solve + " --method harmonic -o w.npy");
+  expect("solve " + cage + " --domain d.mesh -q --method meanvalue -o m.npy");
+  const auto draw = "draw --model d.mesh --cage " + cage + " --weights w.npy -o p.svg";
+  expect(draw + " --compare w.npy");
+  const auto same = slurp("p.svg");
+  expect(draw + " --compare m.npy");
+  EXPECT_NE(slurp("p.svg"), same);
+  expect_failure("draw d.mesh --cage " + cage + " --weights w.npy -o q.svg --compare m.npy", 1,
+                 "--compare in 3D needs --model");
 }
 
 TEST_F(CommandLine, TellsWhatIsInAFile) {
-  auto result = expect("info " + sample("3d/torus_cage.obj"));
+  auto result = expect("info 3d/torus_cage.obj");
   EXPECT_NE(result.output.find("a sound 3D cage of 48 control points and 96 triangles"),
             std::string::npos)
       << result.output;
-  result = run("info " + sample("2d/ring_cage.obj"));
+  result = run("info 2d/ring_cage.obj");
   EXPECT_NE(result.output.find("a sound 2D cage of 22 control points"), std::string::npos);
-  expect("solve " + sample("2d/ring_cage.obj") + " --method harmonic --vertices 500 -o " +
-         path("w.npy"));
-  result = run("info " + path("w.npy"));
+  expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o w.npy");
+  result = run("info w.npy");
   EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
-  expect("convert -q " + path("w.npy") + " -o " + path("w.txt"));
+  expect("convert -q w.npy -o w.txt");
   const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
-  EXPECT_EQ(words(run("info " + path("w.txt")).output), words(result.output));
+  EXPECT_EQ(words(run("info w.txt").output), words(result.output));
   for (const std::string mesh : {"d.obj", "d.mesh"}) {
     SCOPED_TRACE(mesh);
-    const auto cage = sample(mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj");
-    expect("mesh " + cage + " --vertices 800 -q -o " + path(mesh));
-    expect("convert -q " + path(mesh) + " -o " + path("d.vtu"));
-    const auto info = expect("info " + path("d.vtu"));
+    const std::string cage = mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj";
+    expect("mesh " + cage + " --vertices 800 -q -o " + mesh);
+    expect("convert -q " + mesh + " -o d.vtu");
+    const auto info = expect("info d.vtu");
     EXPECT_NE(info.output.find(mesh == "d.obj" ? " triangles, area " : " tetrahedra, volume "),
               std::string::npos)
         << info.output;
     if (mesh == "d.mesh") {
-      EXPECT_EQ(words(info.output), words(run("info " + path(mesh)).output));
+      EXPECT_EQ(words(info.output), words(run("info " + mesh).output));
     }
   }
   result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
   EXPECT_NE(result.output.find("4 vertices"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("no facets and no polylines"), std::string::npos) << result.output;
-  expect("info " + path("missing.obj"), 4);
+  expect("info missing.obj", 4);
 }
 
 // Where cells of good shape take more vertices than were asked for, there are more, and a note.
 TEST_F(CommandLine, TooFewVerticesBecomeMore) {
-  const auto cage = sample("2d/letter_cage.obj");
-  expect("mesh " + cage + " --vertices 3 -o " + path("d.obj"), 0, "instead of 3 (--vertices)");
-  EXPECT_GT(io::read_domain<2>(path("d.obj")).num_vertices(), 3);
-  expect_failure("mesh " + cage + " --vertices 2000000000 -o " + path("e.obj"), 1, "too many");
+  expect("mesh 2d/letter_cage.obj --vertices 3 -o d.obj", 0, "instead of 3 (--vertices)");
+  EXPECT_GT(io::read_domain<2>("d.obj").num_vertices(), 3);
+  expect_failure("mesh 2d/letter_cage.obj --vertices 2000000000 -o e.obj", 1, "too many");
 }
 
 TEST_F(CommandLine, ALostOutputIsAFailure) {
-  for (const std::string& arguments : {"info " + sample("3d/limb_cage.obj"), std::string("--help"),
-                                       std::string("--version"), std::string("solve --help")}) {
+  for (const std::string arguments :
+       {"info 3d/limb_cage.obj", "--help", "--version", "solve --help"}) {
     const std::string command =
-        std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>" + path("errors.txt");
+        std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>errors.txt";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
-    EXPECT_NE(slurp(path("errors.txt")).find("standard output"), std::string::npos) << arguments;
+    EXPECT_NE(slurp("errors.txt").find("standard output"), std::string::npos) << arguments;
   }
 }
 
 // Job systems close them.
 TEST_F(CommandLine, LongSolvesAreAnnounced) {
-  const auto cage = sample("3d/limb_cage.obj");
+  const std::string cage = "3d/limb_cage.obj";
   EXPECT_EQ(expect("info " + cage).output.find("takes about"), std::string::npos);
   const auto seconds = [&](const std::string& vertices) {
     const auto text = expect("info " + cage + " --estimate" + vertices).output;
@@ -196,60 +189,54 @@ TEST_F(CommandLine, LongSolvesAreAnnounced) {
   EXPECT_NE(expect("info " + cage + " --estimate --vertices 10000000").output.find(" min and "),
             std::string::npos);
   expect("info " + cage + " --vertices 500", 1, "requires --estimate");
-  const auto quick = expect("solve " + cage + " --vertices 500 -o " + path("w.npy"));
+  const auto quick = expect("solve " + cage + " --vertices 500 -o w.npy");
   EXPECT_EQ(quick.errors.find("this may take"), std::string::npos) << quick.errors;
 }
 
 TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
-  const auto mesh = std::string(FLBC_PROGRAM) + " mesh " + sample("3d/limb_cage.obj") +
-                    " --vertices 500 -o " + path("m.mesh");
+  const auto mesh = std::string(FLBC_PROGRAM) + " mesh 3d/limb_cage.obj --vertices 500 -o m.mesh";
   for (const std::string streams : {" <&- >&-", " <&- 2>&-", " >&- 2>&-", " <&- >&- 2>&-"}) {
-    fs::remove(path("m.mesh"));
+    fs::remove("m.mesh");
     EXPECT_EQ(WEXITSTATUS(std::system((mesh + streams).c_str())), 0) << streams;
-    EXPECT_GE(io::read_domain<3>(path("m.mesh")).num_vertices(), 400) << streams;
+    EXPECT_GE(io::read_domain<3>("m.mesh").num_vertices(), 400) << streams;
   }
-  const auto info = std::string(FLBC_PROGRAM) + " info " + sample("3d/limb_cage.obj");
+  const auto info = std::string(FLBC_PROGRAM) + " info 3d/limb_cage.obj";
   EXPECT_EQ(WEXITSTATUS(std::system((info + " >&- 2>&-").c_str())), 4);
 }
 
 TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
   const auto status_of = [&](const std::string& limit, const std::string& arguments) {
-    const auto command =
-        "bash -c '" + limit + " " FLBC_PROGRAM " " + arguments + "' 2>" + path("errors.txt");
+    const auto command = "bash -c '" + limit + " " FLBC_PROGRAM " " + arguments + "' 2>errors.txt";
     return WEXITSTATUS(std::system(command.c_str()));
   };
-  const auto mesh = "mesh " + sample("3d/limb_cage.obj") + " --vertices 3000 -o " + path("m.mesh");
+  const std::string mesh = "mesh 3d/limb_cage.obj --vertices 3000 -o m.mesh";
   EXPECT_EQ(status_of("ulimit -f 10;", mesh), 4);
-  EXPECT_FALSE(fs::exists(path("m.mesh")));
+  EXPECT_FALSE(fs::exists("m.mesh"));
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
   // OpenBLAS would try for ever to get its buffer.
-  const auto solve =
-      "solve " + sample("2d/letter_cage.obj") + " --vertices 2000 -o " + path("w.npy");
+  const std::string solve = "solve 2d/letter_cage.obj --vertices 2000 -o w.npy";
   EXPECT_EQ(status_of("ulimit -v 200000; export OMP_NUM_THREADS=1; timeout 60", solve), 5);
 #endif
-  EXPECT_EQ(status_of("ulimit -s 128;", mesh), 0) << slurp(path("errors.txt"));
-  EXPECT_EQ(status_of("OMP_NUM_THREADS=100000", "solve " + sample("2d/letter_cage.obj") +
-                                                    " --vertices 2000 -o " + path("w.npy")),
-            0)
-      << slurp(path("errors.txt"));
+  EXPECT_EQ(status_of("ulimit -s 128;", mesh), 0) << slurp("errors.txt");
+  EXPECT_EQ(
+      status_of("OMP_NUM_THREADS=100000", "solve 2d/letter_cage.obj --vertices 2000 -o w.npy"), 0)
+      << slurp("errors.txt");
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
-  const auto cage = sample("3d/limb_cage.obj");
-  const auto command = "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
-                       " run " + cage + " -o " + path("out") +
-                       " --vertices 40000 --mesher tetgen -q >/dev/null 2>" + path("errors.txt");
+  const auto command =
+      "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
+      " run 3d/limb_cage.obj -o out --vertices 40000 --mesher tetgen -q >/dev/null 2>errors.txt";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
-  EXPECT_NE(slurp(path("errors.txt")).find("out of memory"), std::string::npos);
-  EXPECT_NE(slurp(path("out/report.json")).find("\"failed\": \"out of memory\""),
-            std::string::npos);
+  EXPECT_NE(slurp("errors.txt").find("out of memory"), std::string::npos);
+  EXPECT_NE(slurp("out/report.json").find("\"failed\": \"out of memory\""), std::string::npos);
 }
 #endif
 
 TEST_F(CommandLine, WrongUsageIsStatus1) {
-  const auto cage = sample("2d/letter_cage.obj");
-  const auto o = " -o " + path("w.npy");
+  const std::string cage = "2d/letter_cage.obj";
+  const std::string o = " -o w.npy";
   expect_failure("", 1, "subcommand");
   expect_failure("solve", 1, "CAGE");
   expect_failure("solve " + cage, 1, "--output");
@@ -265,22 +252,20 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
   expect_failure("solve " + cage + o + " --embed", 1, "--model");
   expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_failure("solve " + cage + " -o " + path("w.xls"), 1,
-                 ".mtx, .dmat, .npy, .csv, .mat or .lbw");
-  expect_failure("mesh " + cage + " -o " + path("d.mesh"), 1, ".obj, .off or .vtu");
+  expect_failure("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv, .mat or .lbw");
+  expect_failure("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
   expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
     expect_failure("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
   }
-  expect_failure("mesh " + cage + " -o " + path("d.obj") + " --vertices 2000000000", 1,
-                 "too many; at most");
+  expect_failure("mesh " + cage + " -o d.obj --vertices 2000000000", 1, "too many; at most");
   expect_failure("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
-  expect_failure("mesh '' -o " + path("d.obj"), 1, "CAGE: the value is empty");
+  expect_failure("mesh '' -o d.obj", 1, "CAGE: the value is empty");
 }
 
 TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
-  const auto cage = sample("2d/letter_cage.obj");
-  const auto solve = "solve " + cage + " --vertices 300 -q -o " + path("w.npy") + ' ';
+  const std::string cage = "2d/letter_cage.obj";
+  const auto solve = "solve " + cage + " --vertices 300 -q -o w.npy" + ' ';
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
@@ -299,51 +284,45 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   }
   expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
   expect_failure(solve + "--outside nearest", 1, "--outside: no model is given");
-  expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o " + path("out"), 1,
+  expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o out", 1,
                  "--tolerance: the method harmonic");
-  expect("mesh " + cage + " --vertices 300 -q -o " + path("d.obj"));
-  expect_failure(
-      "solve " + cage + " --domain " + path("d.obj") + " --mesher cgal -q -o " + path("w.npy"), 1,
-      "--mesher: --domain gives the mesh");
+  expect("mesh " + cage + " --vertices 300 -q -o d.obj");
+  expect_failure("solve " + cage + " --domain d.obj --mesher cgal -q -o w.npy", 1,
+                 "--mesher: --domain gives the mesh");
 }
 
 TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {
-  const std::string content = slurp(sample("2d/letter_cage.obj"));
+  const std::string content = slurp("2d/letter_cage.obj");
   const auto cage = file("cage.obj", content);
   file("w.npy", "old");
-  fs::create_hard_link(path("w.npy"), path("w.json"));
-  expect_failure("mesh " + cage + " -o " + path("./cage.obj"), 1, "would replace this input file");
-  expect_failure("solve " + cage + " -o " + path("x.npy") + " --save-domain " + cage, 1,
+  fs::create_hard_link("w.npy", "w.json");
+  expect_failure("mesh " + cage + " -o ./cage.obj", 1, "would replace this input file");
+  expect_failure("solve " + cage + " -o x.npy --save-domain " + cage, 1,
                  "would replace this input file");
-  expect_failure("solve " + cage + " -o " + path("w.npy") + " --report " + path("w.json"), 1,
-                 "two results");
+  expect_failure("solve " + cage + " -o w.npy --report w.json", 1, "two results");
   EXPECT_EQ(slurp(cage), content);
-  EXPECT_EQ(slurp(path("w.npy")), "old");
+  EXPECT_EQ(slurp("w.npy"), "old");
 }
 
 TEST_F(CommandLine, ReportsAreValidWhateverTheFilesAreCalled) {
   const auto cage = file("bad\xff name.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-  expect("solve '" + cage + "' -o " + path("w.npy") + " --vertices 100 -q " +
-         "--method harmonic --report " + path("r.json"));
-  EXPECT_TRUE(nlohmann::json::accept(slurp(path("r.json"))));
+  expect("solve '" + cage + "' -o w.npy --vertices 100 -q --method harmonic --report r.json");
+  EXPECT_TRUE(nlohmann::json::accept(slurp("r.json")));
 }
 
 TEST_F(CommandLine, IoFailureIsStatus4) {
-  const auto cage = sample("2d/letter_cage.obj");
-  expect_failure("solve " + path("missing.obj") + " -o " + path("w.npy"), 4, "missing.obj");
-  expect_failure("solve " + cage + " -o " + path("no/folder/w.npy"), 4, "w.npy");
-  expect_failure("solve " + cage + " -o " + path("w.npy") + " --report " + path("no/r.json"), 4,
-                 "r.json");
-  expect_failure("solve " + cage + " -o " + path("w.npy") + " --domain " + path("no.obj"), 4,
-                 "no.obj");
-  expect_failure("solve " + std::string(FLBC_MESHES_DIR) + "/2d -o " + path("w.npy"), 1, "2d");
+  expect_failure("solve missing.obj -o w.npy", 4, "missing.obj");
+  expect_failure("solve 2d/letter_cage.obj -o no/folder/w.npy", 4, "w.npy");
+  expect_failure("solve 2d/letter_cage.obj -o w.npy --report no/r.json", 4, "r.json");
+  expect_failure("solve 2d/letter_cage.obj -o w.npy --domain no.obj", 4, "no.obj");
+  expect_failure("solve " + std::string(FLBC_MESHES_DIR) + "/2d -o w.npy", 1, "2d");
 }
 
 TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   const auto refused = [&](const std::string& content, const std::string& words) {
     const auto cage = file("bad.obj", content);
-    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, words);
-    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, "bad.obj");
+    expect_failure("solve " + cage + " -o w.npy", 2, words);
+    expect_failure("solve " + cage + " -o w.npy", 2, "bad.obj");
   };
   refused("", "without a vertex");
   refused("v 0 0 0\nv 1", "bad.obj:2");
@@ -369,11 +348,11 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
        {"unwelded_cage", "non_manifold_cage", "self_intersecting_cage",
         "genus1_self_intersecting_cage", "inconsistent_orientation_cage"}) {
     const auto cage = model_path("defective/" + name + ".obj");
-    expect_failure("solve " + cage + " -o " + path("w.npy"), 2, name + ".obj: ");
-    expect_failure("mesh " + cage + " -o " + path("d.mesh"), 2, name + ".obj: ");
+    expect_failure("solve " + cage + " -o w.npy", 2, name + ".obj: ");
+    expect_failure("mesh " + cage + " -o d.mesh", 2, name + ".obj: ");
   }
-  const auto solve = "solve " + model_path("defective/half_outside_cage.obj") + " -o " +
-                     path("w.npy") + " --vertices 500 --model " +
+  const auto solve = "solve " + model_path("defective/half_outside_cage.obj") +
+                     " -o w.npy --vertices 500 --model " +
                      model_path("defective/half_outside_model.obj");
   expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 vertices are outside the cage");
   expect_failure(solve + " --embed", 2, "half_outside_model.obj");
@@ -381,29 +360,27 @@ TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
 
 // Lists of points are models, and functions are fields of a mesh.
 TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
-  const auto cage = sample("2d/letter_cage.obj"), model = sample("2d/letter_model.obj");
+  const std::string cage = "2d/letter_cage.obj", model = "2d/letter_model.obj";
   const auto solve = "solve " + cage + " --vertices 600 --method harmonic -q -o ";
   const auto points = io::to_points<2>(io::read_polygons(model), model);
-  io::write_weights(path("p.npy"), points);
-  io::write_weights(path("p.csv"), points);
-  expect(solve + path("expected.npy") + " --model " + model + " --save-domain " + path("d.vtu"));
-  const auto expected = io::read_weights(path("expected.npy"));
+  io::write_weights("p.npy", points);
+  io::write_weights("p.csv", points);
+  expect(solve + "expected.npy --model " + model + " --save-domain d.vtu");
+  const auto expected = io::read_weights("expected.npy");
   for (const std::string list : {"p.npy", "p.csv"}) {
-    expect(solve + path("w.npy") + " --model " + path(list));
-    EXPECT_EQ(io::read_weights(path("w.npy")), expected) << list;
-    expect("check " + cage + " --model " + path(list) + " --weights " + path("w.npy"));
-    expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " + path(list) +
-           " -k 4 -q -o " + path("s.mtx"));
-    expect("convert " + path("w.npy") + " -q --points " + path(list) + " -o " + path("w.mat"));
+    expect(solve + "w.npy --model " + list);
+    EXPECT_EQ(io::read_weights("w.npy"), expected) << list;
+    expect("check " + cage + " --model " + list + " --weights w.npy");
+    expect("sparsify w.npy --cage " + cage + " --points " + list + " -k 4 -q -o s.mtx");
+    expect("convert w.npy -q --points " + list + " -o w.mat");
   }
-  expect(solve + path("w.npy") + " --model " + file("q.csv", "1,2,3\n"), 2,
+  expect(solve + "w.npy --model " + file("q.csv", "1,2,3\n"), 2,
          "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");
 
   std::vector<io::VertexField> fields;
-  const auto domain = io::read_domain<2>(path("d.vtu"), fields);
-  expect("solve " + cage + " --method harmonic -q --domain " + path("d.vtu") + " -o " +
-         path("v.npy"));
-  const auto weights = io::read_weights(path("v.npy"));
+  const auto domain = io::read_domain<2>("d.vtu", fields);
+  expect("solve " + cage + " --method harmonic -q --domain d.vtu -o v.npy");
+  const auto weights = io::read_weights("v.npy");
   ASSERT_EQ(fields.size(), 3 * static_cast<std::size_t>(weights.rows()));
   for (std::size_t i = 0; i < static_cast<std::size_t>(weights.rows()); ++i) {
     EXPECT_EQ(fields[i].name, "w_" + std::to_string(i));
@@ -414,29 +391,27 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
 
 // Which other coordinates do not minimize.
 TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
-  const auto cage = sample("2d/letter_cage.obj");
-  expect("mesh " + cage + " --vertices 800 -q -o " + path("d.obj"));
+  expect("mesh 2d/letter_cage.obj --vertices 800 -q -o d.obj");
   const auto objective = [&](const std::string& method) {
-    expect("solve " + cage + " --domain " + path("d.obj") + " -q --method " + method + " -o " +
-           path(method + ".npy") + " --report " + path("r.json"));
-    return nlohmann::json::parse(slurp(path("r.json")))["objective"].get<double>();
+    expect("solve 2d/letter_cage.obj --domain d.obj -q --method " + method + " -o " + method +
+           ".npy --report r.json");
+    return nlohmann::json::parse(slurp("r.json"))["objective"].get<double>();
   };
   const double least = objective("value");
   EXPECT_GT(objective("harmonic"), 1.01 * least);
   EXPECT_GT(objective("meanvalue"), 1.01 * least);
-  expect("check " + cage + " --domain " + path("d.obj") + " --weights " + path("harmonic.npy") +
-         " --json " + path("c.json"));
-  const auto check = nlohmann::json::parse(slurp(path("c.json")));
+  expect("check 2d/letter_cage.obj --domain d.obj --weights harmonic.npy --json c.json");
+  const auto check = nlohmann::json::parse(slurp("c.json"));
   EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), objective("harmonic"),
               1e-9 * least);
 }
 
 // The published criterion can be met far from the optimum.
 TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
-  const auto solve = "solve " + sample("2d/ring_cage.obj") + " --vertices 500 --certify -o " +
-                     path("w.npy") + " --report " + path("r.json") + " --method ";
+  const std::string solve =
+      "solve 2d/ring_cage.obj --vertices 500 --certify -o w.npy --report r.json --method ";
   const auto paper = expect(solve + "paper");
-  const auto report = nlohmann::json::parse(slurp(path("r.json")));
+  const auto report = nlohmann::json::parse(slurp("r.json"));
   EXPECT_EQ(report["status"], "converged");
   EXPECT_GT(report["relative_gap"], 5e-3);
   EXPECT_NE(paper.errors.find("above the optimum; lower --tolerance"), std::string::npos)
@@ -445,11 +420,10 @@ TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
 }
 
 TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {
-  expect("solve " + sample("2d/ring_cage.obj") + " -o " + path("w.npy") +
-             " --vertices 1000 --max-iterations 5 --report " + path("r.json"),
-         3, "not converged within 5 iterations");
-  EXPECT_EQ(nlohmann::json::parse(slurp(path("r.json")))["converged"], false);
-  EXPECT_EQ(io::read_weights(path("w.npy")).rows(), 22);
+  expect("solve 2d/ring_cage.obj -o w.npy --vertices 1000 --max-iterations 5 --report r.json", 3,
+         "not converged within 5 iterations");
+  EXPECT_EQ(nlohmann::json::parse(slurp("r.json"))["converged"], false);
+  EXPECT_EQ(io::read_weights("w.npy").rows(), 22);
 }
 
 }  // namespace

@@ -32,12 +32,12 @@ class ConvertCommand : public CommandLineTest {
   }
 
   std::ptrdiff_t count_files() const {
-    return std::distance(std::filesystem::directory_iterator(path("")), {});
+    return std::distance(std::filesystem::directory_iterator("."), {});
   }
 
   WeightMatrix read(const std::string& name) const {
     const bool are_triplets = name.substr(name.size() - 3) == "txt";
-    return are_triplets ? io::read_weight_triplets(path(name)) : io::read_weights(path(name));
+    return are_triplets ? io::read_weight_triplets(name) : io::read_weights(name);
   }
 
   // Five points and three control points, without weights of the last of either.
@@ -46,7 +46,7 @@ class ConvertCommand : public CommandLineTest {
     weights << 1 / 3.0, 1, -1e-17, 0, 0,  //
         2 / 3.0, 0, 1e-300, 0.1, 0,       //
         0, 0, 0, 0, 0;
-    io::write_weights(path(name), weights);
+    io::write_weights(name, weights);
     return weights;
   }
 };
@@ -55,59 +55,57 @@ TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
   const std::string formats[] = {"npy", "dmat", "mtx", "csv", "mat", "txt"};
   const auto weights = write_weights("a.npy");
   for (const auto& from : formats) {
-    if (from != "npy") expect_converted(path("a.npy") + " -o " + path("a." + from));
+    if (from != "npy") expect_converted("a.npy -o a." + from);
     EXPECT_TRUE(bit_equal(read("a." + from), weights)) << from;
     for (const auto& to : formats) {
-      const auto there = path("b." + to), back = path("c." + from);
-      expect_converted(path("a." + from) + " -o " + there,
+      const auto there = "b." + to, back = "c." + from;
+      expect_converted("a." + from + " -o " + there,
                        "b." + to + ": weights of 5 points for 3 control points");
       EXPECT_TRUE(bit_equal(read("b." + to), weights)) << from << " " << to;
       expect_converted(there + " -q -o " + back);
-      EXPECT_EQ(slurp(back), slurp(path("a." + from))) << from << " " << to;
+      EXPECT_EQ(slurp(back), slurp("a." + from)) << from << " " << to;
     }
   }
-  EXPECT_EQ(run("convert -q " + path("a.npy") + " -o " + path("d.txt")).errors, "");
+  EXPECT_EQ(run("convert -q a.npy -o d.txt").errors, "");
 }
 
 TEST_F(ConvertCommand, SizesOfTripletsAreTheLargestNumbersOrThoseOfTheFiles) {
   const auto weights = file("w.txt", "0 0 1\n1 1 0.5\n0 1 0.5\n1 2 1\n");
   const auto cage = file("cage.obj", "v 0 0\nv 1 0\n");
   const auto points = file("points.obj", "v 0 0\nv 0.5 0\nv 1 0\n");
-  const auto o = " -o " + path("o.npy");
+  const std::string o = " -o o.npy";
   expect_converted(weights + o, "w.txt does not contain these numbers; they are the largest");
   expect_converted(weights + o + " --cage " + cage, "does not contain these numbers");
   const auto fit = weights + o + " --cage " + cage + " --points " + points;
-  EXPECT_EQ(run("convert " + fit).errors,
-            path("o.npy") + ": weights of 3 points for 2 control points\n");
+  EXPECT_EQ(run("convert " + fit).errors, "o.npy: weights of 3 points for 2 control points\n");
   expect_refused(weights + o + " --cage " + points, 2,
                  "w.txt: has weights for 2 control points, but " + points + " has 3");
   expect_refused(weights + o + " --points " + cage, 2,
                  "w.txt: has weights of 3 points, but " + cage + " has 2 vertices");
   // The same holds for weights that know their size.
-  expect_refused(path("o.npy") + " -o " + path("p.npy") + " --points " + cage, 2,
-                 "o.npy: has weights of 3 points");
+  expect_refused("o.npy -o p.npy --points " + cage, 2, "o.npy: has weights of 3 points");
   expect_refused(file("bad.txt", "0 0 1\n0 1\n") + o + "2.npy", 2, "bad.txt:2: ");
-  expect_refused(file("empty.txt", "") + " -o " + path("p.npy"), 2, "empty.txt: has no weights");
+  expect_refused(file("empty.txt", "") + " -o p.npy", 2, "empty.txt: has no weights");
 }
 
 TEST_F(ConvertCommand, Transpose) {
   const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 0 1\n");
   const auto weights = write_weights("a.npy");
-  io::write_weights(path("t.npy"), weights.transpose());
-  expect_converted(path("t.npy") + " --transpose -o " + path("b.npy"));
+  io::write_weights("t.npy", weights.transpose());
+  expect_converted("t.npy --transpose -o b.npy");
   EXPECT_TRUE(bit_equal(read("b.npy"), weights));
   // Of triplets the first two numbers change places.
-  expect_converted(file("t.txt", "4 0 0.5\n2 1 0.25\n") + " --transpose -o " + path("c.txt"));
+  expect_converted(file("t.txt", "4 0 0.5\n2 1 0.25\n") + " --transpose -o c.txt");
   WeightMatrix expected = WeightMatrix::Zero(2, 5);
   expected(0, 4) = 0.5;
   expected(1, 2) = 0.25;
   EXPECT_EQ(read("c.txt"), expected);
 
   const auto points = file("points.obj", "v 0 0\nv 0 0\nv 0 0\nv 0 0\nv 0 0\n");
-  const auto files = " --cage " + cage + " --points " + points + " -o " + path("d.npy");
-  expect_refused(path("t.npy") + files, 2, "t.npy: has control points as rows; give --transpose");
-  expect_refused(path("a.npy") + files + " --transpose", 2, "leave out --transpose");
-  expect_converted(path("t.npy") + files + " --transpose");
+  const auto files = " --cage " + cage + " --points " + points + " -o d.npy";
+  expect_refused("t.npy" + files, 2, "t.npy: has control points as rows; give --transpose");
+  expect_refused("a.npy" + files + " --transpose", 2, "leave out --transpose");
+  expect_converted("t.npy" + files + " --transpose");
 }
 
 template <class Dimension>
@@ -123,12 +121,12 @@ TYPED_TEST(ConvertMesh, ThereAndBackNothingChanges) {
       Dim == 2 ? std::vector<std::string>{"obj", "off", "vtu"}
                : std::vector<std::string>{"mesh", "node", "ele", "msh", "vtu"};
   for (const auto& from : formats) {
-    io::write_domain(this->path("a." + from), mesh);
+    io::write_domain("a." + from, mesh);
     for (const auto& to : formats) {
       SCOPED_TRACE(from + " " + to);
-      const auto there = this->path("b_" + from + "." + to);
-      const auto back = this->path("c_" + to + "." + from);
-      this->expect_converted(this->path("a." + from) + " -o " + there,
+      const auto there = "b_" + from + "." + to;
+      const auto back = "c_" + to + "." + from;
+      this->expect_converted("a." + from + " -o " + there,
                              std::to_string(mesh.num_vertices()) + " vertices\n");
       this->expect_converted(there + " -q -o " + back);
       for (const auto& name : {there, back}) {
@@ -136,7 +134,7 @@ TYPED_TEST(ConvertMesh, ThereAndBackNothingChanges) {
         EXPECT_TRUE(bit_equal(read.points, mesh.points));
         EXPECT_EQ(read.cells, mesh.cells);
       }
-      EXPECT_EQ(slurp(back), slurp(this->path("a." + from)));
+      EXPECT_EQ(slurp(back), slurp("a." + from));
     }
   }
 }
@@ -145,22 +143,22 @@ TYPED_TEST(ConvertMesh, FieldsAreKeptOrTold) {
   constexpr int Dim = TypeParam::value;
   const auto mesh = samples<Dim>().front().mesh;
   const Eigen::VectorXd values = mesh.points.row(0) / 3.0;
-  io::write_domain(this->path("a.vtu"), mesh, {{"first", values}, {"second", -values}});
+  io::write_domain("a.vtu", mesh, {{"first", values}, {"second", -values}});
   const auto convert = [&](const std::string& from, const std::string& to) {
-    const auto result = this->run("convert " + this->path(from) + " -o " + this->path(to));
+    const auto result = this->run("convert " + from + " -o " + to);
     EXPECT_EQ(result.status, 0) << result.errors;
     return result.errors;
   };
   const std::string other = Dim == 2 ? "b.obj" : "b.msh";
-  const auto told = "flbc: " + this->path(other) + " does not keep all of " + this->path("a.vtu") +
-                    "; lost: field \"first\", field \"second\"\n";
+  const auto told =
+      "flbc: " + other + " does not keep all of a.vtu; lost: field \"first\", field \"second\"\n";
   EXPECT_NE(convert("a.vtu", other).find(told), std::string::npos);
-  EXPECT_EQ(io::read_domain<Dim>(this->path(other)).points, mesh.points);
+  EXPECT_EQ(io::read_domain<Dim>(other).points, mesh.points);
   const std::string keeper = Dim == 2 ? "c.vtu" : "c.mesh";
   EXPECT_EQ(convert("a.vtu", keeper).find("keep"), std::string::npos);
   convert(keeper, "d.vtu");
   std::vector<io::VertexField> fields;
-  io::read_domain<Dim>(this->path("d.vtu"), fields);
+  io::read_domain<Dim>("d.vtu", fields);
   ASSERT_EQ(fields.size(), 2U);
   EXPECT_EQ(fields[1].name, "second");
   EXPECT_TRUE(bit_equal(fields[1].values, Eigen::VectorXd(-values)));
@@ -173,39 +171,38 @@ TEST_F(ConvertCommand, ModelsKeepPolygonsAndColours) {
   std::string told;
   for (const char* name : {"b.ply", "b.off", "c.ply", "b.obj"}) {
     const auto from = told.empty() ? model : told;
-    expect_converted(from + " -o " + path(name), "4 vertices\n");
-    told = path(name);
+    expect_converted(from + " -o " + name, "4 vertices\n");
+    told = name;
   }
-  const auto soup = io::read_polygons(path("b.obj"));
+  const auto soup = io::read_polygons("b.obj");
   EXPECT_EQ(soup.points[2].z(), 0.1);
   EXPECT_EQ(soup.polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
-  EXPECT_NE(slurp(path("b.obj")).find("v 0 1 0 0.2 0.4 0.6\n"), std::string::npos);
-  EXPECT_NE(slurp(path("b.ply")).find("format ascii"), std::string::npos);
-  EXPECT_EQ(slurp(path("b.off")),
+  EXPECT_NE(slurp("b.obj").find("v 0 1 0 0.2 0.4 0.6\n"), std::string::npos);
+  EXPECT_NE(slurp("b.ply").find("format ascii"), std::string::npos);
+  EXPECT_EQ(slurp("b.off"),
             "STCOFF\n4 1 0\n0 0 0 255 0 0 255 0 0.5\n1 0 0 0 255 0 255 0 0.5\n"
             "1 1 0.1 0 0 255 255 0 0.5\n0 1 0 51 102 153 255 0 0.5\n4 0 1 2 3\n");
-  expect_converted(model + " -o " + path("b.stl"),
+  expect_converted(model + " -o b.stl",
                    "the order of the vertices, coordinates beyond single precision, polygons (they "
                    "are cut into triangles), colors, texture coordinates\n");
   // As a mesh of the interior.
   const auto flat = file("flat.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n# a\n");
-  expect_converted(flat + " -o " + path("b.vtu"), "flat.obj; lost: comments, colors\n");
-  EXPECT_EQ(io::read_domain<2>(path("b.vtu")).num_cells(), 1);
+  expect_converted(flat + " -o b.vtu", "flat.obj; lost: comments, colors\n");
+  EXPECT_EQ(io::read_domain<2>("b.vtu").num_cells(), 1);
 }
 
 TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   write_weights("a.npy");
   const auto model = file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
-  const auto tetrahedra = path("a.vtu");
-  io::write_domain(tetrahedra, samples<3>().front().mesh);
-  const auto to = [&](const std::string& name) { return " -o " + path(name); };
-  expect_refused(path("a.npy") + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
+  io::write_domain("a.vtu", samples<3>().front().mesh);
+  const auto to = [&](const std::string& name) { return " -o " + name; };
+  expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused(path("a.xls") + to("b.npy"), 1, "a.xls: unknown file format");
-  expect_refused(path("a.npy") + to("b.xls"), 1, "b.xls: unknown file format");
+  expect_refused("a.xls" + to("b.npy"), 1, "a.xls: unknown file format");
+  expect_refused("a.npy" + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
-  expect_refused(tetrahedra + to("b.obj"), 1, "b.obj: " + tetrahedra + " holds tetrahedra");
+  expect_refused("a.vtu" + to("b.obj"), 1, "b.obj: a.vtu holds tetrahedra");
   // Wrong extensions, and formats of other programs.
   const auto obj = slurp(model);
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -227,15 +224,15 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(model + to("b.fbx"), 1, "usually read glTF");
   expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
-  expect_refused(path("a.npy") + " -o " + path("a.npy"), 1, "would replace this input file");
-  expect_refused(path("a.npy") + to("absent/b.npy"), 4, "absent");
-  expect_refused(path("missing.npy") + to("b.npy"), 4, "missing.npy");
-  expect_refused(path("missing.ply") + to("b.obj"), 4, "missing.ply");
+  expect_refused("a.npy -o a.npy", 1, "would replace this input file");
+  expect_refused("a.npy" + to("absent/b.npy"), 4, "absent");
+  expect_refused("missing.npy" + to("b.npy"), 4, "missing.npy");
+  expect_refused("missing.ply" + to("b.obj"), 4, "missing.ply");
   expect_refused(file("bad.vtu", "<VTKFile type=\"UnstructuredGrid\">") + to("b.vtu"), 2,
                  "bad.vtu: neither a 2D mesh");
   // Its .ele file would come to lie over the one that is read.
-  io::write_domain(path("a.node"), samples<3>().front().mesh);
-  expect_refused(path("a.node") + to("a.ele"), 1, "would replace this input file");
+  io::write_domain("a.node", samples<3>().front().mesh);
+  expect_refused("a.node" + to("a.ele"), 1, "would replace this input file");
 }
 
 }  // namespace

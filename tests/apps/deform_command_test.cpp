@@ -40,24 +40,23 @@ class DeformCommand : public CommandLineTest {
   void expect_sample_deforms(const std::string& name, const std::string& domain_file) const {
     SCOPED_TRACE(name);
     ASSERT_NO_FATAL_FAILURE(solve(name, domain_file));
-    const auto cage = sample(name + "_cage.obj");
-    const auto model = sample(name + "_model.obj");
-    const auto pose = sample(name + "_cage_pose.obj");
+    const auto cage = name + "_cage.obj";
+    const auto model = name + "_model.obj";
+    const auto pose = name + "_cage_pose.obj";
     const auto rest = points_of<Dim>(model);
-    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --pose ";
+    const auto command = model + " --weights w.npy --rest " + cage + " --pose ";
     const auto size = std::to_string(rest.cols()) + " vertices, 1 pose, ";
 
-    expect_deform(command + cage + " -o " + path("same.obj"), 0, size);
-    EXPECT_LT((points_of<Dim>(path("same.obj")) - rest).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_EQ(without_vertices(path("same.obj")), without_vertices(model));
+    expect_deform(command + cage + " -o same.obj", 0, size);
+    EXPECT_LT((points_of<Dim>("same.obj") - rest).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(without_vertices("same.obj"), without_vertices(model));
 
-    expect_deform(command + pose + " -o " + path("o.obj") + " --displacement " + path("d.npy"), 0,
-                  "largest displacement");
-    const auto moved = points_of<Dim>(path("o.obj"));
-    const auto weights = io::read_weights(path("w.npy"));
+    expect_deform(command + pose + " -o o.obj --displacement d.npy", 0, "largest displacement");
+    const auto moved = points_of<Dim>("o.obj");
+    const auto weights = io::read_weights("w.npy");
     EXPECT_LT((moved - points_of<Dim>(pose) * weights).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_EQ(without_vertices(path("o.obj")), without_vertices(model));
-    const auto lengths = io::read_weights(path("d.npy"));
+    EXPECT_EQ(without_vertices("o.obj"), without_vertices(model));
+    const auto lengths = io::read_weights("d.npy");
     ASSERT_EQ(lengths.rows(), 1);
     EXPECT_LT((lengths.row(0) - (moved - rest).colwise().norm()).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_GT(lengths.maxCoeff(), 0.1);
@@ -66,21 +65,19 @@ class DeformCommand : public CommandLineTest {
     for (auto& point : soup.points) {
       point.head<2>() = Vector<2>(2 * point.x() - point.y() + 3, point.x() + 0.5 * point.y());
     }
-    io::write_model(path("affine.obj"), {soup});
-    expect_deform(command + path("affine.obj") + " -o " + path("o.obj"), 0, size);
+    io::write_model("affine.obj", {soup});
+    expect_deform(command + "affine.obj -o o.obj", 0, size);
     PointList<Dim> expected = rest;
     expected.row(0) = (2 * rest.row(0) - rest.row(1)).array() + 3;
     expected.row(1) = rest.row(0) + 0.5 * rest.row(1);
-    EXPECT_LT((points_of<Dim>(path("o.obj")) - expected).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((points_of<Dim>("o.obj") - expected).cwiseAbs().maxCoeff(), 1e-12);
 
-    const auto output = path("moved_" + domain_file);
-    expect_deform(path(domain_file) + " --weights " + path("v.npy") + " --pose " + pose + " -o " +
-                      output + " -q",
-                  0, "");
-    const auto domain = io::read_domain<Dim>(path(domain_file));
+    const auto output = "moved_" + domain_file;
+    expect_deform(domain_file + " --weights v.npy --pose " + pose + " -o " + output + " -q", 0, "");
+    const auto domain = io::read_domain<Dim>(domain_file);
     const auto moved_domain = io::read_domain<Dim>(output);
     EXPECT_EQ(moved_domain.num_cells(), domain.num_cells());
-    const auto expected_domain = deform(io::read_weights(path("v.npy")), points_of<Dim>(pose));
+    const auto expected_domain = deform(io::read_weights("v.npy"), points_of<Dim>(pose));
     EXPECT_LT((moved_domain.points - expected_domain).cwiseAbs().maxCoeff(), 1e-13);
   }
 };
@@ -94,8 +91,7 @@ TEST_F(DeformCommand, Sample3D) {
 
 TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
   ASSERT_NO_FATAL_FAILURE(solve("3d/limb", "d.mesh"));
-  const auto cage = sample("3d/limb_cage.obj");
-  auto model = io::ModelFile(sample("3d/limb_model.obj")).model();
+  auto model = io::ModelFile("3d/limb_model.obj").model();
   auto& attributes = model.attributes;
   const auto num_vertices = static_cast<Index>(model.soup.points.size());
   attributes = {};
@@ -104,19 +100,19 @@ TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
     auto& corners = attributes.corners.emplace_back();
     for (const Index vertex : polygon) corners.push_back({-1, vertex});
   }
-  io::write_model(path("model.obj"), model);
+  io::write_model("model.obj", model);
   Eigen::Matrix3d a;
   a << 2, -1, 0, 1, 0.5, 0, 0, 0.25, 3;
-  auto soup = io::read_polygons(cage);
+  auto soup = io::read_polygons("3d/limb_cage.obj");
   for (auto& point : soup.points) point = a * point;
-  io::write_model(path("affine.obj"), {soup});
+  io::write_model("affine.obj", {soup});
 
-  const auto command = path("model.obj") + " --weights " + path("v.npy") + " --pose " +
-                       path("affine.obj") + " --normals jacobian -q -o " + path("o.obj");
+  const std::string command =
+      "model.obj --weights v.npy --pose affine.obj --normals jacobian -q -o o.obj";
   expect_deform(command, 1, "--normals jacobian needs --domain");
-  expect_deform(command + " --domain " + path("d.mesh"), 1, "--domain needs --rest");
-  expect_deform(command + " --rest " + cage + " --domain " + path("d.mesh"), 0, "");
-  const io::ModelFile moved(path("o.obj"));
+  expect_deform(command + " --domain d.mesh", 1, "--domain needs --rest");
+  expect_deform(command + " --rest 3d/limb_cage.obj --domain d.mesh", 0, "");
+  const io::ModelFile moved("o.obj");
   const auto& normals = moved.model().attributes.normals;
   ASSERT_EQ(normals.cols(), num_vertices);
   const Eigen::Matrix3d inverse = a.inverse().transpose();
@@ -125,22 +121,23 @@ TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
     const Vector<3> expected = before.norm() * (inverse * before).normalized();
     EXPECT_LT((normals.col(v) - expected).norm(), 1e-9);
   }
-  const auto rest = points_of<3>(path("model.obj"));
-  EXPECT_LT((points_of<3>(path("o.obj")) - a * rest).cwiseAbs().maxCoeff(), 1e-9);
+  const auto rest = points_of<3>("model.obj");
+  EXPECT_LT((points_of<3>("o.obj") - a * rest).cwiseAbs().maxCoeff(), 1e-9);
 
   // What solve writes gives the same Jacobians.
-  expect("solve " + cage + " --method harmonic -q -o " + path("m.npy") + " --domain " +
-         path("d.mesh") + " --model " + path("model.obj") + " --gradients " + path("g.npy") +
-         " --save-domain " + path("d.vtu"));
-  const auto gradients = io::read_weights(path("g.npy"));
+  expect(
+      "solve 3d/limb_cage.obj --method harmonic -q -o m.npy --domain d.mesh --model model.obj "
+      "--gradients g.npy "
+      "--save-domain d.vtu");
+  const auto gradients = io::read_weights("g.npy");
   ASSERT_EQ(gradients.cols(), num_vertices);
-  const auto pose = points_of<3>(path("affine.obj"));
+  const auto pose = points_of<3>("affine.obj");
   for (Index v = 0; v < num_vertices; ++v) {
     const Eigen::Matrix3d jacobian = pose * gradients.col(v).reshaped(3, pose.cols()).transpose();
     EXPECT_LT((jacobian - a).norm(), 1e-9);
   }
   std::vector<io::VertexField> fields;
-  io::read_domain<3>(path("d.vtu"), fields);
+  io::read_domain<3>("d.vtu", fields);
   EXPECT_EQ(fields.size(), 4 * static_cast<std::size_t>(pose.cols()));
   EXPECT_EQ(fields.back().name, "dw_" + std::to_string(pose.cols() - 1) + "_dz");
 }
@@ -170,8 +167,8 @@ PointList<3> model_points() {
 
 TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
   const auto model = file("model.obj", kModel);
-  const auto command = model + " --weights " + linear_weights(model_points()) + " -o " +
-                       path("o.obj") + " -q --pose ";
+  const auto command =
+      model + " --weights " + linear_weights(model_points()) + " -o o.obj -q --pose ";
   // Turned about the x axis by a right angle, and moved by 2 along it: y becomes z, z becomes -y.
   expect_deform(command + tetrahedron("v 2 0 0\nv 3 0 0\nv 2 0 1\nv 2 -1 0\n"), 0, "");
   std::string expected = kModel;
@@ -183,7 +180,7 @@ TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
   replace("0.5\t0.25 0.5\n", "2.5\t-0.5 0.25\n");
   replace("0.5 0.5 \\\n 0.5", "2.5 -0.5 \\\n 0.5");
   replace("0.25 0.5 0.5 0.5 0.5 0.5", "2.25 -0.5 0.5 0.5 0.5 0.5");
-  const auto result = slurp(path("o.obj"));
+  const auto result = slurp("o.obj");
   // The normal was on the other side of the face than its corners say, and stays there.
   std::istringstream at_normal(result.substr(result.find("vn ") + 3));
   Vector<3> found;
@@ -197,10 +194,9 @@ TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
 
 TEST_F(DeformCommand, LinesThatContinueOthers) {
   const auto command = " --weights " + linear_weights(model_points().leftCols(1)) + " --pose " +
-                       tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o " +
-                       path("o.obj");
+                       tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o o.obj";
   expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command, 0, "");
-  EXPECT_EQ(slurp(path("o.obj")), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
+  EXPECT_EQ(slurp("o.obj"), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
   // Readers that pass normals over take the second line for a vertex.
   expect_deform(file("model.obj", "v 0.25 0.25 0.5\nvn 0 0 1\\\nv 1 2 3\n") + command, 2,
                 "normal (\"vn\") is continued on another line");
@@ -209,10 +205,10 @@ TEST_F(DeformCommand, LinesThatContinueOthers) {
 TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {
   const auto model = file("model.obj", std::string(kModel) + "\nvn 1 2 3\n");
   expect_deform(model + " --weights " + linear_weights(model_points()) + " --pose " +
-                    tetrahedron("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n") + " -o " + path("o.obj"),
+                    tetrahedron("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n") + " -o o.obj",
                 0, "1 normals belong to no face");
-  EXPECT_NE(slurp(path("o.obj")).find("\nvn 1 2 3\n"), std::string::npos);
-  EXPECT_NE(slurp(path("o.obj")).find("v 0.5 0.5 1 1 0 0 # red"), std::string::npos);
+  EXPECT_NE(slurp("o.obj").find("\nvn 1 2 3\n"), std::string::npos);
+  EXPECT_NE(slurp("o.obj").find("v 0.5 0.5 1 1 0 0 # red"), std::string::npos);
 }
 
 TEST_F(DeformCommand, ColoursOfOffStay) {
@@ -221,9 +217,8 @@ TEST_F(DeformCommand, ColoursOfOffStay) {
   const auto coloured = file("model.off",
                              "COFF 4 1 0\n# red\n0.25 0.25 0.5 255 0 0 255\n0.5 0.25 0.5 9 9 9 9\n"
                              "0.5 0.5 0.5 8 8 8 8\n0.25 0.5 0.5 7 7 7 7\n4 0 1 2 3 1 0 0\n");
-  expect_deform(coloured + " -q --weights " + weights + " --pose " + cage + " -o " + path("o.off"),
-                0, "");
-  EXPECT_EQ(slurp(path("o.off")),
+  expect_deform(coloured + " -q --weights " + weights + " --pose " + cage + " -o o.off", 0, "");
+  EXPECT_EQ(slurp("o.off"),
             "COFF 4 1 0\n# red\n-0.25 0.25 0.5 255 0 0 255\n-0.25 0.5 0.5 9 9 9 9\n"
             "-0.5 0.5 0.5 8 8 8 8\n-0.5 0.25 0.5 7 7 7 7\n4 0 1 2 3 1 0 0\n");
 }
@@ -235,13 +230,11 @@ TEST_F(DeformCommand, In2DZStays) {
   weights << 0.5, 0.25, 0.25,  //
       0.25, 0.5, 0.25,         //
       0.25, 0.25, 0.5;
-  io::write_weights(path("w.npy"), weights);
+  io::write_weights("w.npy", weights);
   const auto pose = file("pose.obj", "v 10 0 3\nv 14 0 3\nv 10 -4 3\nl 1 2 3 1\n");
-  expect_deform(model + " --weights " + path("w.npy") + " --rest " + cage + " --pose " + pose +
-                    " -o " + path("o.obj"),
-                0, "3 vertices, 1 pose");
-  EXPECT_EQ(slurp(path("o.obj")),
-            "v 11 -1 7\nvn 0 0 1\nv 12 -1 7\nv 11 -2 7.000\nf 1//1 2//1 3//1");
+  expect_deform(model + " --weights w.npy --rest " + cage + " --pose " + pose + " -o o.obj", 0,
+                "3 vertices, 1 pose");
+  EXPECT_EQ(slurp("o.obj"), "v 11 -1 7\nvn 0 0 1\nv 12 -1 7\nv 11 -2 7.000\nf 1//1 2//1 3//1");
 }
 
 TEST_F(DeformCommand, Sequences) {
@@ -254,31 +247,28 @@ TEST_F(DeformCommand, Sequences) {
   }
   const auto model = file("model.obj", kModel);
   const auto command = model + " --weights " + linear_weights(model_points()) + " -o ";
-  const auto pattern = " --pose " + path("pose_%02d.obj");
-  expect_deform(
-      command + path("o_%d.obj") + pattern + " --rest " + rest + " --displacement " + path("d.npy"),
-      0, "4 vertices, 3 poses");
+  const std::string pattern = " --pose pose_%02d.obj";
+  expect_deform(command + "o_%d.obj" + pattern + " --rest " + rest + " --displacement d.npy", 0,
+                "4 vertices, 3 poses");
   for (int k = 1; k <= 3; ++k) {
-    const auto output = path("o_" + std::to_string(k) + ".obj");
+    const auto output = "o_" + std::to_string(k) + ".obj";
     ASSERT_TRUE(std::filesystem::exists(output));
     PointList<3> expected = model_points();
     expected.row(0).array() += k;
     EXPECT_EQ(points_of<3>(output), expected);
   }
-  const auto lengths = io::read_weights(path("d.npy"));
+  const auto lengths = io::read_weights("d.npy");
   ASSERT_EQ(lengths.rows(), 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(lengths.row(k).sum(), 4 * (k + 1));
 
-  expect_deform(command + path("s%03d.obj") + " -q --pose " + path("pose_03.obj") + " --pose " +
-                    path("pose_01.obj"),
-                0, "");
-  EXPECT_EQ(points_of<3>(path("s000.obj"))(0, 0), 3.25);
-  EXPECT_EQ(points_of<3>(path("s001.obj"))(0, 0), 1.25);
+  expect_deform(command + "s%03d.obj -q --pose pose_03.obj --pose pose_01.obj", 0, "");
+  EXPECT_EQ(points_of<3>("s000.obj")(0, 0), 3.25);
+  EXPECT_EQ(points_of<3>("s001.obj")(0, 0), 1.25);
 
-  expect_deform(command + path("o.obj") + pattern, 1, "there are 3 poses");
-  expect_deform(command + path("o%d_%d.obj") + pattern, 1, "one %d");
-  expect_deform(command + path("o_%d.obj") + " --pose " + path("absent_%d.obj"), 4, "absent_0.obj");
-  expect_deform(command + path("pose_%02d.obj") + pattern, 1, "would replace this input file");
+  expect_deform(command + "o.obj" + pattern, 1, "there are 3 poses");
+  expect_deform(command + "o%d_%d.obj" + pattern, 1, "one %d");
+  expect_deform(command + "o_%d.obj --pose absent_%d.obj", 4, "absent_0.obj");
+  expect_deform(command + "pose_%02d.obj" + pattern, 1, "would replace this input file");
 }
 
 TEST_F(DeformCommand, Keyframes) {
@@ -289,11 +279,11 @@ TEST_F(DeformCommand, Keyframes) {
   const auto keys =
       file("keys.txt", "k 0\nk 1.5\n" + zeros + "c 1 0 0 0\nc 1 1 0 0\nc 1 0 1 0\nc 1 0 0 1\n");
   const auto command = model + weights + " --keyframes ";
-  expect_deform(command + keys + " --rest " + rest + " -o " + path("o_%d.obj"), 0, "2 poses");
-  EXPECT_EQ(points_of<3>(path("o_0.obj")), model_points());
-  EXPECT_EQ(points_of<3>(path("o_1.obj")), 2 * model_points());
+  expect_deform(command + keys + " --rest " + rest + " -o o_%d.obj", 0, "2 poses");
+  EXPECT_EQ(points_of<3>("o_0.obj"), model_points());
+  EXPECT_EQ(points_of<3>("o_1.obj"), 2 * model_points());
 
-  const auto output = " -o " + path("k_%d.obj");
+  const std::string output = " -o k_%d.obj";
   expect_deform(command + keys + " --pose " + rest + output, 1, "--pose");
   const auto few = file("few.txt", "k 0\nc 0 0 0 0\n");
   expect_deform(command + few + " --rest " + rest + output, 2,
@@ -308,7 +298,7 @@ TEST_F(DeformCommand, Keyframes) {
                 "back.txt:7: keyframe 1 at 0.5 comes before keyframe 0 at 1.5");
   const auto unknown = file("unknown.txt", "k 0\n" + zeros + "c 1 0 0 0\n");
   expect_deform(command + unknown + " --rest " + rest + output, 2, "unknown.txt:6: ");
-  EXPECT_FALSE(std::filesystem::exists(path("k_0.obj")));
+  EXPECT_FALSE(std::filesystem::exists("k_0.obj"));
 }
 
 // They are finite, although their squares are not. Of a sequence that fails nothing is left.
@@ -318,19 +308,18 @@ TEST_F(DeformCommand, EnormousDisplacements) {
   const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
   const std::string steps = "c 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\n";
   const auto keys = file("keys.txt", "k 0\nk 1\n" + zeros + steps);
-  const auto output = " -o " + path("o_%d.obj");
   expect_deform(model + " --weights " + linear_weights(model_points()) + " --rest " + rest +
-                    " --displacement " + path("d.npy") + " --keyframes " + keys + output,
+                    " --displacement d.npy --keyframes " + keys + " -o o_%d.obj",
                 0, "largest displacement 1e+200");
-  EXPECT_NEAR(io::read_weights(path("d.npy")).maxCoeff(), 1e200, 1e186);
-  std::filesystem::remove(path("o_0.obj"));
-  std::filesystem::remove(path("o_1.obj"));
+  EXPECT_NEAR(io::read_weights("d.npy").maxCoeff(), 1e200, 1e186);
+  std::filesystem::remove("o_0.obj");
+  std::filesystem::remove("o_1.obj");
 
-  io::write_weights(path("w.npy"), WeightMatrix::Ones(4, model_points().cols()));
+  io::write_weights("w.npy", WeightMatrix::Ones(4, model_points().cols()));
   const auto far = tetrahedron("v 1e308 0 0\nv 1e308 0 0\nv 1e308 0 0\nv 1e308 0 0\n", "far.obj");
-  expect_deform(model + " --weights " + path("w.npy") + " --pose " + rest + " " + far + output, 2,
+  expect_deform(model + " --weights w.npy --pose " + rest + " " + far + " -o o_%d.obj", 2,
                 "would not be finite");
-  EXPECT_FALSE(std::filesystem::exists(path("o_0.obj")));
+  EXPECT_FALSE(std::filesystem::exists("o_0.obj"));
 }
 
 TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
@@ -338,44 +327,41 @@ TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
   const auto model = file("model.obj", kModel);
   PointList<3> points = model_points();
   points(1, 2) += 1e-3;
-  const auto command = model + " --weights " + linear_weights(points) + " --pose " + rest + " -o " +
-                       path("o.obj") + " -q";
+  const auto command =
+      model + " --weights " + linear_weights(points) + " --pose " + rest + " -o o.obj -q";
   expect_deform(command + " --rest " + rest, 2,
                 "w.npy: the weights do not belong to this model: with " + rest +
                     " they put vertex 2 of " + model + " at (0.5, 0.501, 0.5), not at (0.5, 0.5, ");
-  EXPECT_FALSE(std::filesystem::exists(path("o.obj")));
+  EXPECT_FALSE(std::filesystem::exists("o.obj"));
   expect_deform(command, 0, "");
-  EXPECT_TRUE(std::filesystem::exists(path("o.obj")));
+  EXPECT_TRUE(std::filesystem::exists("o.obj"));
 }
 
 TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
   const auto cage = tetrahedron();
   const auto model = file("model.obj", kModel);
   const auto weights = " --weights " + linear_weights(model_points());
-  const auto output = " -o " + path("o.obj");
+  const std::string output = " -o o.obj";
   const auto refused = [&](const std::string& arguments, int status, const std::string& words) {
     expect_deform(arguments, status, words);
-    EXPECT_FALSE(std::filesystem::exists(path("o.obj")));
+    EXPECT_FALSE(std::filesystem::exists("o.obj"));
   };
-  refused(model + weights + " --pose " + sample("3d/limb_cage.obj") + output, 2,
-          "w.npy: has weights for 4 control points, but " + sample("3d/limb_cage.obj") + " has 54");
-  refused(cage + weights + " --pose " + cage + " --pose " + sample("3d/limb_cage.obj") + " -o " +
-              path("o_%d.obj"),
-          2, "limb_cage.obj has 54");
-  EXPECT_FALSE(std::filesystem::exists(path("o_0.obj")));
-  refused(sample("3d/limb_model.obj") + weights + " --pose " + cage + output, 2,
-          "w.npy: has weights of 4 points, but " + sample("3d/limb_model.obj") + " has 3352");
+  refused(model + weights + " --pose 3d/limb_cage.obj" + output, 2,
+          "w.npy: has weights for 4 control points, but 3d/limb_cage.obj has 54");
+  refused(cage + weights + " --pose " + cage + " --pose 3d/limb_cage.obj -o o_%d.obj", 2,
+          "limb_cage.obj has 54");
+  EXPECT_FALSE(std::filesystem::exists("o_0.obj"));
+  refused("3d/limb_model.obj" + weights + " --pose " + cage + output, 2,
+          "w.npy: has weights of 4 points, but 3d/limb_model.obj has 3352");
   refused(model + weights + " --pose " + cage + " -o " + model, 1, "would replace this input file");
-  refused(model + weights + " --pose " + cage + " -o " + path("o.vtu"), 1,
+  refused(model + weights + " --pose " + cage + " -o o.vtu", 1,
           "o.vtu: " + model + " holds polygons; the result must end in .obj, .off, .ply");
-  refused(path("model.vtk") + weights + " --pose " + cage + output, 1,
-          "model.vtk: unknown file format");
-  refused(model + weights + " --pose " + cage + " -o " + path("o.vtk"), 1,
-          "o.vtk: unknown file format");
-  refused(file("model.ply", "ply\n") + weights + " --pose " + cage + " -o " + path("o.ply"), 2,
+  refused("model.vtk" + weights + " --pose " + cage + output, 1, "model.vtk: unknown file format");
+  refused(model + weights + " --pose " + cage + " -o o.vtk", 1, "o.vtk: unknown file format");
+  refused(file("model.ply", "ply\n") + weights + " --pose " + cage + " -o o.ply", 2,
           "model.ply:2: the header of the PLY file has no end");
-  refused(path("missing.obj") + weights + " --pose " + cage + output, 4, "missing.obj");
-  refused(model + weights + " --pose " + cage + " -o " + path("absent/o.obj"), 4, "absent");
+  refused("missing.obj" + weights + " --pose " + cage + output, 4, "missing.obj");
+  refused(model + weights + " --pose " + cage + " -o absent/o.obj", 4, "absent");
   refused(file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//2\n") + weights +
               " --pose " + cage + output,
           2, "bad.obj:5: the index 2 is out of range; normals are numbered 1 to 1");

@@ -33,14 +33,14 @@ class DeformFormats : public CommandLineTest {
     auto options = attributes_of(name);
     if (name[0] == 'b') options += Options(Options::Binary);
     if (io::extension_of(name) != "stl") {
-      write_by_openmesh(mesh, path(name), options);
-      return path(name);
+      write_by_openmesh(mesh, name, options);
+      return name;
     }
     auto triangles = mesh;
     triangles.triangulate();
     triangles.update_normals();
-    write_by_openmesh(triangles, path(name), options);
-    return path(name);
+    write_by_openmesh(triangles, name, options);
+    return name;
   }
 
   // A simplex as cage, whose weights are known: the coordinates and what is left to 1.
@@ -63,8 +63,8 @@ class DeformFormats : public CommandLineTest {
     const PointList<Dim> points = all.topRows<Dim>();
     WeightMatrix weights(Dim + 1, points.cols());
     weights << 1 - points.colwise().sum().array(), points;
-    io::write_weights(path("w.npy"), weights);
-    return path("w.npy");
+    io::write_weights("w.npy", weights);
+    return "w.npy";
   }
 
   Ended deform(const std::string& arguments, int status = 0) const {
@@ -94,13 +94,13 @@ void DeformFormats::expect_formats_move() const {
     const auto model = write(mesh, name);
     const auto before = read_by_openmesh(model, attributes_of(name));
     const auto command = model + " --weights " + weights_of<Dim>(model) + " --rest " + rest;
-    const auto same = path("same." + io::extension_of(name));
+    const auto same = "same." + io::extension_of(name);
     EXPECT_EQ(deform(command + " --pose " + rest + " -q -o " + same).errors, "");
     EXPECT_EQ(slurp(same), slurp(model));
 
     for (const std::string extension : {"obj", "off", "ply", "om"}) {
       SCOPED_TRACE(extension);
-      const auto output = path("moved." + extension);
+      const auto output = "moved." + extension;
       deform(command + " --pose " + pose + " -o " + output);
       const auto wanted = io::extension_of(name) == "stl" ? Options() : attributes_of(name);
       const auto after = read_by_openmesh(output, wanted);
@@ -116,9 +116,8 @@ void DeformFormats::expect_formats_move() const {
         EXPECT_LT((after.normal(v) - turned).norm(), 1e-5) << "vertex " << v.idx();
       }
     }
-    const auto output = path("moved.stl");
-    deform(command + " --pose " + pose + " -o " + output);
-    EXPECT_EQ(read_by_openmesh(output, Options()).n_vertices(), before.n_vertices());
+    deform(command + " --pose " + pose + " -o moved.stl");
+    EXPECT_EQ(read_by_openmesh("moved.stl", Options()).n_vertices(), before.n_vertices());
   }
 }
 
@@ -136,13 +135,13 @@ TEST_F(DeformFormats, WhatIsLostIsToldOnce) {
   const auto rest = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto command =
       model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + rest + " -o ";
-  const auto errors = deform(command + path("o%d.ply")).errors;
-  const auto told = "flbc: " + path("o%d.ply") + " does not keep all of " + model +
-                    "; lost: lines with \"mtllib\", comments\n";
+  const auto errors = deform(command + "o%d.ply").errors;
+  const auto told =
+      "flbc: o%d.ply does not keep all of " + model + "; lost: lines with \"mtllib\", comments\n";
   const auto place = errors.find(told);
   EXPECT_NE(place, std::string::npos) << errors;
   EXPECT_EQ(errors.find("keep", place + told.size()), std::string::npos) << errors;
-  EXPECT_EQ(deform(command + path("o%d.obj")).errors.find("keep"), std::string::npos);
+  EXPECT_EQ(deform(command + "o%d.obj").errors.find("keep"), std::string::npos);
 }
 
 // Of the light, from 0 to 1.
@@ -160,22 +159,21 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
   simplex<3>("pose_2.obj", 2 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto model = write(mesh, "a.ply");
   const auto command = model + " --weights " + weights_of<3>(model) + " --rest " + rest +
-                       " --pose " + path("pose_%d.obj") + " --show-displacement --displacement " +
-                       path("d.npy") + " -o ";
+                       " --pose pose_%d.obj --show-displacement --displacement d.npy -o ";
   const PointList<3> points = points_of(mesh);
   Eigen::Index farthest = 0;
   const double largest = points.colwise().norm().maxCoeff(&farthest);
   const OpenMesh::Vec3uc still(248, 248, 249), last(23, 48, 114);
   for (const std::string extension : {"obj", "off", "ply", "om"}) {
     SCOPED_TRACE(extension);
-    const auto errors = deform(command + path("o_%d." + extension)).errors;
+    const auto errors = deform(command + "o_%d." + extension).errors;
     std::ostringstream value;
     value << "; shown from 0 (near white) to " << largest << " (dark blue)\n";
     EXPECT_NE(errors.find(value.str()), std::string::npos) << errors;
     EXPECT_NE(errors.find("colors (they show the displacement)"), std::string::npos) << errors;
     std::vector<OpenMeshModel> shown;
     for (int k = 0; k < 3; ++k) {
-      shown.push_back(read_by_openmesh(path("o_" + std::to_string(k) + "." + extension)));
+      shown.push_back(read_by_openmesh("o_" + std::to_string(k) + "." + extension));
       expect_same_faces(shown.back(), mesh);
       EXPECT_LT((points_of(shown.back()) - (1 + 0.5 * k) * points).cwiseAbs().maxCoeff(), 1e-6);
       for (const auto v : mesh.vertices()) {
@@ -197,20 +195,20 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
       EXPECT_LE(seen[k].second, seen[k - 1].second + kLevel);
     }
     EXPECT_LT(seen.back().second, seen.front().second - 0.3);
-    const auto lengths = io::read_weights(path("d.npy"));
+    const auto lengths = io::read_weights("d.npy");
     EXPECT_LT((lengths.row(1) - 0.5 * points.colwise().norm()).cwiseAbs().maxCoeff(), 1e-15);
   }
-  const auto refused = deform(command + path("o_%d.stl"), 1).errors;
+  const auto refused = deform(command + "o_%d.stl", 1).errors;
   EXPECT_NE(refused.find("cannot show displacements"), std::string::npos) << refused;
-  EXPECT_FALSE(std::filesystem::exists(path("o_0.stl")));
+  EXPECT_FALSE(std::filesystem::exists("o_0.stl"));
 }
 
 TEST_F(DeformFormats, NothingMovesNothingIsShown) {
   const auto rest = simplex<2>("rest.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());
   const auto model = file("a.obj", "v 0.25 0.25 1\nv 0.5 0.25 1\nv 0.25 0.5 1\nf 1 2 3\n");
   deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --pose " + rest +
-         " --show-displacement -o " + path("o.off"));
-  const auto shown = read_by_openmesh(path("o.off"), Options(Options::VertexColor));
+         " --show-displacement -o o.off");
+  const auto shown = read_by_openmesh("o.off", Options(Options::VertexColor));
   for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(248, 248, 249));
 }
 
@@ -240,34 +238,32 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
                                    Vector<Dim>::Zero());
     WeightMatrix weights(Dim + 1, mesh.num_vertices());
     weights << 1 - mesh.points.colwise().sum().array(), mesh.points;
-    io::write_weights(path("w.npy"), weights);
-    io::write_domain(path(names[0]), mesh, {{"displacement", other}, {"other", other}});
+    io::write_weights("w.npy", weights);
+    io::write_domain(names[0], mesh, {{"displacement", other}, {"other", other}});
     for (const auto& name : names) {
-      const auto output = path("o_" + name);
-      deform(path(names[0]) + " --weights " + path("w.npy") + " --rest " + rest + " --pose " +
-             pose + " --show-displacement -o " + output);
+      const auto output = "o_" + name;
+      deform(names[0] + " --weights w.npy --rest " + rest + " --pose " + pose +
+             " --show-displacement -o " + output);
       expect_fields<Dim>(output, 2 * mesh.points.colwise().norm().transpose(), other);
     }
   };
   check(std::integral_constant<int, 2>(), {"m.vtu"});
   check(std::integral_constant<int, 3>(), {"m.mesh", "n.vtu"});
-  const auto refused =
-      deform(path("m.mesh") + " --weights " + path("w.npy") + " --rest " + path("rest.obj") +
-                 " --pose " + path("pose.obj") + " --show-displacement -o " + path("o.msh"),
-             1);
+  const auto refused = deform(
+      "m.mesh --weights w.npy --rest rest.obj --pose pose.obj --show-displacement -o o.msh", 1);
   EXPECT_NE(refused.errors.find("o.msh: cannot show displacements"), std::string::npos);
   // A 2D mesh becomes a colored model as well; its fields cannot be stored there.
   const auto mesh = samples<2>().front().mesh;
-  io::write_domain(path("p.vtu"), mesh, {{"other", mesh.points.row(0).transpose()}});
+  io::write_domain("p.vtu", mesh, {{"other", mesh.points.row(0).transpose()}});
   const auto rest = simplex<2>("r.obj", Eigen::Matrix2d::Identity(), Vector<2>::Zero());
   const auto pose = simplex<2>("q.obj", Eigen::Matrix2d::Identity(), Vector<2>(3, 4));
   WeightMatrix weights(3, mesh.num_vertices());
   weights << 1 - mesh.points.colwise().sum().array(), mesh.points;
-  io::write_weights(path("w.npy"), weights);
-  const auto result = deform(path("p.vtu") + " --weights " + path("w.npy") + " --rest " + rest +
-                             " --pose " + pose + " --show-displacement -o " + path("p.ply"));
+  io::write_weights("w.npy", weights);
+  const auto result = deform("p.vtu --weights w.npy --rest " + rest + " --pose " + pose +
+                             " --show-displacement -o p.ply");
   EXPECT_NE(result.errors.find("field \"other\""), std::string::npos) << result.errors;
-  const auto shown = read_by_openmesh(path("p.ply"), Options(Options::VertexColor));
+  const auto shown = read_by_openmesh("p.ply", Options(Options::VertexColor));
   for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(23, 48, 114));
 }
 
@@ -275,17 +271,15 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
 TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     SCOPED_TRACE(name);
-    const auto cage = sample(name + "_cage.obj");
-    const auto model = path("model.stl");
-    expect("convert " + sample(name + "_model.obj") + " -o " + model);
-    expect("solve " + cage + " --method harmonic --vertices 1500 -q -o " + path("w.npy") +
-           " --model " + model);
-    const auto command = model + " --weights " + path("w.npy") + " --rest " + cage + " --pose " +
-                         sample(name + "_cage_pose.obj") + " -q -o ";
-    EXPECT_EQ(deform(command + path("o.stl")).errors, "");
-    EXPECT_EQ(deform(command + path("o.ply")).errors, "");
-    const auto moved = read_by_openmesh(path("o.ply"), Options());
-    EXPECT_EQ(io::read_weights(path("w.npy")).cols(), static_cast<Index>(moved.n_vertices()));
+    const auto cage = name + "_cage.obj";
+    expect("convert " + name + "_model.obj -o model.stl");
+    expect("solve " + cage + " --method harmonic --vertices 1500 -q -o w.npy --model model.stl");
+    const auto command =
+        "model.stl --weights w.npy --rest " + cage + " --pose " + name + "_cage_pose.obj -q -o ";
+    EXPECT_EQ(deform(command + "o.stl").errors, "");
+    EXPECT_EQ(deform(command + "o.ply").errors, "");
+    const auto moved = read_by_openmesh("o.ply", Options());
+    EXPECT_EQ(io::read_weights("w.npy").cols(), static_cast<Index>(moved.n_vertices()));
   }
   // Where numbers are that small, other programs take them for equal.
   const auto odd = file("odd.stl",
@@ -295,15 +289,12 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
                         "endsolid\n");
   WeightMatrix weights(4, 5);
   weights.setConstant(0.25);
-  io::write_weights(path("w.npy"), weights);
+  io::write_weights("w.npy", weights);
   const auto cage = simplex<3>("rest.obj", Eigen::Matrix3d::Identity(), Vector<3>::Zero());
-  EXPECT_EQ(
-      deform(odd + " --weights " + path("w.npy") + " --pose " + cage + " -q -o " + path("p.stl"))
-          .errors,
-      "");
+  EXPECT_EQ(deform(odd + " --weights w.npy --pose " + cage + " -q -o p.stl").errors, "");
   EXPECT_EQ(run("info " + odd).output.find(odd + ": 5 vertices"), 0U);
-  expect("convert " + odd + " -o " + path("odd.ply"));
-  EXPECT_EQ(read_by_openmesh(path("odd.ply"), Options()).n_vertices(), 5U);
+  expect("convert " + odd + " -o odd.ply");
+  EXPECT_EQ(read_by_openmesh("odd.ply", Options()).n_vertices(), 5U);
 }
 
 TEST_F(DeformFormats, NothingIsHalfWritten) {
@@ -312,12 +303,12 @@ TEST_F(DeformFormats, NothingIsHalfWritten) {
   const auto far = simplex<3>("far.obj", 1e300 * Eigen::Matrix3d::Identity(), Vector<3>::Zero());
   const auto command =
       model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + far + " -o ";
-  const auto result = deform(command + path("o_%d.ply"), 2);
+  const auto result = deform(command + "o_%d.ply", 2);
   EXPECT_NE(result.errors.find("o_1.ply: coordinate x of vertex 0 would be too large"),
             std::string::npos)
       << result.errors;
-  EXPECT_FALSE(std::filesystem::exists(path("o_0.ply")));
-  EXPECT_FALSE(std::filesystem::exists(path("o_1.ply")));
+  EXPECT_FALSE(std::filesystem::exists("o_0.ply"));
+  EXPECT_FALSE(std::filesystem::exists("o_1.ply"));
 
   // Three polygons at an edge.
   const auto fan = file("fan.obj",
@@ -327,14 +318,14 @@ TEST_F(DeformFormats, NothingIsHalfWritten) {
                     " --pose " + rest;
   WeightMatrix weights(4, 5);
   weights.setConstant(0.25);
-  io::write_weights(path("w.npy"), weights);
-  const auto refused = deform(fans + " -o " + path("fan.om"), 2);
+  io::write_weights("w.npy", weights);
+  const auto refused = deform(fans + " -o fan.om", 2);
   EXPECT_NE(refused.errors.find("fan.om: polygon 1 does not fit into a half-edge mesh"),
             std::string::npos)
       << refused.errors;
-  EXPECT_FALSE(std::filesystem::exists(path("fan.om")));
-  deform(fans + " -o " + path("fan.ply"));
-  EXPECT_NE(slurp(path("fan.ply")).find("element face 3"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists("fan.om"));
+  deform(fans + " -o fan.ply");
+  EXPECT_NE(slurp("fan.ply").find("element face 3"), std::string::npos);
 }
 
 }  // namespace

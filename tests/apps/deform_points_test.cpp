@@ -22,11 +22,11 @@ class DeformPoints : public CommandLineTest {
     std::uniform_real_distribution<double> part(0, 1.0 / 3);
     points_.resize(3, kPoints);
     for (double& number : points_.reshaped()) number = part(random);
-    io::write_weights(path("p.npy"), points_);
+    io::write_weights("p.npy", points_);
     const PointList<3> corners = PointList<3>{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    io::write_domain<3>(path("domain.mesh"), {corners, CellList<3>{{0}, {1}, {2}, {3}}});
-    rig_ = " --domain " + path("domain.mesh") + " --weights " + linear_weights(corners) +
-           " --rest " + tetrahedron() + " --pose " +
+    io::write_domain<3>("domain.mesh", {corners, CellList<3>{{0}, {1}, {2}, {3}}});
+    rig_ = " --domain domain.mesh --weights " + linear_weights(corners) + " --rest " +
+           tetrahedron() + " --pose " +
            tetrahedron("v 1 0 0\nv 3 0 0\nv 1 3 0\nv 1 0 4\n", "pose.obj") + ' ';
   }
 
@@ -90,7 +90,7 @@ class DeformPoints : public CommandLineTest {
   }
 
   std::string deform(const std::string& input, const std::string& output) const {
-    return "deform " + path(input) + rig_ + "-o " + path(output) + ' ';
+    return "deform " + input + rig_ + "-o " + output + ' ';
   }
 
   PointList<3> points_;
@@ -99,7 +99,7 @@ class DeformPoints : public CommandLineTest {
 
 TEST_F(DeformPoints, MovesArrays) {
   expect(deform("p.npy", "q.npy"), 0, "70000 vertices, 1 pose");
-  EXPECT_LT((io::read_weights(path("q.npy")) - moved(points_)).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((io::read_weights("q.npy") - moved(points_)).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
@@ -107,7 +107,7 @@ TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
   expect(deform("p.ply", "q.ply"));
   const auto expected =
       slurp(write_ply("expected.ply", moved(points_.cast<float>().cast<double>())));
-  const auto found = slurp(path("q.ply"));
+  const auto found = slurp("q.ply");
   ASSERT_EQ(found.size(), expected.size());
   const auto vertices = expected.find("end_header\n") + 11;
   EXPECT_EQ(found.substr(0, vertices), expected.substr(0, vertices));
@@ -128,7 +128,7 @@ TEST_F(DeformPoints, KeepsAllOtherBytesOfVtu) {
     expect(deform("p.vtu", "q.vtu"), 0, "70000 vertices, 1 pose");
     const WeightMatrix rounded = is_small ? points_.cast<float>().cast<double>().eval() : points_;
     const auto expected = slurp(write_vtu("expected.vtu", moved(rounded), is_small));
-    const auto found = slurp(path("q.vtu"));
+    const auto found = slurp("q.vtu");
     ASSERT_EQ(found.size(), expected.size());
     const std::size_t width = is_small ? 4 : 8;
     const auto begin = expected.find("\n_") + 2 + width + 8 * kPoints + width;
@@ -150,14 +150,14 @@ TEST_F(DeformPoints, KeepsAllOtherBytesOfVtu) {
 
 TEST_F(DeformPoints, RefusesVtuThatItCannotRewrite) {
   write_vtu("p.vtu", points_, false);
-  const auto content = slurp(path("p.vtu"));
+  const auto content = slurp("p.vtu");
   const auto refuses = [&](const std::string& old, const std::string& changed,
                            const std::string& message) {
     auto other = content;
     other.replace(other.find(old), old.size(), changed);
     file("other.vtu", other);
     expect(deform("other.vtu", "q.vtu"), 2, message);
-    EXPECT_FALSE(std::filesystem::exists(path("q.vtu")));
+    EXPECT_FALSE(std::filesystem::exists("q.vtu"));
   };
   refuses("UInt64\"", "UInt64\" compressor=\"vtkZLibDataCompressor\"", "compressed");
   refuses("LittleEndian", "BigEndian", "byte order \"BigEndian\"");
@@ -176,9 +176,9 @@ TEST_F(DeformPoints, RefusesVtuThatItCannotRewrite) {
 
 TEST_F(DeformPoints, FailuresLeaveNoFile) {
   points_.col(69999).setConstant(2);
-  io::write_weights(path("out.npy"), points_);
+  io::write_weights("out.npy", points_);
   expect(deform("out.npy", "q.npy"), 2, "point 69999 at (2 2 2) is outside the cage, 2.88675");
-  auto content = slurp(path("p.npy"));
+  auto content = slurp("p.npy");
   const double infinite = INFINITY;
   std::memcpy(content.data() + content.size() - 8, &infinite, 8);
   file("bad.npy", content);
@@ -187,15 +187,14 @@ TEST_F(DeformPoints, FailuresLeaveNoFile) {
   expect(deform("short.npy", "q.npy"), 2, "too short for 70000 points");
   expect(deform("p.npy", "p.npy"), 1);
   expect(deform("p.npy", "q.ply"), 1, ".npy");
-  expect("deform " + path("p.npy") + " --weights " + path("w.npy") + " --pose " + path("pose.obj") +
-             " -o " + path("q.npy"),
-         1, "points need --domain and --rest");
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(path("")))) {
+  expect("deform p.npy --weights w.npy --pose pose.obj -o q.npy", 1,
+         "points need --domain and --rest");
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path("."))) {
     const auto name = entry.path().filename().string();
     EXPECT_TRUE(name[0] != 'q' && name[0] != '.') << name;
   }
   expect(deform("out.npy", "q.npy") + "--outside nearest");
-  EXPECT_NEAR(io::read_weights(path("q.npy"))(2, 69999), 4.0 / 3, 1e-12);
+  EXPECT_NEAR(io::read_weights("q.npy")(2, 69999), 4.0 / 3, 1e-12);
 }
 
 }  // namespace

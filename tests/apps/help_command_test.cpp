@@ -80,12 +80,12 @@ class HelpCommands : public CommandLineTest {
   Words offered(const std::vector<std::string>& words) const {
     std::string line;
     for (const auto& word : words) line += " '" + word + "'";
-    const auto script = path("completion.sh");
-    std::ofstream(script) << "source <(" << FLBC_PROGRAM << " completion bash)\n"
-                          << "COMP_WORDS=(" << line << ")\nCOMP_CWORD=" << words.size() - 1
-                          << "\n_flbc\nprintf '%s\\n' \"${COMPREPLY[@]}\" >" << path("offered");
-    EXPECT_EQ(std::system(("bash -u " + script).c_str()), 0);
-    std::istringstream lines(slurp(path("offered")));
+    std::ofstream("completion.sh") << "source <(" << FLBC_PROGRAM << " completion bash)\n"
+                                   << "COMP_WORDS=(" << line << ")\nCOMP_CWORD=" << words.size() - 1
+                                   << "\n_flbc\nprintf '%s\\n' \"${COMPREPLY[@]}\" >"
+                                   << "offered";
+    EXPECT_EQ(std::system("bash -u completion.sh"), 0);
+    std::istringstream lines(slurp("offered"));
     Words offers;
     for (std::string word; std::getline(lines, word);) {
       if (!word.empty()) offers.insert(word);
@@ -182,22 +182,22 @@ TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
   const auto model = file("model.obj", "v 0.25 0.25 0.25\n");
   const auto deform = "deform " + model + " --weights " +
                       linear_weights(PointList<3>::Constant(3, 1, 0.25)) + " -q -o ";
-  expect(deform + path("new.obj") + " --pose " + cage);
-  expect(deform + path("old.obj") + " --cage " + cage);
-  expect(deform + path("equal.obj") + " --cage=" + cage);
-  EXPECT_NE(slurp(path("new.obj")), "");
-  EXPECT_EQ(slurp(path("old.obj")), slurp(path("new.obj")));
-  EXPECT_EQ(slurp(path("equal.obj")), slurp(path("new.obj")));
+  expect(deform + "new.obj --pose " + cage);
+  expect(deform + "old.obj --cage " + cage);
+  expect(deform + "equal.obj --cage=" + cage);
+  EXPECT_NE(slurp("new.obj"), "");
+  EXPECT_EQ(slurp("old.obj"), slurp("new.obj"));
+  EXPECT_EQ(slurp("equal.obj"), slurp("new.obj"));
 }
 
 // The pages of the site have a table of commands, and of each its arguments and options.
 TEST_F(HelpCommands, PagesInMarkdown) {
-  expect("man --folder " + path("help"));
-  const auto index = slurp(path("help/index.md"));
+  expect("man --folder help");
+  const auto index = slurp("help/index.md");
   EXPECT_EQ(index.find("# "), 0U) << index;
   for (const auto& command : commands()) {
     EXPECT_NE(index.find("](" + command + ".md)"), std::string::npos) << command;
-    const auto page = slurp(path("help/" + command + ".md"));
+    const auto page = slurp("help/" + command + ".md");
     EXPECT_EQ(page.find("# flbc " + command + "\n\n"), 0U) << page;
     EXPECT_NE(page.find("\n```\nflbc " + command + " "), std::string::npos) << page;
     EXPECT_NE(page.find("](../exit_status.md)"), std::string::npos) << page;
@@ -206,22 +206,20 @@ TEST_F(HelpCommands, PagesInMarkdown) {
           << command << ' ' << option;
     }
   }
-  EXPECT_NE(slurp(path("help/solve.md")).find("\n## More options\n\n| "), std::string::npos);
+  EXPECT_NE(slurp("help/solve.md").find("\n## More options\n\n| "), std::string::npos);
 }
 
 TEST_F(HelpCommands, PagesAreWithoutWarnings) {
-  expect("man --folder " + path("help"));
+  expect("man --folder help");
   if (!is_there("groff")) GTEST_SKIP() << "groff is not installed";
   auto names = commands();
   names.insert("");
   for (const auto& name : names) {
-    const auto page = path("help/flbc" + (name.empty() ? "" : "-" + name) + ".1");
-    ASSERT_EQ(std::system(("groff -man -ww -Tutf8 " + page + " >" + path("page.txt") + " 2>" +
-                           path("warnings.txt"))
-                              .c_str()),
+    const auto page = ("help/flbc" + (name.empty() ? "" : "-" + name) + ".1");
+    ASSERT_EQ(std::system(("groff -man -ww -Tutf8 " + page + " >page.txt 2>warnings.txt").c_str()),
               0);
-    EXPECT_EQ(slurp(path("warnings.txt")), "") << page;
-    EXPECT_NE(slurp(path("page.txt")).find("wrong usage"), std::string::npos) << page;
+    EXPECT_EQ(slurp("warnings.txt"), "") << page;
+    EXPECT_NE(slurp("page.txt").find("wrong usage"), std::string::npos) << page;
     if (!is_there("mandoc")) continue;
     EXPECT_EQ(std::system(("mandoc -Tlint -Werror " + page).c_str()), 0) << page;
   }

@@ -22,20 +22,20 @@ class MesherCommand : public CommandLineTest {
 };
 
 TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
-  const auto solve = "solve " + flat_box() + " --vertices 200 --mesh-timeout 6 -o " +
-                     path("w.npy") + " --report " + path("report.json");
+  const auto solve =
+      "solve " + flat_box() + " --vertices 200 --mesh-timeout 6 -o w.npy --report report.json";
   const auto refused = expect(solve + " --mesher tetgen", 2, "TetGen");
-  EXPECT_FALSE(std::filesystem::exists(path("w.npy")));
+  EXPECT_FALSE(std::filesystem::exists("w.npy"));
   if (!has_netgen()) GTEST_SKIP() << "built without Netgen";
   EXPECT_NE(refused.errors.find("--mesher netgen"), std::string::npos) << refused.errors;
   for (const std::string mesher : {"", " --mesher auto", " --mesher netgen"}) {
     const auto solved = expect(solve + mesher);
-    const auto report = nlohmann::json::parse(slurp(path("report.json")));
+    const auto report = nlohmann::json::parse(slurp("report.json"));
     EXPECT_EQ(report["mesher"], "netgen");
     const bool is_second = mesher != " --mesher netgen";
     EXPECT_EQ(solved.errors.find("the mesh was made by netgen") != std::string::npos, is_second)
         << solved.errors;
-    const auto weights = io::read_weights(path("w.npy"));
+    const auto weights = io::read_weights("w.npy");
     EXPECT_NEAR(weights.colwise().sum().minCoeff(), 1, 1e-12);
     EXPECT_NEAR(weights.colwise().sum().maxCoeff(), 1, 1e-12);
     EXPECT_GE(weights.minCoeff(), 0);
@@ -43,18 +43,17 @@ TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
 }
 
 TEST_F(MesherCommand, SoundCagesAreMeshedByTheFirst) {
-  const auto cage = sample("3d/limb_cage.obj");
-  expect("run " + cage + " --vertices 1000 -q -o " + path("out"));
-  const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
+  expect("run 3d/limb_cage.obj --vertices 1000 -q -o out");
+  const auto report = nlohmann::json::parse(slurp("out/report.json"));
   EXPECT_EQ(report["solve"]["mesher"], "tetgen");
   EXPECT_EQ(report["mesh"]["mesher"], "tetgen");
 }
 
 TEST_F(MesherCommand, MeshersOfTheOtherDimensionAreRefused) {
-  expect("mesh " + sample("3d/limb_cage.obj") + " --mesher cgal -o " + path("m.mesh"), 1,
+  expect("mesh 3d/limb_cage.obj --mesher cgal -o m.mesh", 1,
          "--mesher cgal: this mesher does not support 3D");
-  expect("mesh " + sample("2d/ring_cage.obj") + " --mesher tetgen -o " + path("m.obj"), 1);
-  expect("mesh " + sample("2d/ring_cage.obj") + " --mesher x -o " + path("m.obj"), 1);
+  expect("mesh 2d/ring_cage.obj --mesher tetgen -o m.obj", 1);
+  expect("mesh 2d/ring_cage.obj --mesher x -o m.obj", 1);
 }
 
 }  // namespace

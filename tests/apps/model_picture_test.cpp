@@ -122,44 +122,42 @@ TEST(ModelPicture, ViewsAreRightHanded) {
 class DrawModel : public testing::CommandLineTest {
  protected:
   void expect_picture(const std::string& arguments) const {
-    const auto result = run("draw " + arguments + " --width 300 -o " + path("p.png"));
+    const auto result = run("draw " + arguments + " --width 300 -o p.png");
     EXPECT_EQ(result.status, 0) << result.errors;
-    EXPECT_EQ(testing::slurp(path("p.png")).substr(1, 3), "PNG") << arguments;
-    const auto first = testing::slurp(path("p.png"));
-    EXPECT_EQ(run("draw " + arguments + " --width 300 -o " + path("p.png")).status, 0);
-    EXPECT_EQ(testing::slurp(path("p.png")), first) << arguments;
-    std::filesystem::remove(path("p.png"));
+    EXPECT_EQ(testing::slurp("p.png").substr(1, 3), "PNG") << arguments;
+    const auto first = testing::slurp("p.png");
+    EXPECT_EQ(run("draw " + arguments + " --width 300 -o p.png").status, 0);
+    EXPECT_EQ(testing::slurp("p.png"), first) << arguments;
+    std::filesystem::remove("p.png");
   }
   void expect_failure(const std::string& arguments, int status, const std::string& words) const {
-    const auto result = run("draw " + arguments + " -o " + path("p.png"));
+    const auto result = run("draw " + arguments + " -o p.png");
     EXPECT_EQ(result.status, status) << arguments;
     EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_FALSE(std::filesystem::exists(path("p.png")));
+    EXPECT_FALSE(std::filesystem::exists("p.png"));
   }
 };
 
 TEST_F(DrawModel, BothDimensions) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
-    const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
-    const auto pose = " --pose " + sample(name + "_cage_pose.obj");
-    ASSERT_EQ(
-        run("solve " + cage + " --method meanvalue -q --model " + model + " -o " + path("w.npy"))
-            .status,
-        0);
-    const auto common = "--model " + model + " --weights " + path("w.npy") + " --cage " + cage;
+    const auto cage = name + "_cage.obj", model = name + "_model.obj";
+    const auto pose = " --pose " + name + "_cage_pose.obj";
+    ASSERT_EQ(run("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy").status,
+              0);
+    const auto common = "--model " + model + " --weights w.npy --cage " + cage;
     expect_picture(common + " --control-point 3");
     expect_picture(common + pose);
     expect_picture(common + " --all");
     expect_failure(common + " --color displacement", 1, "needs --pose");
     expect_failure(common + pose + " --color red", 1, "displacement|weight|plain");
     expect_failure(common + " --control-point 1000", 1, "--control-point must be in [0, ");
-    expect_failure("--weights " + path("w.npy") + " --cage " + cage, 1, "--model");
+    expect_failure("--weights w.npy --cage " + cage, 1, "--model");
     if (name[0] == '2') {
       expect_failure(common + " --color plain", 1, "3D");
     } else {
       expect_picture(common + pose + " --color plain --view 120,-30");
       expect_failure(common + " --view 1,2,3", 1, "AZIMUTH,ELEVATION");
-      expect_failure(common + " --pose " + sample("3d/star_cage.obj"), 2, "star_cage.obj");
+      expect_failure(common + " --pose 3d/star_cage.obj", 2, "star_cage.obj");
     }
   }
 }

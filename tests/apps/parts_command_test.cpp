@@ -38,14 +38,14 @@ class PartsCommand : public CommandLineTest {
   static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
   nlohmann::json report(const std::string& name) const {
-    return nlohmann::json::parse(slurp(path(name)));
+    return nlohmann::json::parse(slurp(name));
   }
   static Cage<kDim> small() { return box_cage<kDim>(0.5); }
   static Cage<kDim> large() {
     return box_cage<kDim>(Vector<kDim>::Constant(2), Vector<kDim>::Constant(4));
   }
   std::string both() const { return file("both.obj", text_of(join(small(), large()))); }
-  std::string domain() const { return path(kDim == 2 ? "domain.obj" : "domain.mesh"); }
+  std::string domain() const { return (kDim == 2 ? "domain.obj" : "domain.mesh"); }
   std::string vertices(int count = kVertices) const {
     return " --vertices " + std::to_string(count) + ' ';
   }
@@ -70,11 +70,10 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
   EXPECT_NE(this->expect("check " + cage, 0).output.find("each part is solved on its own"),
             std::string::npos);
   this->expect("solve " + cage + this->vertices() + "--certify --save-domain " + this->domain() +
-                   " -o " + this->path("w.npy") + " --report " + this->path("report.json"),
+                   " -o w.npy --report report.json",
                0, "2 parts, " + std::to_string(2 * n) + " control points");
-  this->expect(
-      "check " + cage + " --domain " + this->domain() + " --weights " + this->path("w.npy"), 0);
-  const auto weights = io::read_weights(this->path("w.npy"));
+  this->expect("check " + cage + " --domain " + this->domain() + " --weights w.npy", 0);
+  const auto weights = io::read_weights("w.npy");
   const auto report = this->report("report.json");
   ASSERT_EQ(report["parts"].size(), 2u);
   Index next = 2 * n;
@@ -82,10 +81,10 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
   for (int k = 0; k < 2; ++k) {
     const auto alone = this->file("alone.obj", text_of(k == 0 ? this->small() : this->large()));
     const int share = k == 0 ? this->kOfSmall : this->kVertices - this->kOfSmall;
-    this->expect("solve " + alone + this->vertices(share) + "--certify -q -o " +
-                     this->path("alone.npy") + " --report " + this->path("alone.json"),
-                 0);
-    const auto expected = io::read_weights(this->path("alone.npy"));
+    this->expect(
+        "solve " + alone + this->vertices(share) + "--certify -q -o alone.npy --report alone.json",
+        0);
+    const auto expected = io::read_weights("alone.npy");
     std::vector<Index> vertices;
     for (Index v = 0; v < expected.cols(); ++v) vertices.push_back(v < n ? k * n + v : next++);
     const WeightMatrix rows = weights(Eigen::all, vertices);
@@ -108,10 +107,9 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
 TYPED_TEST(PartsCommand, MeshFirstThenSolve) {
   const auto cage = this->both();
   this->expect("mesh " + cage + this->vertices() + "-o " + this->domain(), 0);
-  this->expect("solve " + cage + " --domain " + this->domain() + " -q -o " + this->path("a.npy"),
-               0);
-  this->expect("solve " + cage + this->vertices() + "-q -o " + this->path("b.npy"), 0);
-  const auto a = io::read_weights(this->path("a.npy")), b = io::read_weights(this->path("b.npy"));
+  this->expect("solve " + cage + " --domain " + this->domain() + " -q -o a.npy", 0);
+  this->expect("solve " + cage + this->vertices() + "-q -o b.npy", 0);
+  const auto a = io::read_weights("a.npy"), b = io::read_weights("b.npy");
   ASSERT_EQ(a.cols(), b.cols());
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6);  // files have 15 to 17 digits
 }
@@ -121,7 +119,7 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   auto moved = join(this->small(), this->large());
   moved.points.row(0).rightCols(this->large().size()).array() += 1;
   const auto pose = this->file("pose.obj", text_of(moved));
-  const auto out = this->path("out");
+  const std::string out = "out";
   this->expect(
       "run " + cage + ' ' + of + this->vertices() + "--certify --pose " + pose + " -o " + out, 0,
       ", 2 parts");
@@ -131,9 +129,9 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   // The small part stays where it is, the large one moves by 1.
   const auto weights = out + "/weights.npy";
   this->expect("deform " + of + " --weights " + weights + " --pose " + pose + " --rest " + cage +
-                   " -o " + this->path("moved.obj"),
+                   " -o moved.obj",
                0);
-  std::istringstream before(slurp(of)), after(slurp(this->path("moved.obj")));
+  std::istringstream before(slurp(of)), after(slurp("moved.obj"));
   int number = 0;
   for (std::string word; before >> word;) {
     std::string other;
@@ -147,15 +145,11 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   }
   EXPECT_EQ(number, 2 * this->small().size());
   for (const std::string& command :
-       {"sparsify " + weights + " --cage " + cage + " --points " + of + " -k 4 -o " +
-            this->path("few.npy"),
-        "export " + of + " --weights " + weights + " --cage " + cage + " -o " +
-            this->path("skin.glb"),
-        "view " + of + " --weights " + weights + " --cage " + cage + " -o " +
-            this->path("page.html"),
+       {"sparsify " + weights + " --cage " + cage + " --points " + of + " -k 4 -o few.npy",
+        "export " + of + " --weights " + weights + " --cage " + cage + " -o skin.glb",
+        "view " + of + " --weights " + weights + " --cage " + cage + " -o page.html",
         "draw " + out + (TypeParam::value == 2 ? "/domain.obj" : "/domain.mesh") + " --weights " +
-            out + "/domain_weights.npy --cage " + cage + " --control-point 1 -o " +
-            this->path("picture.png"),
+            out + "/domain_weights.npy --cage " + cage + " --control-point 1 -o picture.png",
         "check " + cage + " --model " + of + " --weights " + weights}) {
     this->expect(command, 0);
   }
@@ -163,11 +157,9 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
 
 TYPED_TEST(PartsCommand, EmbedsEachVertexInItsPart) {
   const auto cage = this->both(), of = this->model();
-  this->expect(
-      "solve " + cage + this->vertices() + "--model " + of + " --embed -o " + this->path("w.npy"),
-      0);
-  this->expect("check " + cage + " --model " + of + " --weights " + this->path("w.npy"), 0);
-  const auto weights = io::read_weights(this->path("w.npy"));
+  this->expect("solve " + cage + this->vertices() + "--model " + of + " --embed -o w.npy", 0);
+  this->expect("check " + cage + " --model " + of + " --weights w.npy", 0);
+  const auto weights = io::read_weights("w.npy");
   constexpr int n = 1 << TypeParam::value;
   EXPECT_EQ(weights.topRightCorner(n, n).cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
@@ -178,15 +170,15 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
   const auto cage = this->both(), of = this->model(0.4);
   constexpr int n = 1 << TypeParam::value;
   const auto solve = [&](const std::string& policy) {
-    return "solve " + cage + this->vertices() + "--model " + of + " --outside " + policy + " -o " +
-           this->path("w.npy");
+    return "solve " + cage + this->vertices() + "--model " + of + " --outside " + policy +
+           " -o w.npy";
   };
   this->expect(
       solve("fail"), 2,
       std::to_string(n / 2) + " of " + std::to_string(2 * n) + " vertices are outside the cage");
   for (const std::string policy : {"nearest", "extend"}) {
     this->expect(solve(policy), 0, "vertices outside the cage");
-    const auto weights = io::read_weights(this->path("w.npy"));
+    const auto weights = io::read_weights("w.npy");
     EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
     EXPECT_LT((weights.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
   }
@@ -194,8 +186,7 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
 
 TYPED_TEST(PartsCommand, WhatWantsOnePartSaysSo) {
   const auto cage = this->both();
-  this->expect("solve " + cage + " --history -o " + this->path("w.npy"), 1,
-               "--history: the cage has 2 parts");
+  this->expect("solve " + cage + " --history -o w.npy", 1, "--history: the cage has 2 parts");
   this->expect("view --serve " + cage, 2, "the domain is not connected: it has 2 parts");
 }
 
@@ -220,20 +211,20 @@ TEST_F(PartsOfPicture, SilhouetteInPiecesRuns) {
   image.width = kWidth;
   image.height = kHeight;
   image.format = PNG_FORMAT_RGBA;
-  const auto picture = path("rings.png");
+  const std::string picture = "rings.png";
   ASSERT_NE(png_image_write_to_file(&image, picture.c_str(), 0, bytes.data(), 0, nullptr), 0);
 
-  const auto cage = expect("cage " + picture + " --offset 2 -o " + path("cage.obj"));
-  const auto check = nlohmann::json::parse(run("check " + path("cage.obj") + " --json -").output);
+  const auto cage = expect("cage " + picture + " --offset 2 -o cage.obj");
+  const auto check = nlohmann::json::parse(run("check cage.obj --json -").output);
   EXPECT_GE(check["cage"]["parts"], 2);
-  expect("solve " + path("cage.obj") + " --vertices 2000 -o " + path("w.npy"));
-  expect("run " + picture + " --auto-cage --vertices 2000 -o " + path("out"));
-  const auto report = nlohmann::json::parse(slurp(path("out/report.json")));
+  expect("solve cage.obj --vertices 2000 -o w.npy");
+  expect("run " + picture + " --auto-cage --vertices 2000 -o out");
+  const auto report = nlohmann::json::parse(slurp("out/report.json"));
   EXPECT_EQ(report["solve"]["parts"].size(), report["check"]["cage"]["parts"]);
   EXPECT_TRUE(report["check"]["fine"]);
   EXPECT_EQ(report["inputs"], nlohmann::json::array({picture}));
   for (const std::string option : {"--embed", "--outside nearest"}) {
-    expect("run " + picture + " --auto-cage " + option + " -o " + path("none"), 1);
+    expect("run " + picture + " --auto-cage " + option + " -o none", 1);
   }
 }
 

@@ -13,9 +13,8 @@ class PlotCommand : public CommandLineTest {
  protected:
   nlohmann::json solved(const std::string& name, const std::string& cage,
                         const std::string& options) const {
-    const auto report = path(name + ".json");
-    expect("solve " + sample(cage) + " -q --vertices 800 -o " + path("w.npy") + " --report " +
-           report + " " + options);
+    const auto report = name + ".json";
+    expect("solve " + cage + " -q --vertices 800 -o w.npy --report " + report + " " + options);
     return nlohmann::json::parse(slurp(report));
   }
 };
@@ -50,9 +49,9 @@ TEST_F(PlotCommand, AHistoryEndsAsTheReportSays) {
                     report["objective"].get<double>(), 0.01 * report["objective"].get<double>());
       }
       // Looking on changes nothing.
-      const auto weights = slurp(path("w.npy"));
+      const auto weights = slurp("w.npy");
       EXPECT_FALSE(solved("plain", cage, "--method " + method).contains("history"));
-      EXPECT_EQ(slurp(path("w.npy")), weights);
+      EXPECT_EQ(slurp("w.npy"), weights);
     }
   }
 }
@@ -61,33 +60,30 @@ TEST_F(PlotCommand, DrawsSeveralRunsInAllFormats) {
   solved("a", "2d/letter_cage.obj", "--history --certify");
   solved("b", "2d/letter_cage.obj", "--history --method gradient");
   for (const char* extension : {"png", "svg", "pdf"}) {
-    const auto output = path(std::string("plot.") + extension);
-    expect("plot " + path("a.json") + " " + path("b.json") + " --names splitting 'the paper' -o " +
-           output);
+    const auto output = std::string("plot.") + extension;
+    expect("plot a.json b.json --names splitting 'the paper' -o " + output);
     EXPECT_GT(slurp(output).size(), 3000U);
   }
-  const auto to_text = "pdftotext " + path("plot.pdf") + " " + path("plot.txt");
-  if (std::system((to_text + " 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "needs pdftotext";
-  const auto shown = slurp(path("plot.txt"));
-  for (const char* text : {"splitting", "the paper", "iterations", "seconds", "objective",
-                           "residual / threshold", "estimated error (mean squared)",
-                           "gap to the certified bound"}) {
+  if (std::system("pdftotext plot.pdf plot.txt 2>/dev/null") != 0)
+    GTEST_SKIP() << "needs pdftotext";
+  const auto shown = slurp("plot.txt");
+  for (const char* text :
+       {"splitting", "the paper", "iterations", "seconds", "objective", "residual / threshold",
+        "estimated error (mean squared)", "gap to the certified bound"}) {
     EXPECT_NE(shown.find(text), std::string::npos) << text;
   }
 }
 
 TEST_F(PlotCommand, RefusesWhatIsNoHistory) {
   solved("plain", "2d/letter_cage.obj", "--method harmonic --history");
-  const auto plot = [&](const std::string& report) {
-    return "plot " + report + " -o " + path("p.png");
-  };
-  expect(plot(path("plain.json")), 2, "plain.json: has no history");
-  expect(plot(path("absent.json")), 4, "absent.json");
+  const auto plot = [&](const std::string& report) { return "plot " + report + " -o p.png"; };
+  expect(plot("plain.json"), 2, "plain.json: has no history");
+  expect(plot("absent.json"), 4, "absent.json");
   expect(plot(file("text.json", "no json")), 2, "text.json: not a report");
   expect(plot(file("list.json", "[1, 2]")), 2, "list.json: has no history");
   const std::string damaged = "{\"history\": {\"iterations\": [1, 2], \"finer_levels\": [0]}}";
   expect(plot(file("bad.json", damaged)), 2, "bad.json: the history is damaged");
-  expect("plot " + path("plain.json") + " -o " + path("p.gif"), 1);
+  expect("plot plain.json -o p.gif", 1);
 }
 
 }  // namespace

@@ -66,15 +66,13 @@ TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
 using ProgressLine = flbc::testing::CommandLineTest;
 
 TEST_F(ProgressLine, IsForTerminalsOnly) {
-  const auto solve = "solve " + sample("3d/limb_cage.obj") + " --method gradient -o " +
-                     path("w.npy") + " --vertices ";
+  const std::string solve = "solve 3d/limb_cage.obj --method gradient -o w.npy --vertices ";
   EXPECT_EQ(expect(solve + "300").errors.find("solving ["), std::string::npos);
   if (std::system("command -v script >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1)";
-  const auto log = path("log.txt");
-  const auto in_terminal = "script -qec '" + std::string(FLBC_PROGRAM) + " " + solve + "2500' " +
-                           log + " >/dev/null </dev/null";
+  const auto in_terminal = "script -qec '" + std::string(FLBC_PROGRAM) + " " + solve +
+                           "2500' log.txt >/dev/null </dev/null";
   ASSERT_EQ(std::system(in_terminal.c_str()), 0);
-  const auto text = flbc::testing::slurp(log);
+  const auto text = flbc::testing::slurp("log.txt");
   int last = 0;
   std::size_t lines = 0;
   for (auto at = text.find("\rsolving ["); at != std::string::npos;

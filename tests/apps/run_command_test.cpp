@@ -42,42 +42,41 @@ using Names = std::set<std::string>;
 class RunCommand : public CommandLineTest {
  protected:
   Ended run_into(const std::string& folder, const std::string& arguments) const {
-    return run("run " + arguments + " -o " + path(folder));
+    return run("run " + arguments + " -o " + folder);
   }
   void expect_run(const std::string& folder, const std::string& arguments, int status,
                   const std::string& words) const {
-    expect("run " + arguments + " -o " + path(folder), status, words);
+    expect("run " + arguments + " -o " + folder, status, words);
   }
 
   Names names_in(const std::string& folder) const {
     Names names;
-    if (!fs::exists(path(folder))) return names;
-    for (const auto& entry : fs::directory_iterator(path(folder))) {
+    if (!fs::exists(folder)) return names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
       names.insert(entry.path().filename().string());
     }
     return names;
   }
   nlohmann::json report(const std::string& folder) const {
-    return nlohmann::json::parse(slurp(path(folder + "/report.json")));
+    return nlohmann::json::parse(slurp(folder + "/report.json"));
   }
 
   // The command on its own makes the same file.
   void expect_same(const std::string& command, const std::string& own, const std::string& file_made,
                    const std::string& options = "") const {
     SCOPED_TRACE(command);
-    const auto result = expect(command + " -o " + path(own) + options);
-    EXPECT_FALSE(slurp(path(own)).empty());
-    EXPECT_EQ(slurp(path(own)), slurp(path(file_made)));
+    const auto result = expect(command + " -o " + own + options);
+    EXPECT_FALSE(slurp(own).empty());
+    EXPECT_EQ(slurp(own), slurp(file_made));
   }
 
   void expect_all_that_others_do(const std::string& name, const std::string& domain) const {
     SCOPED_TRACE(name);
-    const auto cage = sample(name + "_cage.obj");
-    const auto model = sample(name + "_model.obj");
-    const auto pose = sample(name + "_cage_pose.obj");
-    const std::string solver = " --tolerance 1e-4 --smoothness 0.003";
-    const auto result = run_into("out", cage + " " + model + " --pose " + pose + " -k 6" +
-                                            " --tolerance 1e-4 --vertices 1500");
+    const auto cage = name + "_cage.obj";
+    const auto model = name + "_model.obj";
+    const auto pose = name + "_cage_pose.obj";
+    const auto result = run_into(
+        "out", cage + " " + model + " --pose " + pose + " -k 6 --tolerance 1e-4 --vertices 1500");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{
@@ -91,45 +90,43 @@ class RunCommand : public CommandLineTest {
     const auto json = report("out");
     EXPECT_EQ(json["files"].get<Names>(), expected);
 
-    expect_same("solve " + cage + " --vertices 1500 --model " + model + solver, "w.npy",
-                "out/weights.npy", " --save-domain " + path(domain));
-    EXPECT_EQ(slurp(path(domain)), slurp(path("out/" + domain)));
-    expect_same("solve " + cage + " --domain " + path(domain) + solver, "d.npy",
-                "out/domain_weights.npy", " --report " + path("solve.json"));
-    expect_same("sparsify " + path("w.npy") + " --cage " + cage + " --points " + model +
+    expect_same("solve " + cage + " --vertices 1500 --model " + model +
+                    " --tolerance 1e-4 --smoothness 0.003",
+                "w.npy", "out/weights.npy", " --save-domain " + domain);
+    EXPECT_EQ(slurp(domain), slurp("out/" + domain));
+    expect_same("solve " + cage + " --domain " + domain + " --tolerance 1e-4 --smoothness 0.003",
+                "d.npy", "out/domain_weights.npy", " --report solve.json");
+    expect_same("sparsify w.npy --cage " + cage + " --points " + model +
                     " -k 6 --reduction poisson --pose " + pose,
-                "s.mtx", "out/sparse_weights.mtx", " --report " + path("sparsify.json"));
-    expect_same("deform " + model + " --weights " + path("s.mtx") + " --pose " + pose, "m.obj",
-                "out/deformed.obj");
-    expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
-                    " --fps 1 --pose " + cage + " " + pose,
+                "s.mtx", "out/sparse_weights.mtx", " --report sparsify.json");
+    expect_same("deform " + model + " --weights s.mtx --pose " + pose, "m.obj", "out/deformed.obj");
+    expect_same("export " + model + " --weights s.mtx --cage " + cage + " --fps 1 --pose " + cage +
+                    " " + pose,
                 "m.glb", "out/model_8.glb");
-    expect_same("export " + model + " --weights " + path("s.mtx") + " --cage " + cage +
-                    " -k 4 --fps 1 --pose " + cage + " " + pose,
+    expect_same("export " + model + " --weights s.mtx --cage " + cage + " -k 4 --fps 1 --pose " +
+                    cage + " " + pose,
                 "m4.glb", "out/model.glb");
-    expect_same("draw " + path(domain) + " --weights " + path("d.npy") + " --cage " + cage +
-                    " --control-point " + json["pictures"]["control_point"].dump() +
+    expect_same("draw " + domain + " --weights d.npy --cage " + cage + " --control-point " +
+                    json["pictures"]["control_point"].dump() +
                     (name[0] == '3' ? " --show-model " + model : ""),
                 "f.png", "out/function.png");
 
     // All reports are in one.
-    EXPECT_EQ(json["sparsify"]["error"],
-              nlohmann::json::parse(slurp(path("sparsify.json")))["error"]);
+    EXPECT_EQ(json["sparsify"]["error"], nlohmann::json::parse(slurp("sparsify.json"))["error"]);
     EXPECT_EQ(json["sparsify"]["after"]["max_nonzeros"], 6);
-    const auto solved = nlohmann::json::parse(slurp(path("solve.json")));
+    const auto solved = nlohmann::json::parse(slurp("solve.json"));
     EXPECT_EQ(json["solve"]["objective"], solved["objective"]);
     EXPECT_EQ(json["solve"]["converged"], true);
-    expect("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain) +
-           " --json " + path("check.json"));
-    const auto checked = nlohmann::json::parse(slurp(path("check.json")));
+    expect("check " + cage + " --weights d.npy --domain " + domain + " --json check.json");
+    const auto checked = nlohmann::json::parse(slurp("check.json"));
     EXPECT_EQ(json["check"]["cage"], checked["cage"]);
     EXPECT_EQ(json["check"]["weights"]["worst"], checked["weights"]["worst"]);
     EXPECT_EQ(json["check"]["weights"]["mesh"], checked["weights"]["mesh"]);
     EXPECT_EQ(json["deform"][0]["file"], "deformed.obj");
     EXPECT_GT(json["deform"][0]["largest_displacement"], 0.1);
-    EXPECT_EQ(json["export"]["bytes"], fs::file_size(path("out/model.glb")));
+    EXPECT_EQ(json["export"]["bytes"], fs::file_size("out/model.glb"));
     EXPECT_LE(json["export"]["max_influences"], 4);
-    EXPECT_EQ(json["export"]["full"]["bytes"], fs::file_size(path("out/model_8.glb")));
+    EXPECT_EQ(json["export"]["full"]["bytes"], fs::file_size("out/model_8.glb"));
     for (const char* step :
          {"mesh", "solve", "check", "sparsify", "deform", "export", "pictures", "page"})
       EXPECT_GE(json["seconds"][step], 0) << step;
@@ -162,13 +159,13 @@ class OpenCounter {
 TEST_F(RunCommand, EveryModelIsReadOnce) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     SCOPED_TRACE(name);
-    const auto cage = path("cage.obj"), model = path("model.obj");
-    fs::copy_file(sample(name + "_cage.obj"), cage, fs::copy_options::overwrite_existing);
-    fs::copy_file(sample(name + "_model.obj"), model, fs::copy_options::overwrite_existing);
+    const std::string cage = "cage.obj", model = "model.obj";
+    fs::copy_file(name + "_cage.obj", cage, fs::copy_options::overwrite_existing);
+    fs::copy_file(name + "_model.obj", model, fs::copy_options::overwrite_existing);
     const OpenCounter of_cage(cage), of_model(model);
     expect_run("once" + std::to_string(name[0]),
-               cage + " " + model + " --method harmonic " + "--vertices 1500 -q --pose " +
-                   sample(name + "_cage_pose.obj"),
+               cage + " " + model + " --method harmonic --vertices 1500 -q --pose " + name +
+                   "_cage_pose.obj",
                0, "");
     EXPECT_EQ(of_cage.count(), 1);
     EXPECT_EQ(of_model.count(), 1);
@@ -186,33 +183,32 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     SCOPED_TRACE(name);
     const std::string extension = name[0] == '2' ? ".obj" : ".mesh";
-    const auto pose = sample(name + "_cage_pose.obj");
-    expect_run("out",
-               sample(name + "_cage.obj") +
-                   " --vertices 1000 --method harmonic --non-negative project --pose " + pose,
-               0, "of which");
-    const auto domain = path("out/domain" + extension);
+    const auto pose = name + "_cage_pose.obj";
+    expect_run(
+        "out",
+        name + "_cage.obj --vertices 1000 --method harmonic --non-negative project --pose " + pose,
+        0, "of which");
+    const auto domain = "out/domain" + extension;
     EXPECT_EQ(names_in("out"),
               (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
                      "deformed" + extension, "model.glb", "model_8.glb", "function.png",
                      "deformation.png", "model.html", "report.json"}));
-    expect_same(
-        "deform " + domain + " --weights " + path("out/sparse_weights.mtx") + " --pose " + pose,
-        "m" + extension, "out/deformed" + extension);
-    fs::remove_all(path("out"));
+    expect_same("deform " + domain + " --weights out/sparse_weights.mtx --pose " + pose,
+                "m" + extension, "out/deformed" + extension);
+    fs::remove_all("out");
   }
 }
 
 TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
-  const auto cage = sample("2d/figure_cage.obj");
-  const auto pose = slurp(sample("2d/figure_cage_pose.obj"));
+  const auto pose = slurp("2d/figure_cage_pose.obj");
   for (const int k : {1, 2, 3}) file("pose_" + std::to_string(k) + ".obj", pose);
-  fs::create_directory(path("out"));
+  fs::create_directory("out");
   file("out/notes.txt", "mine");
   file("out/deformed_009.obj", "mine, too");
-  const auto common = cage + " " + sample("2d/figure_model.obj") + " --method harmonic " +
-                      "--vertices 500 --reduction quadratic";
-  expect_run("out", common + " --pose " + path("pose_%d.obj"), 0, "3 poses; largest");
+  const std::string common =
+      "2d/figure_cage.obj 2d/figure_model.obj --method harmonic --vertices 500 --reduction "
+      "quadratic";
+  expect_run("out", common + " --pose pose_%d.obj", 0, "3 poses; largest");
   auto names = names_in("out");
   for (const char* name : {"deformed_001.obj", "deformed_002.obj", "deformed_003.obj", "notes.txt",
                            "deformed_009.obj"}) {
@@ -222,38 +218,36 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   EXPECT_EQ(report("out")["deform"].size(), 3U);
 
   // The next run removes all results of this one, but no other files.
-  expect_run("out", common + " --pose " + path("pose_1.obj") + " " + path("pose_2.obj"), 0,
-             "2 poses");
+  expect_run("out", common + " --pose pose_1.obj pose_2.obj", 0, "2 poses");
   names = names_in("out");
   EXPECT_EQ(names.count("deformed_000.obj"), 1U);
   EXPECT_EQ(names.count("deformed_002.obj"), 0U);
   // It does not remove its input files.
-  fs::copy_file(path("pose_2.obj"), path("out/deformed_001.obj"),
-                fs::copy_options::overwrite_existing);
-  expect_run("out", common + " --pose " + path("out/deformed_001.obj"), 0, "largest");
-  EXPECT_EQ(slurp(path("out/deformed_001.obj")), pose);
-  fs::remove(path("out/deformed_001.obj"));
+  fs::copy_file("pose_2.obj", "out/deformed_001.obj", fs::copy_options::overwrite_existing);
+  expect_run("out", common + " --pose out/deformed_001.obj", 0, "largest");
+  EXPECT_EQ(slurp("out/deformed_001.obj"), pose);
+  fs::remove("out/deformed_001.obj");
   expect_run("out", common, 0, "influences per vertex");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
                    "model.glb", "model_8.glb", "function.png", "model.png", "model.html",
                    "report.json", "notes.txt", "deformed_009.obj"}));
-  EXPECT_EQ(slurp(path("out/notes.txt")), "mine");
+  EXPECT_EQ(slurp("out/notes.txt"), "mine");
 }
 
 TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
-  fs::create_directory(path("out"));
+  fs::create_directory("out");
   file("precious.txt", "mine");
   file("out/below.txt", "mine");
-  const auto common =
-      sample("2d/letter_cage.obj") + " --method harmonic --vertices 500 --reduction quadratic";
+  const std::string common =
+      "2d/letter_cage.obj --method harmonic --vertices 500 --reduction quadratic";
   for (const char* name : {"weights.npy", "model.glb", "report.json"}) {
     file(std::string("out/") + name, "mine");
     expect_run("out", common, 1,
                std::string("out/") + name + ": exists and is not from an earlier flbc run");
-    EXPECT_EQ(slurp(path(std::string("out/") + name)), "mine");
+    EXPECT_EQ(slurp(std::string("out/") + name), "mine");
     EXPECT_EQ(names_in("out").size(), 2U);
-    fs::remove(path(std::string("out/") + name));
+    fs::remove(std::string("out/") + name);
   }
   // Manipulated reports cannot remove anything except results.
   for (const char* report :
@@ -262,102 +256,99 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
         R"({"command": "run", "files": ["../precious.txt", "..", ".", "", "/", "report.json"]})"}) {
     file("out/report.json", report);
     expect_run("out", common + " --force", 0, "influences per vertex");
-    EXPECT_TRUE(fs::exists(path("precious.txt")));
-    EXPECT_TRUE(fs::exists(path("out/below.txt")));
+    EXPECT_TRUE(fs::exists("precious.txt"));
+    EXPECT_TRUE(fs::exists("out/below.txt"));
   }
 }
 
 TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
-  const auto cage = sample("2d/letter_cage.obj") + " -q -o " + path("out");
   const std::string program = FLBC_PROGRAM;
-  const auto endless = program + " run " + cage + " --method paper --tolerance 1e-15 " +
+  const auto endless = program +
+                       " run 2d/letter_cage.obj -q -o out --method paper --tolerance 1e-15 "
                        "--max-iterations 100000000 --vertices 2000";
-  const auto kill = "sh -c '" + endless + " & for k in $(seq 1000); do [ -e " +
-                    path("out/domain.obj") + " ] && break; sleep 0.02; done; kill -9 $!; wait; true' 2>&1";
+  const auto kill = "sh -c '" + endless +
+                    " & for k in $(seq 1000); do [ -e out/domain.obj ] && break; sleep 0.02; done; "
+                    "kill -9 $!; wait; true' 2>&1";
   ASSERT_EQ(std::system(kill.c_str()), 0);
   EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
   EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
   EXPECT_EQ(report("out")["unfinished"], true);
-  expect("run " + cage + " --method harmonic --vertices 500");
+  expect("run 2d/letter_cage.obj -q -o out --method harmonic --vertices 500");
   EXPECT_FALSE(report("out").contains("unfinished"));
 }
 
 TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // Outside: nothing can be solved.
-  expect_run("out", sample("2d/figure_cage.obj") + " " + sample("2d/ring_model.obj"), 2,
-             "flbc: step mesh: " + sample("2d/ring_model.obj") + ": ");
+  expect_run("out", "2d/figure_cage.obj 2d/ring_model.obj", 2,
+             "flbc: step mesh: 2d/ring_model.obj: ");
   EXPECT_EQ(names_in("out"), Names{"report.json"});
   EXPECT_EQ(report("out")["failed"].get<std::string>().substr(0, 10), "step mesh:");
   // Messages of the library name options of the program, on the terminal and in the report.
-  const auto too_many = "step mesh: --vertices: 999999999 are too many";
-  expect_run("many", sample("2d/figure_cage.obj") + " --vertices 999999999", 1,
+  const std::string too_many = "step mesh: --vertices: 999999999 are too many";
+  expect_run("many", "2d/figure_cage.obj --vertices 999999999", 1,
              std::string("flbc: ") + too_many);
   EXPECT_EQ(report("many")["failed"].get<std::string>().rfind(too_many, 0), 0U);
   // A folder where a file should go.
-  fs::create_directories(path("busy/model.glb/x"));
-  const auto common = sample("2d/letter_cage.obj") + " " + sample("2d/letter_model.obj") +
-                      " --method harmonic --vertices 500 --reduction quadratic";
+  fs::create_directories("busy/model.glb/x");
+  const std::string common =
+      "2d/letter_cage.obj 2d/letter_model.obj --method harmonic --vertices 500 "
+      "--reduction quadratic";
   expect_run("busy", common + " --force", 4, "flbc: step export: ");
   EXPECT_EQ(names_in("busy"), (Names{"domain.obj", "weights.npy", "domain_weights.npy",
                                      "sparse_weights.mtx", "model.glb", "report.json"}));
   EXPECT_EQ(report("busy")["files"].size(), 5U);
   EXPECT_FALSE(report("busy")["seconds"].contains("export"));
   // Not converged is no failure of a step.
-  expect_run("early", sample("2d/letter_cage.obj") + " --max-iterations 10 --vertices 500 -q", 3,
+  expect_run("early", "2d/letter_cage.obj --max-iterations 10 --vertices 500 -q", 3,
              "not converged within 10 iterations");
   EXPECT_EQ(names_in("early").size(), 9U);
   EXPECT_EQ(report("early")["solve"]["converged"], false);
 }
 
 TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
-  const auto cage = sample("2d/figure_cage.obj");
+  const std::string cage = "2d/figure_cage.obj";
   expect_run("out", cage + " -k 2", 1, "at least 3 are needed");
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
-  expect_run("out", sample("3d/limb_model.obj"), 1, "did you mean --auto-cage?");
+  expect_run("out", "3d/limb_model.obj", 1, "did you mean --auto-cage?");
   expect_run("out", cage + " --reduction best", 1, "invalid value 'best'");
-  expect_run("out", cage + " --pose " + sample("2d/letter_cage.obj"), 2, "has 24 vertices, but");
-  expect_run("out", cage + " --pose " + path("no_%d.obj"), 4, "there is neither");
-  expect_run("out", cage + " " + path("absent.obj"), 4, "absent.obj");
+  expect_run("out", cage + " --pose 2d/letter_cage.obj", 2, "has 24 vertices, but");
+  expect_run("out", cage + " --pose no_%d.obj", 4, "there is neither");
+  expect_run("out", cage + " absent.obj", 4, "absent.obj");
   file("file", "");
-  EXPECT_FALSE(fs::exists(path("out")));
-  expect_run("file", cage, 4, path("file") + ": cannot make this folder");
+  EXPECT_FALSE(fs::exists("out"));
+  expect_run("file", cage, 4, "file: cannot make this folder");
   // An input that would be replaced.
-  fs::create_directory(path("out"));
+  fs::create_directory("out");
   file("out/domain.obj", slurp(cage));
-  expect_run("out", path("out/domain.obj"), 1, "the result would replace this input file");
-  EXPECT_EQ(slurp(path("out/domain.obj")), slurp(cage));
+  expect_run("out", "out/domain.obj", 1, "the result would replace this input file");
+  EXPECT_EQ(slurp("out/domain.obj"), slurp(cage));
 }
 
 TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
-  const auto model = io::read_polygons(sample("3d/limb_model.obj"));
+  const auto model = io::read_polygons("3d/limb_model.obj");
   const auto splats = random_splats(io::to_points<3>(model, ""), 1);
   const auto splat_file = file("splats.ply", splats.text());
-  expect_run("out", splat_file + " --auto-cage --vertices 1500", 0,
-             " --rest " + path("out/cage.obj"));
-  auto soup = io::read_polygons(path("out/cage.obj"));
+  expect_run("out", splat_file + " --auto-cage --vertices 1500", 0, " --rest out/cage.obj");
+  auto soup = io::read_polygons("out/cage.obj");
   Eigen::Matrix3d a;
   a << 0, -2, 0, 1, 0, 0.5, 0, 0, 1;
   for (auto& point : soup.points) point = a * point;
-  io::write_model(path("pose.obj"), {soup});
-  expect_run(
-      "posed",
-      path("out/cage.obj") + " " + splat_file + " --vertices 1500 --pose " + path("pose.obj"), 0,
-      "deformed.ply");
-  const auto moved = splats.parse(slurp(path("posed/deformed.ply")));
+  io::write_model("pose.obj", {soup});
+  expect_run("posed", "out/cage.obj " + splat_file + " --vertices 1500 --pose pose.obj", 0,
+             "deformed.ply");
+  const auto moved = splats.parse(slurp("posed/deformed.ply"));
   for (Eigen::Index p = 0; p < moved.values.cols(); ++p) {
     const Vector<3> before = splats.values.col(p).head<3>().cast<double>();
     EXPECT_LT((moved.values.col(p).head<3>().cast<double>() - a * before).norm(), 1e-4);
     const Eigen::Matrix3d expected = a * splats.covariance(p) * a.transpose();
     EXPECT_LT((moved.covariance(p) - expected).norm(), 1e-4 * expected.norm());
   }
-  const auto command = "deform " + splat_file + " --weights " + path("posed/weights.npy") +
-                       " --pose " + path("pose.obj");
-  expect(command + " -q -o " + path("own.ply"), 1, "need --domain and --rest");
-  expect_same(
-      command + " -q --domain " + path("posed/domain.mesh") + " --rest " + path("out/cage.obj"),
-      "own.ply", "posed/deformed.ply");
+  const auto command = "deform " + splat_file + " --weights posed/weights.npy --pose pose.obj";
+  expect(command + " -q -o own.ply", 1, "need --domain and --rest");
+  expect_same(command + " -q --domain posed/domain.mesh --rest out/cage.obj", "own.ply",
+              "posed/deformed.ply");
 }
 
 TEST_F(RunCommand, KeyframesOfTheArm) {
@@ -372,17 +363,17 @@ TEST_F(RunCommand, KeyframesOfTheArm) {
 }
 
 TEST_F(RunCommand, AFolderThatAnotherRunWritesToIsRefused) {
-  const auto cage = sample("2d/letter_cage.obj");
-  expect_run("a", cage + " --vertices 300", 0, "report.json");
+  expect_run("a", "2d/letter_cage.obj --vertices 300", 0, "report.json");
   const auto names = names_in("a");
-  const auto before = slurp(path("a/report.json"));
+  const auto before = slurp("a/report.json");
   {
-    const HeldFolder held(path("a"));
-    expect_run("a", cage + " --vertices 300", 4, "another flbc run is writing to this folder");
+    const HeldFolder held("a");
+    expect_run("a", "2d/letter_cage.obj --vertices 300", 4,
+               "another flbc run is writing to this folder");
     EXPECT_EQ(names_in("a"), names);
-    EXPECT_EQ(slurp(path("a/report.json")), before);
+    EXPECT_EQ(slurp("a/report.json"), before);
   }
-  expect_run("a", cage + " --vertices 300", 0, "report.json");
+  expect_run("a", "2d/letter_cage.obj --vertices 300", 0, "report.json");
 }
 
 }  // namespace

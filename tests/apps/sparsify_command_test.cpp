@@ -26,10 +26,10 @@ class SparsifyCommand : public CommandLineTest {
  protected:
   void expect_refusal(const std::string& arguments, int status, const std::string& errors) const {
     SCOPED_TRACE(arguments);
-    const auto result = run("sparsify " + arguments + " -o " + path("out.mtx"));
+    const auto result = run("sparsify " + arguments + " -o out.mtx");
     EXPECT_EQ(result.status, status) << result.errors;
     EXPECT_NE(result.errors.find(errors), std::string::npos) << result.errors;
-    EXPECT_FALSE(std::filesystem::exists(path("out.mtx")));
+    EXPECT_FALSE(std::filesystem::exists("out.mtx"));
   }
 
   // A square with a model in it and weights that reproduce it.
@@ -39,7 +39,7 @@ class SparsifyCommand : public CommandLineTest {
     file("w.txt",
          "0 0 0.25\n1 0 0.25\n2 0 0.25\n3 0 0.25\n"
          "0 1 0.375\n1 1 0.125\n2 1 0.125\n3 1 0.375\n");
-    return path("w.txt") + " --cage " + path("cage.obj") + " --points " + path("model.obj");
+    return "w.txt --cage cage.obj --points model.obj";
   }
 };
 
@@ -84,33 +84,33 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
   const auto sparsify = [&](const std::string& name, const std::string& domain_file, int most) {
     SCOPED_TRACE(name);
     solve(name, domain_file);
-    const auto cage = sample(name + "_cage.obj");
-    const auto model = sample(name + "_model.obj");
-    const auto result = expect("sparsify " + path("w.npy") + " --cage " + cage + " --points " +
-                                   model + " -k " + std::to_string(most) + " -o " + path("s.mtx") +
-                                   " --report " + path("s.json") + " --pose " + cage,
-                               0, "at most " + std::to_string(most));
+    const auto cage = name + "_cage.obj";
+    const auto model = name + "_model.obj";
+    const auto result =
+        expect("sparsify w.npy --cage " + cage + " --points " + model + " -k " +
+                   std::to_string(most) + " -o s.mtx --report s.json --pose " + cage,
+               0, "at most " + std::to_string(most));
     EXPECT_EQ(result.output, "");
     // And on the mesh of the interior.
-    EXPECT_EQ(run("sparsify " + path("v.npy") + " --cage " + cage + " --points " +
-                  path(domain_file) + " -k " + std::to_string(most) + " -q -o " + path("d.npy"))
+    EXPECT_EQ(run("sparsify v.npy --cage " + cage + " --points " + domain_file + " -k " +
+                  std::to_string(most) + " -q -o d.npy")
                   .errors,
               "");
-    expect("check " + cage + " --weights " + path("d.npy") + " --domain " + path(domain_file));
+    expect("check " + cage + " --weights d.npy --domain " + domain_file);
   };
   sparsify("2d/ring", "ring.vtu", 5);
-  expect_sparse<2>(sample("2d/ring_cage.obj"), read_points<2>(sample("2d/ring_model.obj")),
-                   path("w.npy"), path("s.mtx"), 5, Json::parse(slurp(path("s.json"))));
+  expect_sparse<2>("2d/ring_cage.obj", read_points<2>("2d/ring_model.obj"), "w.npy", "s.mtx", 5,
+                   Json::parse(slurp("s.json")));
   sparsify("3d/limb", "limb.mesh", 6);
-  expect_sparse<3>(sample("3d/limb_cage.obj"), read_points<3>(sample("3d/limb_model.obj")),
-                   path("w.npy"), path("s.mtx"), 6, Json::parse(slurp(path("s.json"))));
+  expect_sparse<3>("3d/limb_cage.obj", read_points<3>("3d/limb_model.obj"), "w.npy", "s.mtx", 6,
+                   Json::parse(slurp("s.json")));
 }
 
 TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
   const auto sparsify = [&](const std::string& arguments, const std::string& method) {
-    expect("sparsify " + arguments + " -k 4 -q --reduction " + method + " -o " +
-           path(method + ".npy") + " --report " + path("r.json"));
-    const auto report = Json::parse(slurp(path("r.json")));
+    expect("sparsify " + arguments + " -k 4 -q --reduction " + method + " -o " + method +
+           ".npy --report r.json");
+    const auto report = Json::parse(slurp("r.json"));
     EXPECT_EQ(report["method"], method);
     EXPECT_LE(report["after"]["max_influences"], 4);
     EXPECT_GE(report["after"]["min_weight"], 0);
@@ -126,37 +126,35 @@ TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
     EXPECT_LT(poisson["smooth"]["rms"], plain["smooth"]["rms"]);
   };
   solve("2d/ring", "ring.vtu");
-  const auto ring = " --cage " + sample("2d/ring_cage.obj") + " --points ";
-  compare(path("w.npy") + ring + sample("2d/ring_model.obj"));
-  compare(path("v.npy") + ring + path("ring.vtu"));
+  compare("w.npy --cage 2d/ring_cage.obj --points 2d/ring_model.obj");
+  compare("v.npy --cage 2d/ring_cage.obj --points ring.vtu");
   solve("3d/limb", "limb.mesh");
-  const auto limb = " --cage " + sample("3d/limb_cage.obj") + " --points ";
-  compare(path("w.npy") + limb + sample("3d/limb_model.obj"));
-  compare(path("v.npy") + limb + path("limb.mesh"));
+  compare("w.npy --cage 3d/limb_cage.obj --points 3d/limb_model.obj");
+  compare("v.npy --cage 3d/limb_cage.obj --points limb.mesh");
 }
 
 // With a pose the weights are chosen for it.
 TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
   solve("2d/ring", "ring.vtu");
-  auto pose = io::read_polygons(sample("2d/ring_cage.obj"));
+  auto pose = io::read_polygons("2d/ring_cage.obj");
   for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
-  io::write_model(path("pose.obj"), {pose});
-  const auto arguments = "sparsify " + path("v.npy") + " --cage " + sample("2d/ring_cage.obj") +
-                         " --points " + path("ring.vtu") + " -k 3 -q --reduction poisson -o ";
-  expect(arguments + path("without.npy"));
-  expect(arguments + path("with.npy") + " --pose " + path("pose.obj") + " --report " +
-         path("r.json"));
-  const auto before = io::read_weights(path("v.npy"));
+  io::write_model("pose.obj", {pose});
+  const std::string arguments =
+      "sparsify v.npy --cage 2d/ring_cage.obj --points ring.vtu -k 3 -q --reduction poisson "
+      "-o ";
+  expect(arguments + "without.npy");
+  expect(arguments + "with.npy --pose pose.obj --report r.json");
+  const auto before = io::read_weights("v.npy");
   const auto points = io::to_points<2>(pose, "pose.obj");
-  const auto domain = io::read_domain<2>(path("ring.vtu"));
+  const auto domain = io::read_domain<2>("ring.vtu");
   const auto error = [&](const std::string& name) {
     return edge_error<2>(domain.points, edges_of_cells(domain), {points}, before,
-                         io::read_weights(path(name)));
+                         io::read_weights(name));
   };
   EXPECT_LT(error("with.npy").rms, 0.9 * error("without.npy").rms);
-  const auto poses = Json::parse(slurp(path("r.json")))["error"]["edge"]["poses"];
+  const auto poses = Json::parse(slurp("r.json"))["error"]["edge"]["poses"];
   ASSERT_EQ(poses.size(), 1);
-  EXPECT_EQ(poses[0]["file"], path("pose.obj"));
+  EXPECT_EQ(poses[0]["file"], "pose.obj");
   EXPECT_NEAR(poses[0]["rms"].get<double>(), error("with.npy").rms, 1e-12);
   EXPECT_NEAR(poses[0]["max"].get<double>(), error("with.npy").max, 1e-12);
 }
@@ -167,26 +165,25 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
                  "model.obj: has no faces and no lines");
   expect_refusal(arguments + " -k 3 --reduction cubic", 1, "choose from auto|poisson|quadratic");
   // Without neighbors there are no edges to measure.
-  expect("sparsify " + arguments + " -k 3 -q -o " + path("s.npy") + " --report " + path("r.json"));
-  const auto report = Json::parse(slurp(path("r.json")));
+  expect("sparsify " + arguments + " -k 3 -q -o s.npy --report r.json");
+  const auto report = Json::parse(slurp("r.json"));
   EXPECT_EQ(report["method"], "quadratic");
   EXPECT_FALSE(report["error"].contains("edge"));
   // A line is enough.
   file("model.obj", "v 2 2 0\nv 1 2 0\nl 1 2\n");
-  EXPECT_EQ(
-      run("sparsify " + arguments + " -k 3 -q --reduction poisson -o " + path("s.npy")).errors, "");
+  EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --reduction poisson -o s.npy").errors, "");
 }
 
 TEST_F(SparsifyCommand, TripletsAndThresholds) {
   const auto arguments = square();
-  expect("sparsify " + arguments + " -k 3 -q -o " + path("s.dmat"));
-  const auto sparse = io::read_weights(path("s.dmat"));
+  expect("sparsify " + arguments + " -k 3 -q -o s.dmat");
+  const auto sparse = io::read_weights("s.dmat");
   EXPECT_LE((sparse.array() != 0).colwise().count().maxCoeff(), 3);
-  const PointList<2> points = read_points<2>(path("cage.obj")) * sparse;
-  EXPECT_LE((points - read_points<2>(path("model.obj"))).norm(), 1e-13);
+  const PointList<2> points = read_points<2>("cage.obj") * sparse;
+  EXPECT_LE((points - read_points<2>("model.obj")).norm(), 1e-13);
   // Nothing is below the threshold: the weights stay.
-  expect("sparsify " + arguments + " --threshold 0.1 -q -o " + path("t.npy"));
-  const auto same = io::read_weights(path("t.npy"));
+  expect("sparsify " + arguments + " --threshold 0.1 -q -o t.npy");
+  const auto same = io::read_weights("t.npy");
   EXPECT_EQ(same(3, 1), 0.375);
   EXPECT_EQ((same.array() != 0).count(), 8);
 }
@@ -197,37 +194,31 @@ TEST_F(SparsifyCommand, RefusesWhatCannotBe) {
   expect_refusal(arguments + " -k 2", 1, "at least 3 are needed");
   expect_refusal(arguments + " -k 0", 1, "at least 3 are needed");
   expect_refusal(arguments + " -k 3 --threshold 2", 1, "threshold");
-  expect_refusal(arguments + " -k 3 --report " + path("r.txt"), 1, ".json");
+  expect_refusal(arguments + " -k 3 --report r.txt", 1, ".json");
   expect_refusal(arguments + " -k 3 --pose " + file("p.obj", "v 0 0 0\n"), 2,
                  "p.obj: has 1 vertices, but");
-  expect_refusal(arguments + " -k 3 --pose " + path("absent.obj"), 4, "absent.obj");
-  expect_refusal(path("absent.npy") + " --cage " + path("cage.obj") + " --points " +
-                     path("model.obj") + " -k 3",
-                 4, "absent.npy");
+  expect_refusal(arguments + " -k 3 --pose absent.obj", 4, "absent.obj");
+  expect_refusal("absent.npy --cage cage.obj --points model.obj -k 3", 4, "absent.npy");
   // Rows or columns that are not there.
-  expect("sparsify " + arguments + " -k 3 -q -o " + path("s.npy"));
-  expect_refusal(
-      path("s.npy") + " --cage " + path("cage.obj") + " --points " + path("cage.obj") + " -k 3", 2,
-      "s.npy: has weights of 2 points, but");
-  expect_refusal(path("s.npy") + " --cage " + sample("2d/ring_cage.obj") + " --points " +
-                     path("model.obj") + " -k 3",
-                 2, "s.npy: has weights for 4 control points, but");
+  expect("sparsify " + arguments + " -k 3 -q -o s.npy");
+  expect_refusal("s.npy --cage cage.obj --points cage.obj -k 3", 2,
+                 "s.npy: has weights of 2 points, but");
+  expect_refusal("s.npy --cage 2d/ring_cage.obj --points model.obj -k 3", 2,
+                 "s.npy: has weights for 4 control points, but");
   file("model.obj", "v 2 2 0\nv 5 2 0\n");
   expect_refusal(arguments + " -k 3", 2, "model.obj: point 1 at (5, 2) lies outside");
   // No result may replace what is read.
-  expect("sparsify " + path("s.npy") + " --cage " + path("cage.obj") + " --points " +
-             path("model.obj") + " -k 3 -o " + path("s.npy"),
-         1);
+  expect("sparsify s.npy --cage cage.obj --points model.obj -k 3 -o s.npy", 1);
 }
 
 TEST_F(SparsifyCommand, ForeignWeightsOfTheArm) {
   if (!has_model("3d/arm_other_weights.txt")) GTEST_SKIP() << "the real models are absent";
   const auto result = expect("sparsify " + model_path("3d/arm_other_weights.txt") + " --cage " +
                              model_path("3d/arm_cage.obj") + " --points " +
-                             model_path("3d/arm.obj") + " -k 8 -q -o " + path("arm.mtx"));
+                             model_path("3d/arm.obj") + " -k 8 -q -o arm.mtx");
   EXPECT_EQ(result.errors, "");
   expect("check " + model_path("3d/arm_cage.obj") + " --model " + model_path("3d/arm.obj") +
-         " --weights " + path("arm.mtx"));
+         " --weights arm.mtx");
 }
 
 }  // namespace

@@ -32,24 +32,21 @@ class TransferCommand : public CommandLineTest {
 TEST_F(TransferCommand, OtherVersionsGetWeightsFromMeshOrModel) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     SCOPED_TRACE(name);
-    const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
-    const auto domain = path(name[0] == '2' ? "domain.obj" : "domain.mesh");
+    const auto cage = name + "_cage.obj", model = name + "_model.obj";
+    const std::string domain = name[0] == '2' ? "domain.obj" : "domain.mesh";
     const std::string solve = "solve " + cage + " --method harmonic --non-negative project -q";
-    expect(solve + " --vertices 1500 -o " + path("d.npy") + " --save-domain " + domain);
-    expect(solve + " --domain " + domain + " --model " + model + " -o " + path("w.npy"));
-    const auto rest = " --cage " + cage + " -o " + path("t.npy") + " --to ";
-    expect_transfer(path("d.npy") + " --domain " + domain + rest + model, 0, "minimum weight");
-    EXPECT_EQ(slurp(path("t.npy")), slurp(path("w.npy")));
-    expect_transfer(path("w.npy") + " --from " + model + rest + model, 0, "away from");
-    EXPECT_LT((io::read_weights(path("t.npy")) - io::read_weights(path("w.npy")))
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-9);
+    expect(solve + " --vertices 1500 -o d.npy --save-domain " + domain);
+    expect(solve + " --domain " + domain + " --model " + model + " -o w.npy");
+    const auto rest = " --cage " + cage + " -o t.npy --to ";
+    expect_transfer("d.npy --domain " + domain + rest + model, 0, "minimum weight");
+    EXPECT_EQ(slurp("t.npy"), slurp("w.npy"));
+    expect_transfer("w.npy --from " + model + rest + model, 0, "away from");
+    EXPECT_LT((io::read_weights("t.npy") - io::read_weights("w.npy")).cwiseAbs().maxCoeff(), 1e-9);
     const auto more = finer(model);
-    for (const auto& from : {path("w.npy") + " --from " + model, path("d.npy") + " --domain " + domain}) {
+    for (const auto& from : {"w.npy --from " + model, "d.npy --domain " + domain}) {
       expect_transfer(from + rest + more, 0, "t.npy");
-      expect("check " + cage + " --model " + more + " --weights " + path("t.npy"));
-      EXPECT_GE(io::read_weights(path("t.npy")).minCoeff(), 0);
+      expect("check " + cage + " --model " + more + " --weights t.npy");
+      EXPECT_GE(io::read_weights("t.npy").minCoeff(), 0);
     }
   }
 }
@@ -58,9 +55,8 @@ TEST_F(TransferCommand, RefusesWithReason) {
   const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 0.25 0.25 0\nv 0.5 0.25 0\nv 0.25 0.5 0\nf 1 2 3\n");
   const auto far = file("far.obj", "v 0.25 0.25 0\nv 0.5 0.4 0\nv 0.25 0.5 0\nf 1 2 3\n");
-  expect("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o " +
-         path("w.npy"));
-  const auto weights = path("w.npy") + " --cage " + cage + " -o " + path("t.npy");
+  expect("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o w.npy");
+  const auto weights = "w.npy --cage " + cage + " -o t.npy";
   expect_transfer(weights + " --to " + far + " --from " + model, 2,
                   "far.obj: 1 of 3 vertices (1) are farther than");
   expect_transfer(weights + " --to " + far + " --from " + model + " --limit 1", 0, "away from");

@@ -51,8 +51,8 @@ class UpOption : public CommandLineTest {
 
 TEST_F(UpOption, PicturesShowTheModelUpright) {
   const auto picture = [&](int axis, const std::string& up) {
-    expect("draw --model " + pyramid(axis) + " -o " + path("p.svg") + " --up " + up);
-    return slurp(path("p.svg"));
+    expect("draw --model " + pyramid(axis) + " -o p.svg --up " + up);
+    return slurp("p.svg");
   };
   const auto upright = picture(1, "y");
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,8 +64,8 @@ TEST_F(UpOption, PicturesShowTheModelUpright) {
 
 TEST_F(UpOption, SkinsTurnTheirRoot) {
   for (int axis = 0; axis < 3; ++axis) {
-    expect("export " + pyramid(axis) + " -q -o " + path("s.glb"));
-    const auto skin = GlbFile(slurp(path("s.glb")));
+    expect("export " + pyramid(axis) + " -q -o s.glb");
+    const auto skin = GlbFile(slurp("s.glb"));
     const auto& root = skin.root_joint();
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
     if (root.contains("rotation")) {
@@ -74,50 +74,48 @@ TEST_F(UpOption, SkinsTurnTheirRoot) {
     const Vector<3> up = turn * Vector<3>::Unit(axis);
     EXPECT_LT((up - Vector<3>::UnitY()).norm(), 1e-12) << axis;
     EXPECT_EQ(root.contains("rotation"), axis != 1);
-    expect("export " + pyramid(axis) + " -q -o " + path("s.usda"));
-    const auto text = slurp(path("s.usda"));
+    expect("export " + pyramid(axis) + " -q -o s.usda");
+    const auto text = slurp("s.usda");
     EXPECT_EQ(text.find("xformOp:transform = (") == std::string::npos, axis == 1);
   }
   // Rows are the images of x, y, and z.
-  EXPECT_NE(slurp(path("s.usda")).find("((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))"),
+  EXPECT_NE(slurp("s.usda").find("((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))"),
             std::string::npos);
-  expect("export " + pyramid(2) + " -o " + path("s.py") + " --up z", 1, "leave out --up");
+  expect("export " + pyramid(2) + " -o s.py --up z", 1, "leave out --up");
 }
 
 TEST_F(UpOption, PagesKnowTheAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto up = "\"up\":" + std::to_string(axis);
-    expect("view " + pyramid(axis) + " -q -o " + path("p.html"));
-    EXPECT_NE(slurp(path("p.html")).find(up), std::string::npos);
-    expect("view " + pyramid(1) + " -q -o " + path("p.html") + " --up " + kAxes[axis]);
-    EXPECT_NE(slurp(path("p.html")).find(up), std::string::npos);
+    expect("view " + pyramid(axis) + " -q -o p.html");
+    EXPECT_NE(slurp("p.html").find(up), std::string::npos);
+    expect("view " + pyramid(1) + " -q -o p.html --up " + kAxes[axis]);
+    EXPECT_NE(slurp("p.html").find(up), std::string::npos);
   }
 }
 
 TEST_F(UpOption, RunsTurnPicturesPageAndSkins) {
   pyramid(2);
   const auto run = [&](const std::string& options) {
-    expect("run " + path("cage.obj") + " " + path("model.obj") + " --vertices 200 -q --force -o " +
-           path("out") + options);
+    expect("run cage.obj model.obj --vertices 200 -q --force -o out" + options);
   };
   run("");
-  const auto picture = slurp(path("out/model.png"));
-  EXPECT_NE(slurp(path("out/model.html")).find("\"up\":2"), std::string::npos);
-  EXPECT_TRUE(GlbFile(slurp(path("out/model.glb"))).root_joint().contains("rotation"));
+  const auto picture = slurp("out/model.png");
+  EXPECT_NE(slurp("out/model.html").find("\"up\":2"), std::string::npos);
+  EXPECT_TRUE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
   run(" --up y");
-  EXPECT_NE(slurp(path("out/model.png")), picture);
-  EXPECT_NE(slurp(path("out/model.html")).find("\"up\":1"), std::string::npos);
-  EXPECT_FALSE(GlbFile(slurp(path("out/model.glb"))).root_joint().contains("rotation"));
+  EXPECT_NE(slurp("out/model.png"), picture);
+  EXPECT_NE(slurp("out/model.html").find("\"up\":1"), std::string::npos);
+  EXPECT_FALSE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
 }
 
 TEST_F(UpOption, IsForModelsIn3D) {
-  const auto cage = sample("2d/ring_cage.obj"), model = sample("2d/ring_model.obj");
-  expect("solve " + cage + " --vertices 500 -q --method harmonic --model " + model + " -o " +
-         path("w.npy"));
-  const auto shape = model + " --weights " + path("w.npy") + " --cage " + cage;
-  expect("draw --model " + shape + " -o " + path("p.png") + " --up z", 1, "--up is for models in");
-  expect("view " + shape + " -o " + path("p.html") + " --up x", 1, "--up is for models in 3D");
-  expect("view " + shape + " -o " + path("p.html") + " --up w", 1, "--up");
+  const std::string cage = "2d/ring_cage.obj", model = "2d/ring_model.obj";
+  expect("solve " + cage + " --vertices 500 -q --method harmonic --model " + model + " -o w.npy");
+  const auto shape = model + " --weights w.npy --cage " + cage;
+  expect("draw --model " + shape + " -o p.png --up z", 1, "--up is for models in");
+  expect("view " + shape + " -o p.html --up x", 1, "--up is for models in 3D");
+  expect("view " + shape + " -o p.html --up w", 1, "--up");
 }
 
 }  // namespace

@@ -61,22 +61,21 @@ class VectorPictures : public CommandLineTest {
   // Pictures of one scene in all formats. \return the arguments but for the output
   void draw(const std::string& arguments) const {
     for (const char* extension : {"png", "svg", "pdf"}) {
-      expect("draw " + arguments + " --width 600 -o " + path("p.") + extension);
+      expect("draw " + arguments + " --width 600 -o p." + extension);
     }
   }
 
   std::string output_of(const std::string& command) const {
-    const auto out = path("text.txt");
-    EXPECT_EQ(std::system((command + " >" + out + " 2>/dev/null").c_str()), 0) << command;
-    return slurp(out);
+    EXPECT_EQ(std::system((command + " >text.txt 2>/dev/null").c_str()), 0) << command;
+    return slurp("text.txt");
   }
 
   // Programs differ in how they blend lines: compares the sum of differences with the ink there is,
   // and counts channels that differ clearly.
   // \param scale  of the other picture: fine lines are never thinner than its pixels
   void expect_same_picture(const std::string& other, int scale = 1) const {
-    const auto a = draw::decode_png(slurp(path("p.png")));
-    const auto b = averaged(draw::decode_png(slurp(path(other))), scale);
+    const auto a = draw::decode_png(slurp("p.png"));
+    const auto b = averaged(draw::decode_png(slurp(other)), scale);
     ASSERT_EQ(a.width, b.width) << other;
     ASSERT_EQ(a.height, b.height) << other;
     double sum = 0, ink = 0;
@@ -96,24 +95,24 @@ class VectorPictures : public CommandLineTest {
   void expect_all_formats_agree(const std::string& arguments, const std::string& label) const {
     SCOPED_TRACE(arguments);
     draw(arguments);
-    const auto svg = slurp(path("p.svg")), pdf = slurp(path("p.pdf"));
+    const auto svg = slurp("p.svg"), pdf = slurp("p.pdf");
     expect_well_formed(svg);
     EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
     EXPECT_LT(svg.size(), 2000000U);
     EXPECT_LT(pdf.size(), 2000000U);
     draw(arguments);
-    EXPECT_EQ(slurp(path("p.svg")), svg);
-    EXPECT_EQ(slurp(path("p.pdf")), pdf);
+    EXPECT_EQ(slurp("p.svg"), svg);
+    EXPECT_EQ(slurp("p.pdf"), pdf);
     if (has_program("pdftotext")) {
-      const auto text = output_of("pdftotext " + path("p.pdf") + " -");
+      const auto text = output_of("pdftotext p.pdf -");
       EXPECT_NE(text.find(label), std::string::npos) << text;
     }
     if (has_program("pdftoppm")) {  // a pixel is 0.375 points of 1/72 inch
-      output_of("pdftoppm -png -r 768 -singlefile " + path("p.pdf") + " " + path("of_pdf"));
+      output_of("pdftoppm -png -r 768 -singlefile p.pdf of_pdf");
       expect_same_picture("of_pdf.png", 4);
     }
     if (has_program("rsvg-convert")) {
-      output_of("rsvg-convert " + path("p.svg") + " -o " + path("of_svg.png"));
+      output_of("rsvg-convert p.svg -o of_svg.png");
       expect_same_picture("of_svg.png");
     }
   }
@@ -126,34 +125,33 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
   for (const Scene& scene :
        {Scene{"2d/figure", "d.obj", "0.5", "17"}, Scene{"3d/limb", "d.mesh", "0.5", "11"}}) {
     const bool plane = scene.mesh == "d.obj";
-    const auto cage = sample(scene.name + "_cage.obj"), model = sample(scene.name + "_model.obj");
+    const auto cage = scene.name + "_cage.obj", model = scene.name + "_model.obj";
     const auto solve = "solve " + cage + " --method harmonic --vertices 800 -q -o ";
-    expect(solve + path("w.npy") + " --save-domain " + path(scene.mesh));
-    expect(solve + path("m.npy") + " --model " + model);
-    const auto domain = path(scene.mesh) + " --weights " + path("w.npy") + " --cage " + cage;
-    const auto of_model = "--model " + model + " --weights " + path("m.npy") + " --cage " + cage;
+    expect(solve + "w.npy --save-domain " + scene.mesh);
+    expect(solve + "m.npy --model " + model);
+    const auto domain = scene.mesh + " --weights w.npy --cage " + cage;
+    const auto of_model = "--model " + model + " --weights m.npy --cage " + cage;
     expect_all_formats_agree(domain + " --control-point 3" + (plane ? " --mesh" : ""),
                              scene.control_point);
     expect_all_formats_agree(domain + " --all", scene.all);
-    expect_all_formats_agree(of_model + " --pose " + sample(scene.name + "_cage_pose.obj"), "Pose");
+    expect_all_formats_agree(of_model + " --pose " + scene.name + "_cage_pose.obj", "Pose");
     if (!plane) expect_all_formats_agree(of_model + " --all", scene.all);
   }
 }
 
 TEST_F(VectorPictures, UnknownFormatsAreNamed) {
-  const auto cage = sample("2d/figure_cage.obj");
-  const auto result = expect("draw d.obj --weights w.npy --cage " + cage + " -o " + path("p.jpg"),
-                             1, ".png, .svg, .pdf");
+  const auto result = expect("draw d.obj --weights w.npy --cage 2d/figure_cage.obj -o p.jpg", 1,
+                             ".png, .svg, .pdf");
   EXPECT_NE(result.errors.find("'.jpg'"), std::string::npos) << result.errors;
 }
 
 TEST_F(VectorPictures, OfARunAsWell) {
-  expect("run " + sample("3d/limb_cage.obj") + " " + sample("3d/limb_model.obj") +
-         " --method harmonic --vertices 500 --reduction quadratic -q --pictures svg -o " +
-         path("out"));
+  expect(
+      "run 3d/limb_cage.obj 3d/limb_model.obj --method harmonic --vertices 500 "
+      "--reduction quadratic -q --pictures svg -o out");
   for (const char* name : {"out/function.svg", "out/model.svg"}) {
-    expect_well_formed(slurp(path(name)));
-    EXPECT_GT(slurp(path(name)).size(), 1000U) << name;
+    expect_well_formed(slurp(name));
+    EXPECT_GT(slurp(name).size(), 1000U) << name;
   }
 }
 

@@ -193,47 +193,45 @@ class ViewCommand : public testing::CommandLineTest {
     const auto result = run("view " + arguments);
     EXPECT_EQ(result.status, status) << arguments;
     EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_FALSE(std::filesystem::exists(path("p.html"))) << arguments;
+    EXPECT_FALSE(std::filesystem::exists("p.html")) << arguments;
   }
 
   // The samples with weights of few influences, and all but the output.
   std::string sample_arguments(const std::string& name) const {
-    const auto cage = sample(name + "_cage.obj"), model = sample(name + "_model.obj");
-    expect("solve " + cage + " --method meanvalue -q --model " + model + " -o " + path("w.npy"));
-    return model + " --weights " + path("w.npy") + " --cage " + cage;
+    const auto cage = name + "_cage.obj", model = name + "_model.obj";
+    expect("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy");
+    return model + " --weights w.npy --cage " + cage;
   }
 };
 
 TEST_F(ViewCommand, WritesAPageOfASample) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     const auto arguments = sample_arguments(name);
-    expect("view " + arguments + " --pose " + sample(name + "_cage_pose.obj") + " -k 4 -o " +
-               path("p.html"),
-           0, "at most 4 influences per vertex (before ");
-    const auto content = content_of(testing::slurp(path("p.html")));
+    expect("view " + arguments + " --pose " + name + "_cage_pose.obj -k 4 -o p.html", 0,
+           "at most 4 influences per vertex (before ");
+    const auto content = content_of(testing::slurp("p.html"));
     EXPECT_EQ(content["poses"].size(), 1u);
     EXPECT_EQ(content["poses"][0]["time"], 1);
-    EXPECT_EQ(content["cage"]["text"], testing::slurp(sample(name + "_cage.obj")));
-    const auto given = io::read_weights(path("w.npy"));
+    EXPECT_EQ(content["cage"]["text"], testing::slurp(name + "_cage.obj"));
+    const auto given = io::read_weights("w.npy");
     const auto shown = weights_in(content, static_cast<Index>(given.rows()));
     EXPECT_EQ(shown.cols(), given.cols());
     EXPECT_LE((shown.array() != 0).colwise().count().maxCoeff(), 4);
     EXPECT_NEAR((shown.colwise().sum().array() - 1).abs().maxCoeff(), 0, 1e-6);
-    std::filesystem::remove(path("p.html"));
+    std::filesystem::remove("p.html");
   }
 }
 
 TEST_F(ViewCommand, RefusesWithTheReason) {
   const auto arguments = sample_arguments("2d/figure");
-  const auto output = " -o " + path("p.html");
-  expect_failure(arguments + " -o " + path("p.txt"), 1, ".html");
+  const std::string output = " -o p.html";
+  expect_failure(arguments + " -o p.txt", 1, ".html");
   expect_failure(arguments + " -k 17" + output, 1, "from 3 to 16 influences");
-  expect_failure(arguments + " --texture " + path("t.gif") + output, 1, ".png or .jpg");
-  expect_failure(arguments + " --texture " + path("t.png") + output, 4, "t.png");
-  expect_failure(arguments + " --pose " + sample("2d/ring_cage.obj") + output, 2, "ring_cage.obj");
-  expect_failure(sample("2d/ring_model.obj") + " --weights " + path("w.npy") + " --cage " +
-                     sample("2d/figure_cage.obj") + output,
-                 2, "ring_model.obj");
+  expect_failure(arguments + " --texture t.gif" + output, 1, ".png or .jpg");
+  expect_failure(arguments + " --texture t.png" + output, 4, "t.png");
+  expect_failure(arguments + " --pose 2d/ring_cage.obj" + output, 2, "ring_cage.obj");
+  expect_failure("2d/ring_model.obj --weights w.npy --cage 2d/figure_cage.obj" + output, 2,
+                 "ring_model.obj");
 }
 
 }  // namespace

@@ -1,37 +1,49 @@
 #!/usr/bin/env bash
 # Whether pages of flbc view do in a browser what flbc deform does:
-#   browser_test.sh PROGRAM MESHES WORK
+#   browser_test.sh PROGRAM MESHES WORK [firefox]
 # PROGRAM: flbc. MESHES: the folder of samples. WORK: a folder for results, made anew; pictures of
-# the pages are left there.
+# the pages are left there. In Firefox, only dragging is tested.
 # Ends with 77, which CTest counts as skipped, if Node.js, its module or a browser is missing.
 set -euo pipefail
 
-readonly flbc=$1 meshes=$2 work=$3
+readonly flbc=$1 meshes=$2 work=$3 kind=${4:-chromium}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-readonly here skipped=77
+readonly here
 
-if ! command -v node >/dev/null; then
-  echo "skipped: Node.js is missing (Debian: nodejs npm)"
-  exit $skipped
+skip() {
+  echo "skipped: $1"
+  exit 77
+}
+command -v node >/dev/null || skip "Node.js is missing (Debian: nodejs npm)"
+if [ "$kind" = firefox ]; then
+  browser=$(command -v firefox-esr || command -v firefox) ||
+    skip "there is no Firefox (Debian: firefox-esr)"
+  command -v xvfb-run >/dev/null || skip "xvfb-run is missing (Debian: xvfb xauth)"
+else
+  node --test "$here/modules_test.mjs" >/dev/null || { node --test "$here/modules_test.mjs"; exit 1; }
+  browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
+    skip "there is no browser (Debian: chromium)"
 fi
-node --test "$here/modules_test.mjs" >/dev/null || { node --test "$here/modules_test.mjs"; exit 1; }
-browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-if [ -z "$browser" ]; then
-  echo "skipped: there is no browser (Debian: chromium)"
-  exit $skipped
-fi
-if [ ! -d "$here/node_modules/puppeteer-core" ]; then
-  echo "skipped: the module puppeteer-core is missing; run npm ci in tests/browser"
-  exit $skipped
-fi
+[ -d "$here/node_modules/puppeteer-core" ] ||
+  skip "the module puppeteer-core is missing; run npm ci in tests/browser"
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# shellcheck source=tests/browser/sample_pages.sh
-. "$here/sample_pages.sh"
-sample 2d figure
-sample 3d limb
+# Few influences; weights of any kind would do.
+for name in 2d/figure 3d/limb; do
+  cage=$meshes/${name}_cage.obj model=$meshes/${name}_model.obj out=${name#*/}
+  "$flbc" solve "$cage" --method harmonic --vertices 1000 -q -o "$out.npy" --model "$model"
+  "$flbc" sparsify "$out.npy" --cage "$cage" --points "$model" -k 8 -q -o "$out.mtx"
+  "$flbc" view "$model" --weights "$out.mtx" --cage "$cage" --pose "$meshes/${name}_cage_pose.obj" \
+    -q -o "$out.html"
+done
+if [ "$kind" = firefox ]; then
+  # Without a display it offers no WebGL.
+  LIBGL_ALWAYS_SOFTWARE=1 xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24" \
+    node "$here/page_test.mjs" "$browser" "$flbc" "$meshes" "$work"
+  exit
+fi
 
 # A square with texture coordinates in a square whose bilinear weights are known, far from the
 # origin.

@@ -6,19 +6,16 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
-import puppeteer from "puppeteer-core";
-import { pixelsOf } from "./pixels.mjs";
+import { largestDifference, launch, pixelsOf, vertices } from "./page.mjs";
 
 const [executablePath, folder] = process.argv.slice(2);
 const files = new Set(readdirSync(folder));
 const text = (name) => readFileSync(join(folder, name), "utf8");
-const vertices = (name) => text(name).split("\n").filter((line) => line.startsWith("v "))
-  .flatMap((line) => line.trim().split(/\s+/).slice(1, 4).map(Number));
+const places = (name) => vertices(join(folder, name), 3);
 
 function expectNear(found, expected, what) {
-  assert.equal(found.length, expected.length, what);
   const size = Math.max(...expected) - Math.min(...expected);
-  const error = found.reduce((most, x, k) => Math.max(most, Math.abs(x - expected[k])), 0);
+  const error = largestDifference(found, expected);
   assert.ok(error < 1e-6 * size, `${what}: off by ${error / size} of the size`);
 }
 
@@ -30,10 +27,8 @@ const server = createServer((request, response) => {
   response.writeHead(200, { "Content-Type": type }).end(readFileSync(join(folder, name)));
 });
 await new Promise((done) => { server.listen(0, "127.0.0.1", done); });
-const browser = await puppeteer.launch({
-  executablePath, protocolTimeout: 120000,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"] });
+const browser =
+  await launch(executablePath, "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
 try {
   const tab = await browser.newPage();
   const failures = [];
@@ -41,7 +36,7 @@ try {
   await tab.goto(`http://127.0.0.1:${server.address().port}/webgl.html`);
   await tab.waitForFunction(() => window.example);
   // Moves the cage, and reads what the vertex shader made of all vertices.
-  const places = (points) => tab.evaluate((moved) => {
+  const movedBy = (points) => tab.evaluate((moved) => {
     const { gl, program, cage, draw } = window.example;
     cage.set(moved);
     draw();
@@ -64,8 +59,8 @@ try {
     (await pixelsOf(tab, png)).filter((pixel) => (pixel & 255) < 250).length;
   const canvas = await tab.$("canvas");
   assert.ok(await darkPixels(await canvas.screenshot({ encoding: "base64" })) > 5000, "nothing drawn");
-  expectNear(await places(vertices("cage.obj")), vertices("model.obj"), "at rest");
-  expectNear(await places(vertices("pose.obj")), vertices("moved.obj"), "in the pose");
+  expectNear(await movedBy(places("cage.obj")), places("model.obj"), "at rest");
+  expectNear(await movedBy(places("pose.obj")), places("moved.obj"), "in the pose");
   assert.deepEqual(failures, []);
 
   // The same in WGSL, by a program that calls the function of the vertex shader.
@@ -117,8 +112,8 @@ try {
     device.queue.submit([encoder.finish()]);
     await read.mapAsync(GPUMapMode.READ);
     return Array.from(new Float32Array(read.getMappedRange())).filter((_, k) => k % 4 < 3);
-  }, wgsl, weights, vertices("pose.obj"));
-  if (result) expectNear(result, vertices("moved.obj"), "in WGSL");
+  }, wgsl, weights, places("pose.obj"));
+  if (result) expectNear(result, places("moved.obj"), "in WGSL");
   console.log(result ? "GLSL and WGSL move as flbc deform" :
                        "GLSL moves as flbc deform; this browser has no WebGPU");
 } finally {

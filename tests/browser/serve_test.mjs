@@ -8,27 +8,15 @@ import { request } from "node:http";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
-import puppeteer from "puppeteer-core";
+import { largestDifference, launch, Page, vertices } from "./page.mjs";
 
 const [executablePath, program, meshes, drags, measuredCage] = process.argv.slice(2);
 const work = mkdtempSync(join(tmpdir(), "flbc_serve_"));
 
-const browser = await puppeteer.launch({
-  executablePath, protocolTimeout: 240000,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
-
-function vertices(text, dim) {
-  return text.split("\n").filter((line) => line.startsWith("v "))
-    .flatMap((line) => line.split(/\s+/).slice(1, dim + 1).map(Number));
-}
-
-function largestDifference(a, b) {
-  assert.equal(a.length, b.length);
-  return a.reduce((most, value, k) => Math.max(most, Math.abs(value - b[k])), 0);
-}
+const browser = await launch(executablePath);
 
 // The program with a page of it.
-class Served {
+class Served extends Page {
   static async start(args) {
     const served = new Served();
     served.process = spawn(program, ["view", "--serve", ...args, "-q"]);
@@ -45,33 +33,12 @@ class Served {
     return served;
   }
 
-  async open() {
-    this.failures = [];
-    this.tab = await browser.newPage();
-    this.tab.on("pageerror", (error) => this.failures.push(error.message));
-    this.tab.on("console", (line) => {
-      if (line.type() === "error") this.failures.push(line.text());
-    });
-    await this.tab.setViewport({ width: 1200, height: 800 });
-    await this.tab.goto(this.address);
-    await this.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
+  open() {
+    return super.open(browser, this.address);
   }
 
-  ask(action, ...values) {
-    return this.tab.evaluate((name, list) => window.flbc[name](...list), action, values);
-  }
-
-  async drag(i, dx, dy, steps = 6) {
-    const { mouse } = this.tab;
-    const spot = await this.ask("spot", i);
-    await mouse.move(spot.x, spot.y);
-    await mouse.down();
-    await mouse.move(spot.x + dx, spot.y + dy, { steps });
-    await mouse.up();
-  }
-
-  async points() {
-    return Object.values(await this.tab.evaluate(() => Array.from(window.flbc.points())));
+  async drag(i, ...by) {
+    return super.drag(await this.ask("spot", i), ...by);
   }
 
   idle() {
@@ -120,15 +87,6 @@ async function testRefusals(served) {
   assert.equal(await statusOf(`http://127.0.0.1:${url.port}/${"0".repeat(32)}/`, {}), 404);
 }
 
-async function grabbable(served, count) {
-  for (let i = 0; i < count; ++i) {
-    const spot = await served.ask("spot", i);
-    await served.tab.mouse.click(spot.x, spot.y);
-    if ((await served.ask("selection")).join() === String(i)) return i;
-  }
-  return assert.fail("no control point can be clicked");
-}
-
 // After a drag of the resting cage the page poses the model as weights for that cage do.
 async function testReshaping(folder, name, dim) {
   const cage = join(meshes, folder, `${name}_cage.obj`);
@@ -136,14 +94,14 @@ async function testReshaping(folder, name, dim) {
   const served = await Served.start([cage, model, "--vertices", "800"]);
   if (dim === 2) await testRefusals(served);
   await served.open();
-  const rest = vertices(readFileSync(model, "utf8"), dim);
+  const rest = vertices(model, dim);
   const size = Math.max(...rest) - Math.min(...rest);
   assert.ok(largestDifference(await served.points(), rest) < 1e-5 * size);
-  const count = vertices(readFileSync(cage, "utf8"), dim).length / dim;
-  const i = await grabbable(served, count);
+  const count = vertices(cage, dim).length / dim;
+  const i = await served.grabbable();
   const before = await served.ask("controlPoint", i);
 
-  await served.tab.click("#reshape");
+  await served.press("reshape");
   await served.drag(i, 14, -9);
   await served.idle();
   const moved = await served.ask("controlPoint", i);
@@ -154,7 +112,7 @@ async function testReshaping(folder, name, dim) {
   await served.tab.screenshot({ path: join(work, `${name}.png`) });
 
   // Posed from the reshaped cage, it reproduces affine maps, whatever the weights.
-  await served.tab.click("#reshape");
+  await served.press("reshape");
   for (let k = 0; k < count; ++k) {
     const place = await served.ask("controlPoint", k);
     await served.ask("move", k, place.map((value) => 1.5 * value));
@@ -164,8 +122,8 @@ async function testReshaping(folder, name, dim) {
   await served.ask("undo");
 
   // A shape that its solver cannot take is refused, and the last one comes back.
-  await served.tab.click("#resetAll");
-  await served.tab.click("#reshape");
+  await served.press("resetAll");
+  await served.press("reshape");
   const kept = await served.ask("controlPoint", i);
   await served.drag(i, 900, 700, 2);
   await served.idle();
@@ -175,7 +133,7 @@ async function testReshaping(folder, name, dim) {
 
   // Loaded again it is where it was; closed, the program ends.
   await served.tab.reload();
-  await served.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
+  await served.loaded();
   assert.ok(largestDifference(await served.ask("controlPoint", i), kept) < 1e-9 * size);
   await served.tab.close();
   assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
@@ -187,9 +145,9 @@ async function testCancel() {
   const model = join(meshes, "3d", "limb_model.obj");
   const served = await Served.start([cage, model, "--vertices", "6000"]);
   await served.open();
-  const rest = vertices(readFileSync(model, "utf8"), 3);
+  const rest = vertices(model, 3);
   const size = Math.max(...rest) - Math.min(...rest);
-  const i = await grabbable(served, vertices(readFileSync(cage, "utf8"), 3).length / 3);
+  const i = await served.grabbable();
   const kept = await served.ask("controlPoint", i);
   const step = 0.1 * size;
   const posed = async () => {
@@ -200,17 +158,16 @@ async function testCancel() {
   };
   const before = await posed();
 
-  await served.tab.click("#reshape");
+  await served.press("reshape");
   await served.drag(i, 40, -30, 1);
   assert.ok((await served.ask("reshapes")).isBusy, "there is nothing to cancel");
-  await served.tab.click("#stop");
+  await served.press("stop");
   await served.idle();
   assert.deepEqual(await served.ask("controlPoint", i), kept);
   assert.ok(largestDifference(await served.points(), rest) < 1e-5 * size, "the model moved");
-  await served.tab.click("#reshape");
+  await served.press("reshape");
   assert.ok(largestDifference(await posed(), before) < 0.02 * step, "weights of another shape");
-  assert.deepEqual(served.failures, []);
-  await served.tab.close();
+  await served.close();
   assert.equal(await served.ended, 0);
 }
 
@@ -234,7 +191,7 @@ async function testManyPages() {
   for (const tab of tabs.slice(0, -1)) await tab.close();
   await sleep(4000);
   await served.tab.reload();
-  await served.tab.waitForFunction(() => window.flbc?.milliseconds() >= 0);
+  await served.loaded();
   await served.tab.close();
   assert.equal(await Promise.race([served.ended, sleep(20000).then(() => "still there")]), 0);
 }
@@ -247,8 +204,8 @@ function median(values) {
 async function measure(cage, numDrags) {
   const served = await Served.start([cage, "--vertices", "2000"]);
   await served.open();
-  const count = vertices(readFileSync(cage, "utf8"), 2).length / 2;
-  await served.tab.click("#reshape");
+  const count = vertices(cage, 2).length / 2;
+  await served.press("reshape");
   let early = 0;
   for (let k = 0; k < numDrags; ++k) {
     const turn = 2 * Math.PI * k / 12;
@@ -261,8 +218,7 @@ async function measure(cage, numDrags) {
   console.log(`${numDrags} drags, ${milliseconds.length} solves: median ${median(milliseconds).toFixed(1)} ms in the page, `
     + `${median(solveMilliseconds).toFixed(1)} ms in the program, longest ${Math.max(...milliseconds).toFixed(0)} ms; memory ${early} kB after a fifth, `
     + `${served.memory()} kB at the end`);
-  assert.deepEqual(served.failures, []);
-  await served.tab.close();
+  await served.close();
   await served.ended;
 }
 

@@ -159,26 +159,22 @@ const char* const kOffWithAll =
 }  // namespace
 
 std::vector<Reader> model_readers() {
-  return {{"obj",
-           "input.obj",
-           read_model,
-           {tent_as("a.obj", true), kObjWithMaterials, kObjPolylines},
-           {{"input.mtl", kMaterials}}},
-          {"mtl",
-           "input.mtl",
-           read_materials,
-           {kMaterials},
-           {{"input.obj", kObjWithMaterials}},
-           false},
-          {"off", "input.off", read_model, {tent_as("a.off", true), kOffWithAll}},
-          {"ply",
-           "input.ply",
-           read_model,
-           {tent_as("a.ply", true), tent_as("a.ply", false), kPlyOfScanner}},
-          {"stl",
-           "input.stl",
-           read_model,
-           {kStlText, tent_as("a.stl", true), tent_as("a.stl", false)}}};
+  return {
+      {"obj",
+       "input.obj",
+       read_model,
+       {tent_as("a.obj", true), kObjWithMaterials, kObjPolylines},
+       {{"input.mtl", kMaterials}}},
+      {"mtl", "input.mtl", read_materials, {kMaterials}, {{"input.obj", kObjWithMaterials}}, false},
+      {"off", "input.off", read_model, {tent_as("a.off", true), kOffWithAll}},
+      {"ply",
+       "input.ply",
+       read_model,
+       {tent_as("a.ply", true), tent_as("a.ply", false), kPlyOfScanner}},
+      {"stl",
+       "input.stl",
+       read_model,
+       {kStlText, tent_as("a.stl", true), tent_as("a.stl", false)}}};
 }
 
 }  // namespace flbc::fuzz

@@ -255,7 +255,7 @@ class SampleFile : public ::testing::TestWithParam<Sample> {};
 
 TEST_P(SampleFile, HasItsElements) {
   const std::string file = std::string(FLBC_MODELS_DIR) + "/" + GetParam().file;
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real models are absent";
   const PolygonSoup soup = read_polygons(file);
   EXPECT_EQ(soup.points.size(), GetParam().points);
   EXPECT_EQ(soup.polygons.size(), GetParam().polygons);

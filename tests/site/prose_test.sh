@@ -13,6 +13,3 @@ for text in "A sentence of $long words." "It lies beside the cage." "See \`apps/
     exit 1
   fi
 done
-if command -v codespell >/dev/null; then
-  cd "$repository" && codespell
-fi

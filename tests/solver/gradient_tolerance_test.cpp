@@ -81,7 +81,7 @@ TEST_IN_2D_AND_3D(GradientToleranceTest, ThePenaltyFollowsTheMesh) {
 
 template <int Dim>
 void expect_gradient_promise_kept(const Model& model) {
-  if (!has_model(model.file)) GTEST_SKIP() << model_path(model.file) << " is absent";
+  if (!has_model(model.file)) GTEST_SKIP() << "the real models are absent";
   const auto cage = load_cage<Dim>(model.file);
   std::vector<double> tolerances = {1e-4, 1e-5, 1e-6};
   while (tolerances.back() < model.finest) tolerances.pop_back();

@@ -32,33 +32,36 @@ inline std::string slurp(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-//! A separate directory for every test, so tests can run in parallel.
+//! The working directory is a new folder for every test, with links to the samples: 2d and 3d.
 class CommandLineTest : public ::testing::Test {
  protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  static std::string sample(const std::string& name) {
-    return std::string(FLBC_MESHES_DIR) + "/" + name;
+  CommandLineTest() {
+    std::filesystem::current_path(folder_.path());
+    for (const char* dim : {"2d", "3d"}) {
+      std::filesystem::create_directory_symlink(std::string(FLBC_MESHES_DIR "/") + dim, dim);
+    }
   }
-  std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name)) << content;
-    return path(name);
+  ~CommandLineTest() override { std::filesystem::current_path("/"); }
+
+  static std::string file(const std::string& name, const std::string& content) {
+    std::ofstream(name) << content;
+    return name;
   }
 
-  Ended run(const std::string& arguments) const {
-    const auto out = path("stdout.txt");
-    const auto err = path("stderr.txt");
+  static Ended run(const std::string& arguments) {
     const std::string command =
-        std::string(FLBC_PROGRAM) + " " + arguments + " >" + out + " 2>" + err + " </dev/null";
+        FLBC_PROGRAM " " + arguments + " >stdout.txt 2>stderr.txt </dev/null";
     const int status = std::system(command.c_str());
-    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
-    std::filesystem::remove(out);
-    std::filesystem::remove(err);
+    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp("stdout.txt"),
+                 slurp("stderr.txt")};
+    std::filesystem::remove("stdout.txt");
+    std::filesystem::remove("stderr.txt");
     return result;
   }
 
   // Expects an exit status and words in the messages, and nothing on standard output but from
   // commands that are there to print.
-  Ended expect(const std::string& arguments, int status = 0, const std::string& words = "") const {
+  static Ended expect(const std::string& arguments, int status = 0, const std::string& words = "") {
     SCOPED_TRACE(arguments);
     auto result = run(arguments);
     EXPECT_EQ(result.status, status) << result.errors;
@@ -71,23 +74,24 @@ class CommandLineTest : public ::testing::Test {
   }
 
   // Harmonic coordinates of a sample at its model (w.npy) and on a mesh (v.npy, domain_file).
-  void solve(const std::string& name, const std::string& domain_file) const {
-    const auto command = "solve " + sample(name + "_cage.obj") + " --method harmonic -q -o ";
-    expect(command + path("w.npy") + " --vertices 1500 --save-domain " + path(domain_file) +
-           " --model " + sample(name + "_model.obj"));
-    expect(command + path("v.npy") + " --domain " + path(domain_file));
+  static void solve(const std::string& name, const std::string& domain_file) {
+    const auto command = "solve " + name + "_cage.obj --method harmonic -q -o ";
+    expect(command + "w.npy --vertices 1500 --save-domain " + domain_file + " --model " + name +
+           "_model.obj");
+    expect(command + "v.npy --domain " + domain_file);
   }
 
   // A tetrahedron as cage, whose weights are known: x, y, z and what is left to 1.
-  std::string tetrahedron(const std::string& vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
-                          const std::string& name = "cage.obj") const {
+  static std::string tetrahedron(
+      const std::string& vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+      const std::string& name = "cage.obj") {
     return file(name, vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   }
-  std::string linear_weights(const PointList<3>& points) const {
+  static std::string linear_weights(const PointList<3>& points) {
     WeightMatrix weights(4, points.cols());
     weights << 1 - points.colwise().sum().array(), points;
-    io::write_weights(path("w.npy"), weights);
-    return path("w.npy");
+    io::write_weights("w.npy", weights);
+    return "w.npy";
   }
 
  private:

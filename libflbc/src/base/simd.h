@@ -21,8 +21,9 @@ namespace {
 //! The alignment of rows equals their padding.
 template <class Scalar, int Lanes>
 struct PackOf {
-  using type [[gnu::vector_size(Lanes * sizeof(Scalar)),
-               gnu::aligned(kRowLanes * sizeof(Scalar))]] = Scalar;
+  using type
+      [[gnu::vector_size(Lanes * sizeof(Scalar)), gnu::aligned(kRowLanes * sizeof(Scalar))]] =
+          Scalar;
 };
 template <class Scalar, int Lanes>
 using PackN = typename PackOf<Scalar, Lanes>::type;

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/weight_columns.h"
+#include "coordinates/mean_count.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 
@@ -77,18 +78,17 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
   const double size = bounding_box_diagonal(control_points);
   Quality quality;
   quality.min_weight = std::numeric_limits<double>::max();
-  Index influences = 0;
+  MeanCount influences;
   for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
     const auto& column = column_of(weights, p);
     const Vector<Dim> error = control_points * column - points.col(p);
     if (column.size() > 0) quality.min_weight = std::min(quality.min_weight, column.minCoeff());
     quality.max_partition_error = std::max(quality.max_partition_error, std::abs(column.sum() - 1));
     quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
-    influences += static_cast<Index>((column.array().abs() > kInfluenceThreshold).count());
+    influences.add(static_cast<Index>((column.array().abs() > kInfluenceThreshold).count()));
   }
   if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
-  quality.mean_influences = static_cast<double>(influences) /
-                            static_cast<double>(std::max<Eigen::Index>(1, points.cols()));
+  quality.mean_influences = influences.value();
   return quality;
 }
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "flbc/sparse_weights.h"
 #include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/sparse_weights.h"
 #include "model/model_scan.h"
 
 namespace flbc::io {

@@ -53,9 +53,8 @@ Look look_of(const Surface& surface) {
     const auto& texture = next.material.texture;
     if (!texture.empty() && surface.texture_coordinates.cols() > 0) {
       const auto known = picture_of.find(texture);
-      next.picture = known != picture_of.end()
-                         ? known->second
-                         : picture_of[texture] = add_picture(texture, look);
+      next.picture = known != picture_of.end() ? known->second
+                                               : picture_of[texture] = add_picture(texture, look);
     }
     look.materials.push_back(std::move(next));
   }
