@@ -31,7 +31,7 @@ using gltf::WeightFormat;
 template <int Dim>
 struct Example {
   Example()
-      : make_sample<Dim>(Shape::kRing, 3),
+      : sample(make_sample<Dim>(Shape::kRing, 3)),
         weights(harmonic_weights(sample)),
         edges(edges_of_cells(sample.mesh)) {
     const auto& mesh = sample.mesh;
@@ -243,13 +243,14 @@ TEST_IN_2D_AND_3D(GltfSkinTest, UsdSkinsMoveAsDeformDoes) {
   EXPECT_EQ(joints[0], "cage");
   EXPECT_EQ(joints[1], "cage/control_point_0");
 
+  const std::string surface = "/model/surface.";
   for (const char* name : {"points", "normals", "primvars:st", "primvars:displayColor"}) {
-    EXPECT_EQ(file["/model/surface." + name].value.count, static_cast<std::size_t>(count)) << name;
+    EXPECT_EQ(file[surface + name].value.count, static_cast<std::size_t>(count)) << name;
   }
-  for (const double corner : file["/model/surface.faceVertexIndices"].value.numbers) {
+  for (const double corner : file[surface + "faceVertexIndices"].value.numbers) {
     EXPECT_LT(corner, count);
   }
-  EXPECT_NEAR(file["/model/surface.primvars:st"].value.numbers[1],
+  EXPECT_NEAR(file[surface + "primvars:st"].value.numbers[1],
               1 - example.surface.texture_coordinates(1, 0), 1e-6);
 }
 

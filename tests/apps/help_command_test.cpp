@@ -47,35 +47,6 @@ class HelpCommands : public CommandLineTest {
     return words;
   }
 
-  std::string expect_help(const std::string& arguments) const {
-    const auto result = run(arguments);
-    EXPECT_EQ(result.status, 0) << arguments << result.errors;
-    return result.output;
-  }
-
-  // What --help says of options and arguments, wrapped lines joined.
-  static std::vector<std::string> texts_of(const std::string& help) {
-    const std::regex entry(R"(  \S.*?  +(\S.*))"), name_only(R"(  -\S.*)"), more(R"( {30}(\S.*))");
-    std::vector<std::string> texts;
-    std::istringstream lines(help);
-    bool is_open = false, is_new = false;
-    for (std::string line; std::getline(lines, line);) {
-      std::smatch match;
-      if (std::regex_match(line, match, more) && is_open) {
-        if (is_new) texts.emplace_back(match[1]);
-        if (!is_new) texts.back() += " " + match[1].str();
-        is_new = false;
-      } else if (std::regex_match(line, match, entry)) {
-        texts.emplace_back(match[1]);
-        is_open = true;
-        is_new = false;
-      } else {
-        is_open = is_new = std::regex_match(line, name_only);
-      }
-    }
-    return texts;
-  }
-
   // The completions by bash of the last of these words.
   Words offered(const std::vector<std::string>& words) const {
     std::string line;
@@ -106,53 +77,6 @@ TEST_F(HelpCommands, EveryOptionIsOnItsPage) {
     }
   }
   expect("man slove", 1);
-}
-
-TEST_F(HelpCommands, FewOptionsAreShownUnlessAllAreAskedFor) {
-  for (const std::string command : {"solve", "run"}) {
-    const auto help = run(command + " --help").output;
-    const auto few = found_in(help, R"(\n  (?:-[a-zA-Z],)?(--[a-z-]+))");
-    EXPECT_LE(few.size(), 16U) << help;
-    EXPECT_GE(options_of(command).size(), few.size() + 15) << help;
-    EXPECT_EQ(few.count("--tolerance") + few.count("--output"), 2U) << help;
-    EXPECT_EQ(few.count("--penalty"), 0U) << help;
-    EXPECT_NE(help.find("flbc " + command + " --help-all"), std::string::npos) << help;
-    for (const std::string& text : {help, run(command + " --help-all").output}) {
-      EXPECT_EQ(found_in(text, R"((\n {30}[^\n]{50,}))"), Words{}) << "wider than a terminal";
-    }
-  }
-  expect("solve cage.obj --precision half -o w.npy", 1);
-}
-
-// docs/contributing/style.md: short lines, and none of the phrases that readers stumble over.
-TEST_F(HelpCommands, TextsFitAndReadPlainly) {
-  const std::regex habit(
-      R"(\b(beside|by itself|by themselves|tells?|told|stands?|whoever|what becomes|mend(s|ed)?)\b)"
-      R"(|to the bit|same bits|by a hair|\bround (a|an|the|its)\b|\bis none\b|as it takes|\d %)"
-      R"(|Excludes|Needs:|colour|neighbour)",
-      std::regex::icase);
-  auto arguments = commands();
-  ASSERT_GE(arguments.size(), 16U);
-  arguments.insert("");
-  for (const auto& command : arguments) {
-    for (const std::string option : {" --help", " --help-all"}) {
-      if (command.empty() && option == " --help-all") continue;
-      const auto help = expect_help(command + option);
-      std::istringstream lines(help);
-      std::size_t count = 0;
-      for (std::string line; std::getline(lines, line); ++count) {
-        EXPECT_LE(line.size(), 100U) << command << option << ": " << line;
-        EXPECT_FALSE(std::regex_search(line, habit)) << command << option << ": " << line;
-      }
-      if (command.empty()) EXPECT_LT(count, 40U) << "does not fit on a screen";
-      EXPECT_EQ(help.find(FLBC_PROGRAM), std::string::npos) << "the path of the program";
-      // Texts of options and arguments are phrases: lower case, no period at the end.
-      for (const auto& text : texts_of(help)) {
-        EXPECT_TRUE(text[0] < 'A' || text[0] > 'Z') << command << option << ": " << text;
-        EXPECT_NE(text.back(), '.') << command << option << ": " << text;
-      }
-    }
-  }
 }
 
 // Names that options had before still work, and --help does not show them.

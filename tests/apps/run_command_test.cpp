@@ -2,7 +2,6 @@
 // flbc run as its users and their scripts see it: it does what the other commands do one by one.
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/inotify.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -132,45 +131,6 @@ class RunCommand : public CommandLineTest {
       EXPECT_GE(json["seconds"][step], 0) << step;
   }
 };
-
-// How often a file is opened, as the system sees it.
-class OpenCounter {
- public:
-  explicit OpenCounter(const std::string& path) : queue_(inotify_init1(IN_NONBLOCK)) {
-    // Equal events in a row would become one.
-    inotify_add_watch(queue_, path.c_str(), IN_OPEN | IN_CLOSE);
-  }
-  ~OpenCounter() { close(queue_); }
-  OpenCounter(const OpenCounter&) = delete;
-  OpenCounter& operator=(const OpenCounter&) = delete;
-
-  int count() const {
-    int opened = 0;
-    for (inotify_event event; read(queue_, &event, sizeof event) == sizeof event;) {
-      opened += (event.mask & IN_OPEN) != 0;
-    }
-    return opened;
-  }
-
- private:
-  int queue_;
-};
-
-TEST_F(RunCommand, EveryModelIsReadOnce) {
-  for (const std::string name : {"2d/figure", "3d/limb"}) {
-    SCOPED_TRACE(name);
-    const std::string cage = "cage.obj", model = "model.obj";
-    fs::copy_file(name + "_cage.obj", cage, fs::copy_options::overwrite_existing);
-    fs::copy_file(name + "_model.obj", model, fs::copy_options::overwrite_existing);
-    const OpenCounter of_cage(cage), of_model(model);
-    expect_run("once" + std::to_string(name[0]),
-               cage + " " + model + " --method harmonic --vertices 1500 -q --pose " + name +
-                   "_cage_pose.obj",
-               0, "");
-    EXPECT_EQ(of_cage.count(), 1);
-    EXPECT_EQ(of_model.count(), 1);
-  }
-}
 
 TEST_F(RunCommand, DoesWhatTheOthersDoIn2D) {
   expect_all_that_others_do("2d/figure", "domain.obj");

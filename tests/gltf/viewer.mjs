@@ -25,6 +25,12 @@ export class ViewedSkin {
     return skin;
   }
 
+  // Which vertex of the model each one is.
+  sources() {
+    const { position, _vertex: numbers } = this.mesh.geometry.attributes;
+    return Array.from({ length: position.count }, (_, v) => (numbers ? numbers.getX(v) : v));
+  }
+
   // At rest if no time is given.
   positions(time) {
     if (time !== undefined) this.mixer.setTime(time);

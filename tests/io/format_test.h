@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "flbc/errors.h"
+#include "flbc/io/mesh_io.h"
 #include "support/io_files.h"
+#include "support/sample_meshes.h"
 
 namespace flbc::testing {
 
@@ -48,5 +50,27 @@ class FormatTest : public FolderTest {
     EXPECT_TRUE(names().empty());
   }
 };
+
+//! Coordinates with all their digits.
+template <int Dim>
+DomainMesh<Dim> awkward_mesh() {
+  auto mesh = samples<Dim>().front().mesh;
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<Dim>::Constant(1e-9 * v);
+  }
+  mesh.points.col(0)[0] = mesh.points.col(0)[0] * (1 + 1e-15);
+  return mesh;
+}
+
+//! The file has this tetrahedron, possibly with more text around it.
+inline void expect_reference_tetrahedron(const std::string& file) {
+  SCOPED_TRACE(file);
+  const auto mesh = io::read_domain<3>(file);
+  ASSERT_EQ(mesh.num_vertices(), 4);
+  ASSERT_EQ(mesh.num_cells(), 1);
+  EXPECT_TRUE(bit_equal(mesh.points.col(0), Vector<3>::Zero()));
+  EXPECT_TRUE(bit_equal(mesh.points.rightCols<3>(), Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(signed_measure(mesh, 0), 1.0 / 6.0);
+}
 
 }  // namespace flbc::testing

@@ -10,13 +10,14 @@
 
 #include "flbc/errors.h"
 #include "format_test.h"
-#include "support/sample_meshes.h"
 
 namespace flbc::io {
 namespace {
 
+using flbc::testing::awkward_mesh;
 using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
+using flbc::testing::expect_reference_tetrahedron;
 using flbc::testing::FormatTest;
 using Names = std::vector<std::string>;
 
@@ -60,16 +61,6 @@ class DomainFile : public FormatTest {
       check(file, extension);
     }
   }
-
-  // Coordinates with all their digits.
-  static DomainMesh<Dim> awkward_mesh() {
-    DomainMesh<Dim> mesh = flbc::testing::samples<Dim>().front().mesh;
-    for (Index v = 0; v < mesh.num_vertices(); ++v) {
-      mesh.points.col(v) = mesh.points.col(v) / 3.0 + Vector<Dim>::Constant(1e-9 * v);
-    }
-    mesh.points.col(0)[0] = mesh.points.col(0)[0] * (1 + 1e-15);
-    return mesh;
-  }
 };
 
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
@@ -77,7 +68,7 @@ TYPED_TEST_SUITE(DomainFile, Dimensions);
 
 TYPED_TEST(DomainFile, RoundTripIsBitEqual) {
   constexpr int Dim = TypeParam::value;
-  auto meshes = std::vector{this->awkward_mesh()};
+  auto meshes = std::vector{awkward_mesh<Dim>()};
   for (const double size : {1e-70, 1.0 / 3.0, 1e70}) {
     meshes.push_back(this->simplex(size));
     meshes.back().points(0, 2) = -4.9406564584124654e-324;
@@ -93,7 +84,7 @@ TYPED_TEST(DomainFile, RoundTripIsBitEqual) {
 
 TYPED_TEST(DomainFile, CellsAreTurnedRound) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   DomainMesh<Dim> inverted = mesh;
   for (Index s = 0; s < mesh.num_cells(); s += 2) {
     std::swap(inverted.cells(0, s), inverted.cells(1, s));
@@ -106,7 +97,7 @@ TYPED_TEST(DomainFile, CellsAreTurnedRound) {
 
 TYPED_TEST(DomainFile, InvalidMeshesAreReportedWithTheFile) {
   constexpr int Dim = TypeParam::value;
-  DomainMesh<Dim> mesh = this->awkward_mesh();
+  DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   mesh.points.conservativeResize(Dim, mesh.points.cols() + 1);
   mesh.points.col(mesh.points.cols() - 1).setConstant(9);
   this->for_formats(mesh, [&](const std::string& file, const std::string&) {
@@ -139,7 +130,7 @@ TYPED_TEST(DomainFile, CutAnywhereIsAnErrorOrTheWholeMesh) {
 
 TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   const std::string wrong = this->path(Dim == 2 ? "domain.mesh" : "domain.obj");
   const std::string listed = Dim == 2 ? ".obj" : ".mesh";
   for (const std::string& file : {wrong, this->path("domain.xyz"), this->path("domain")}) {
@@ -153,12 +144,12 @@ TYPED_TEST(DomainFile, FilesThatCannotBeOpened) {
   constexpr int Dim = TypeParam::value;
   this->expect_unopenable(
       readable_extensions<Dim>(), [](const auto& file) { read_domain<Dim>(file); },
-      [&](const auto& file) { write_domain(file, this->awkward_mesh()); });
+      [&](const auto& file) { write_domain(file, awkward_mesh<Dim>()); });
 }
 
 TYPED_TEST(DomainFile, CoordinatesThatAreNotFiniteAreNotWritten) {
   constexpr int Dim = TypeParam::value;
-  DomainMesh<Dim> mesh = this->awkward_mesh();
+  DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   mesh.points(1, 3) = 0.0 / 0.0;
   for (const std::string& extension : readable_extensions<Dim>()) {
     expect_error<InputError>([&] { write_domain(this->path("d." + extension), mesh); },
@@ -181,7 +172,7 @@ std::vector<double> vtu_array(const std::string& file, const std::string& name) 
 
 TYPED_TEST(DomainFile, VtuHasMeshAndFields) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   const Eigen::VectorXd values = mesh.points.row(1).transpose() / 7.0;
   write_domain(this->path("d.vtu"), mesh, {{"weight 0", values}, {"a<&>\"b", -values}});
   const std::string file = this->content("d.vtu");
@@ -219,7 +210,8 @@ TYPED_TEST(DomainFile, VtuHasMeshAndFields) {
 }
 
 TYPED_TEST(DomainFile, VtuFieldsMustHaveAValuePerVertex) {
-  const auto mesh = this->awkward_mesh();
+  constexpr int Dim = TypeParam::value;
+  const auto mesh = awkward_mesh<Dim>();
   expect_error<InputError>(
       [&] {
         write_domain(this->path("d.vtu"), mesh, {{"short", Eigen::VectorXd::Zero(3)}});
@@ -228,28 +220,36 @@ TYPED_TEST(DomainFile, VtuFieldsMustHaveAValuePerVertex) {
   EXPECT_TRUE(this->names().empty());
 }
 
-TYPED_TEST(DomainFile, VtuFieldsAreReadBack) {
+TYPED_TEST(DomainFile, FieldsAreReadBack) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
-  const Eigen::VectorXd values = mesh.points.row(1).transpose() / 7.0;
-  const std::vector<VertexField> written = {{" weight 0 ", values}, {"a<&>\"'b", -values}};
-  write_domain(this->path("d.vtu"), mesh, written);
+  const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
+  Eigen::VectorXd values = mesh.points.row(1).transpose() / 7.0;
+  Index v = 0;
+  for (const double number : flbc::testing::awkward_numbers()) values[v++] = number;
+  const std::vector<VertexField> written = {
+      {" weight 0 ", values}, {"<b> &>\"'c\" \\ # d ", -values}, {"\xc3\xa9", values / 3e9}};
   std::vector<VertexField> read = {{"old", values}};
-  EXPECT_EQ(read_domain<Dim>(this->path("d.vtu"), read).cells, mesh.cells);
-  ASSERT_EQ(read.size(), written.size());
-  for (std::size_t k = 0; k < read.size(); ++k) {
-    EXPECT_EQ(read[k].name, written[k].name);
-    EXPECT_TRUE(bit_equal(read[k].values, written[k].values));
+  for (const std::string name : {"d.vtu", "d.mesh"}) {
+    if (Dim == 2 && name == "d.mesh") continue;
+    write_domain(this->path(name), mesh, written);
+    EXPECT_EQ(read_domain<Dim>(this->path(name), read).cells, mesh.cells);
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      EXPECT_EQ(read[k].name, written[k].name);
+      EXPECT_TRUE(bit_equal(read[k].values, written[k].values));
+    }
   }
-  const std::string plain = this->path(Dim == 2 ? "d.obj" : "d.msh");
-  write_domain(plain, mesh);
-  read_domain<Dim>(plain, read);
-  EXPECT_TRUE(read.empty());
+  for (const std::string name : {Dim == 2 ? "e.obj" : "e.msh", Dim == 2 ? "e.off" : "e.mesh"}) {
+    read = written;
+    write_domain(this->path(name), mesh);
+    read_domain<Dim>(this->path(name), read);
+    EXPECT_TRUE(read.empty());
+  }
 }
 
 TYPED_TEST(DomainFile, FieldsAreNotLostSilently) {
   constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->awkward_mesh();
+  const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   const VertexField field{"weight", mesh.points.row(0)};
   for (const std::string& extension : readable_extensions<Dim>()) {
     if (extension == "vtu" || extension == "mesh") continue;
@@ -279,17 +279,6 @@ TEST_F(MeshFile, PlanarMeshesMustBeTrianglesInThePlane) {
                            {tilted, "vertex 2 at (0, 1, 0.5)", "z = 0"});
   const std::string flat = make("flat.off", "OFF 3 1 0\n0 0 -0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_EQ(read_domain<2>(flat).num_cells(), 1);
-}
-
-// The reference tetrahedron, possibly with more text around it.
-void expect_reference_tetrahedron(const std::string& file) {
-  SCOPED_TRACE(file);
-  const DomainMesh<3> mesh = read_domain<3>(file);
-  ASSERT_EQ(mesh.num_vertices(), 4);
-  ASSERT_EQ(mesh.num_cells(), 1);
-  EXPECT_TRUE(bit_equal(mesh.points.col(0), Vector<3>::Zero()));
-  EXPECT_TRUE(bit_equal(mesh.points.rightCols<3>(), Eigen::Matrix3d::Identity()));
-  EXPECT_EQ(signed_measure(mesh, 0), 1.0 / 6.0);
 }
 
 TEST_F(MeshFile, MeditVariants) {
