@@ -108,7 +108,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
   metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), 250 * metric.cell.mean());
   compact::CompactSplitting<double, Dim> first(problem, metric, {0.016, 1.9});
   first.start({});
-  first.iterate(3000, false);
+  first.iterate(0, 3000, false);
   const WeightMatrix weights = first.all_weights();
   const VectorsAt<1> own_dual = [&](Index v) { return first.vertex_dual_at(v); };
   const auto moved = [&](const VectorsAt<Dim>& flux_density, const VectorsAt<1>& dual) {
@@ -117,7 +117,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
         {0.016, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, flux_density, dual});
     EXPECT_LT((second.all_weights() - weights).cwiseAbs().maxCoeff(), 1e-14);
     double change = 0;
-    for (int k = 0; k < 20; ++k) change += second.iterate(1, false).change;
+    for (int k = 0; k < 20; ++k) change += second.iterate(0, 1, false).change;
     return change;
   };
   const VectorsAt<Dim> own = [&](Index s) { return first.flux_density(s); };

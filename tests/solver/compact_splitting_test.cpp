@@ -2,6 +2,7 @@
 // The compact form of the splitting on the weights against the textbook solver of problem (2),
 // iterate by iterate, and what it must keep beyond that.
 #include "solver/methods/splitting/compact_splitting.h"
+#include "solver/plan/constants.h"
 
 #include <cmath>
 #include <tuple>
@@ -107,7 +108,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
       for (int iteration = 1; iteration <= 15; ++iteration) {
         const auto before = textbook.weights();
         textbook.iterate();
-        const Step step = splitting.iterate(1, iteration % 2 == 1);
+        const Step step = splitting.iterate(iteration - 1, 1, iteration % 2 == 1);
         ASSERT_LT((splitting.all_weights() - textbook.weights()).cwiseAbs().maxCoeff(), 1e-10)
             << "iteration " << iteration;
         const double expected = (textbook.weights() - before).squaredNorm();
@@ -139,7 +140,7 @@ void expect_to_follow(const Case<Dim>& c, const WeightMatrix& exact, double tole
     settings.half = half;
     CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, settings, *list.kernels[k]);
     splitting.start({});
-    splitting.iterate(400, false);
+    splitting.iterate(0, 400, false);
     EXPECT_EQ(splitting.stores_half(), half);
     EXPECT_LT(squared_error(c.problem, splitting.all_weights(), exact), tolerance)
         << "kernel " << k;
@@ -150,7 +151,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, LowerPrecisionsFollowDouble) {
   const auto c = make_case<Dim>(Shape::kCorner);
   auto exact = make_splitting<double>(c);
   exact.start({});
-  exact.iterate(400, false);
+  exact.iterate(0, 400, false);
   expect_to_follow<double>(c, exact.all_weights(), 1e-20, false);
   expect_to_follow<float>(c, exact.all_weights(), 1e-10, false);
   // Radii and duals are rounded by 2^-12 of themselves at most, and weights follow.
@@ -162,12 +163,15 @@ template <class Scalar, int Dim>
 std::pair<WeightMatrix, Eigen::MatrixXd> run_with_threads(const Case<Dim>& c, int count,
                                                           bool half) {
   const ThreadScope threads(count);
-  auto splitting = make_splitting<Scalar>(c, 1.9, half);
+  compact::Settings settings{c.penalty, 1.9};
+  settings.half = half;
+  settings.balances = true;
+  CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, settings);
   splitting.start({});
-  splitting.iterate(5, false);
-  splitting.iterate_and_adapt(0.3);
-  splitting.iterate(6, true);
-  splitting.iterate(3, false);
+  for (int made = 0; made < 12; ++made) {
+    const auto step = splitting.iterate(made, 1, made % 3 == 0);
+    splitting.adapt({made + 1, step, 1, 1, false});
+  }
   Eigen::MatrixXd flux = splitting.flux_density(0);
   for (Index s = 1; s < c.problem.mesh.num_cells(); ++s) flux += splitting.flux_density(s);
   return {splitting.all_weights(), flux};
@@ -196,18 +200,45 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
 // Whatever the penalty is changed to on the way, the duals survive and the optimum stays.
 TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
   const auto c = make_case<Dim>(Shape::kRing);
-  auto splitting = make_splitting<double>(c, 1.5);
+  compact::Settings settings{10 * c.penalty, 1.5};
+  settings.balances = true;
+  CompactSplitting<double, Dim> splitting(c.problem, c.metric, settings);
   splitting.start({});
-  splitting.iterate(3000, false);
-  const double penalty = splitting.penalty();
-  const double last = splitting.iterate_and_adapt(0.01).change;
-  EXPECT_LT(last, 1e-9);
+  splitting.iterate(0, 6000, false);
+  constexpr int kBalanced = plan::kBalancedAfter[0];
+  const Step last = splitting.iterate(kBalanced - 1, 1, false);
+  EXPECT_LT(last.change, 1e-9);
   const auto before = splitting.all_weights();
-  EXPECT_GT(std::abs(std::log(splitting.penalty() / penalty)), 1);
+  splitting.adapt({kBalanced, last, 1, 1, false});
+  EXPECT_GT(std::abs(std::log(splitting.penalty() / settings.penalty)), 1);
   double change = 0;
-  for (int iteration = 0; iteration < 10; ++iteration) change += splitting.iterate(1, false).change;
+  for (int made = kBalanced; made < kBalanced + 10; ++made) {
+    change += splitting.iterate(made + 100, 1, false).change;
+  }
   EXPECT_LT(change, 1e-9);
   EXPECT_LT((splitting.all_weights() - before).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+// An iteration before which nothing was adapted measures the same, whether or not the penalty waits
+// for what it measures.
+TEST_IN_2D_AND_3D(CompactSplittingTest, ALookMeasuresAllConstraints) {
+  const auto c = make_case<Dim>(Shape::kRing);
+  const auto violation_at_the_first_look = [&](bool looks) {
+    compact::Settings settings{c.penalty, 1.9};
+    settings.balances = true;
+    settings.looks = looks;
+    CompactSplitting<double, Dim> splitting(c.problem, c.metric, settings);
+    splitting.start({});
+    Step step;
+    for (int made = 0; made < plan::kFirstLook; ++made) {
+      step = splitting.iterate(made, 1, made + 1 == plan::kFirstLook);
+      splitting.adapt({made + 1, step, 1, 1, false});
+    }
+    return step.violation;
+  };
+  const double violation = violation_at_the_first_look(true);
+  EXPECT_GT(violation, 0);
+  EXPECT_EQ(violation, violation_at_the_first_look(false));
 }
 
 // The flux obeys its bound, and at the optimum it is phi A times the gradient's direction.
@@ -215,7 +246,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
   const auto c = make_case<Dim>(Shape::kCorner);
   auto splitting = make_splitting<double>(c, 1.5);
   splitting.start({});
-  splitting.iterate(4000, false);
+  splitting.iterate(0, 4000, false);
   const auto weights = splitting.all_weights();
   double aligned = 0;
   splitting.with_flux([&](const auto& flux) {
@@ -243,18 +274,18 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, ContinuesInSinglePrecision) {
   const auto c = make_case<Dim>(Shape::kCorner);
   auto exact = make_splitting<double>(c);
   exact.start({});
-  exact.iterate(500, false);
+  exact.iterate(0, 500, false);
   auto splitting = make_splitting<float>(c, 1.9, true);
   splitting.start({});
-  splitting.iterate(100, false);
+  splitting.iterate(0, 100, false);
   const auto weights = splitting.all_weights();
   const auto density = splitting.flux_density(0);
   splitting.store_in_single();
   EXPECT_FALSE(splitting.stores_half());
   EXPECT_EQ(splitting.all_weights(), weights);
   EXPECT_EQ(splitting.flux_density(0), density);
-  EXPECT_LT(splitting.iterate(1, false).change, 1e-2);
-  splitting.iterate(399, false);
+  EXPECT_LT(splitting.iterate(0, 1, false).change, 1e-2);
+  splitting.iterate(0, 399, false);
   EXPECT_LT(squared_error(c.problem, splitting.all_weights(), exact.all_weights()), 1e-10);
 }
 
@@ -281,7 +312,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {
   const auto limit = [&](LinearSolver solver) {
     CompactSplitting<double, Dim> splitting(c.problem, c.metric, {c.penalty, 1.5, solver});
     splitting.start({});
-    splitting.iterate(3000, false);
+    splitting.iterate(0, 3000, false);
     return splitting.all_weights();
   };
   const WeightMatrix direct = limit(LinearSolver::kDirect);
@@ -371,7 +402,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
   from.vertex_dual = [&](Index v) -> Eigen::VectorXd { return dual.col(v); };
   splitting.start(from);
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-13);
-  splitting.iterate(1, false);
+  splitting.iterate(0, 1, false);
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-8);
 }
 

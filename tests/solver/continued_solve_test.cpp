@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A solver that resumes from where it stopped, and penalties in units of the cage.
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "support/dimensions.h"
+#include "support/fine_cages.h"
 #include "support/judge.h"
 #include "support/many_iterations.h"
 #include "support/sample_meshes.h"
@@ -69,6 +71,74 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
   }
 }
 
+// A run that is cut, or that ends by its limit, is a part of the whole run: the same weights and the
+// same memory, whatever adapts on the way.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ACutRunIsAPartOfTheWhole) {
+  constexpr int kAll = 520;
+  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
+  for (const auto active_set : {ActiveSet::kOff, ActiveSet::kOn}) {
+    SolverOptions options;
+    options.active_set = active_set;
+    options.tolerance = 1e-20;
+    const auto limited = [&](int limit) {
+      options.max_iterations = limit;
+      return solve(sample.cage, sample.mesh, options);
+    };
+    const auto whole = limited(kAll);
+    ASSERT_EQ(whole.report.iterations, kAll);
+    EXPECT_EQ(whole.report.active_set.density < 1, active_set == ActiveSet::kOn);
+    for (const int cut : {1, 20, 99, 100, 480, 499, 500}) {
+      SCOPED_TRACE(cut);
+      const auto first = limited(cut);
+      EXPECT_EQ(first.report.state_scalars_per_cell, limited(1).report.state_scalars_per_cell);
+      Solver<Dim> solver(sample.cage, sample.mesh, options);
+      options.max_iterations = cut;
+      solver.set_options(options);
+      EXPECT_TRUE(same_bits(solver.solve(), first));
+      EXPECT_EQ(solver.solution().report.penalty, first.report.penalty);
+      options.max_iterations = kAll - cut;
+      solver.set_options(options);
+      EXPECT_TRUE(same_bits(solver.solve(), whole));
+      EXPECT_EQ(solver.solution().report.iterations, kAll - cut);
+      EXPECT_EQ(solver.solution().report.penalty, whole.report.penalty);
+      EXPECT_EQ(solver.solution().report.active_set.growths, whole.report.active_set.growths);
+    }
+  }
+}
+
+// The default gap does not make a run leave the active set.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, StaysOnTheActiveSetWithDefaultTolerances) {
+  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
+  SolverOptions options;
+  options.active_set = ActiveSet::kOn;
+  for (const int limit : {1, 50, 100, 499, 600}) {
+    options.max_iterations = limit;
+    const auto report = solve(sample.cage, sample.mesh, options).report;
+    EXPECT_LT(report.active_set.density, 1) << limit;
+    EXPECT_LE(report.iterations, limit);
+  }
+}
+
+// Also if weights beyond the border matter only for the second tolerance.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ASmallerToleranceExtendsTheActiveSet) {
+  const auto problem_sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
+  const auto& [cage, mesh] = std::tie(problem_sample.cage, problem_sample.mesh);
+  SolverOptions options;
+  options.precision = Precision::kDouble;
+  options.active_set = ActiveSet::kOff;
+  options.tolerance = 1e-12;
+  const auto optimum = solve(cage, mesh, options);
+  options.active_set = ActiveSet::kOn;
+  options.tolerance = 1e-6;
+  Solver<Dim> solver(cage, mesh, options);
+  solver.solve();
+  options.tolerance = 1e-10;
+  solver.set_options(options);
+  const auto& solution = solver.solve();
+  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
+  EXPECT_LT(mean_squared_difference(mesh, solution.weights, optimum.weights), 2e-10);
+}
+
 TEST_IN_2D_AND_3D(ContinuedSolveTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 5, 0.2);
   SolverOptions options;
@@ -104,7 +174,8 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ContinuesOnTheActiveSet) {
   const auto optimum = solve(sample.cage, sample.mesh, many_iterations(2000));
   EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights, optimum.weights), 2e-6);
 
-  options.certify = true;  // which ends on all pairs, and so does what follows
+  options.active_set = ActiveSet::kOff;
+  options.certify = true;
   solver.set_options(options);
   const auto& certified = solver.solve().report;
   EXPECT_LE(certified.certificate.lower_bound, optimum.report.objective * (1 + 1e-9));

@@ -53,10 +53,25 @@ double mean_squared_difference(std::vector<double> a, const std::vector<double>&
 
 constexpr double kNever = 0;  // a tolerance that is not reached: no residual is asked for
 
+// An estimate of a run whose tolerance does not change.
+class FixedEstimate {
+ public:
+  FixedEstimate(Origin origin, double tolerance) : estimate_(origin), tolerance_(tolerance) {}
+  bool wants_residual() const { return estimate_.wants_residual(); }
+  double operator()(int iteration, double change, const std::optional<Movement>& movement,
+                    double residual = -1) {
+    return estimate_(iteration, tolerance_, change, movement, residual);
+  }
+
+ private:
+  ErrorEstimate estimate_;
+  double tolerance_;
+};
+
 // Calls `check(iteration, estimate / error)` whenever there is a fresh estimate.
 template <class Run>
 void follow(const Run& run, int last, const std::function<void(int, double)>& check) {
-  ErrorEstimate estimate(Origin::kCold, kNever);
+  FixedEstimate estimate(Origin::kCold, kNever);
   WeightHistory history({0}, static_cast<Index>(run.weights(0).size()), true);
   for (int k = 0; k <= last; ++k) {
     const auto weights = run.weights(k);
@@ -124,8 +139,8 @@ TEST(ErrorEstimate, SeesThroughOscillations) {
 }
 
 TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
-  ErrorEstimate cold(Origin::kCold, kNever);
-  ErrorEstimate warm(Origin::kNearby, kNever);
+  FixedEstimate cold(Origin::kCold, kNever);
+  FixedEstimate warm(Origin::kNearby, kNever);
   const double estimate = cold(1, 1e-9, {});
   EXPECT_GT(estimate, 1e-7);
   EXPECT_GT(warm(1, 1e-9, {}), estimate);
@@ -133,33 +148,33 @@ TEST(ErrorEstimate, JudgesByChangesAtFirstMoreCarefullyAfterAWarmStart) {
 }
 
 TEST(ErrorEstimate, KeepsTheLastEstimateBetweenTwoLooks) {
-  ErrorEstimate estimate(Origin::kCold, kNever);
+  FixedEstimate estimate(Origin::kCold, kNever);
   const double last = estimate(40, 1e-11, Movement{26, 32, 40, 1e-6, 5e-7, 1});
   EXPECT_EQ(estimate(41, 1e-15, {}), last);
   EXPECT_LT(estimate(48, 1e-11, Movement{32, 40, 48, 5e-7, 1e-7, 1}), last);
 }
 
 TEST(ErrorEstimate, PassesOnNumbersThatAreNotFinite) {
-  ErrorEstimate estimate(Origin::kCold, kNever);
+  FixedEstimate estimate(Origin::kCold, kNever);
   EXPECT_TRUE(std::isnan(estimate(1, std::nan(""), {})));
   EXPECT_TRUE(std::isinf(estimate(2, INFINITY, {})));
 }
 
 TEST(ErrorEstimate, CatchesRunsThatSpeedUpAgain) {
-  ErrorEstimate slow(Origin::kCold, kNever);
-  ErrorEstimate fast(Origin::kCold, kNever);
+  FixedEstimate slow(Origin::kCold, kNever);
+  FixedEstimate fast(Origin::kCold, kNever);
   const Movement movement{32, 40, 48, 1e-6, 1e-7, 1};
   EXPECT_GT(fast(48, 1e-8, movement), 10 * slow(48, 1e-10, movement));
 }
 
 TEST(ErrorEstimate, DoesNotEndWhereNothingShrinks) {
-  ErrorEstimate estimate(Origin::kCold, kNever);
+  FixedEstimate estimate(Origin::kCold, kNever);
   EXPECT_GT(estimate(48, 1e-12, Movement{32, 40, 48, 1e-8, 1e-8, 1}), 1e-6);
   EXPECT_GT(estimate(56, 1e-12, Movement{32, 40, 56, 1e-8, 2e-8, 1}), 1e-6);
 }
 
 TEST(ErrorEstimate, OfWeightsThatStayIsZero) {
-  ErrorEstimate estimate(Origin::kCold, kNever);
+  FixedEstimate estimate(Origin::kCold, kNever);
   EXPECT_EQ(estimate(48, 0, Movement{32, 40, 48, 0, 0, 1}), 0);
 }
 
@@ -171,7 +186,7 @@ Movement shrinking(double last) {
 }
 
 // Brings an estimate to where weights alone would end a run that promises 1e-6.
-int bring_to_the_end(ErrorEstimate& estimate) {
+int bring_to_the_end(FixedEstimate& estimate) {
   EXPECT_FALSE(estimate.wants_residual());
   for (int k = 32;; k += 8) {
     const double now = estimate(k, 1e-12, shrinking(1e-3 * std::pow(0.3, (k - 32) / 8)));
@@ -187,14 +202,14 @@ int bring_to_the_end(ErrorEstimate& estimate) {
 }
 
 TEST(ErrorEstimate, IsConfirmedByASmallResidual) {
-  ErrorEstimate estimate(Origin::kCold, 1e-6);
+  FixedEstimate estimate(Origin::kCold, 1e-6);
   const int k = bring_to_the_end(estimate);
   EXPECT_LE(estimate(k + 1, 1e-12, {}, 1e-7), 1e-6);
   EXPECT_FALSE(estimate.wants_residual());
 }
 
 TEST(ErrorEstimate, ALargeResidualKeepsARunGoing) {
-  ErrorEstimate estimate(Origin::kCold, 1e-6);
+  FixedEstimate estimate(Origin::kCold, 1e-6);
   const int k = bring_to_the_end(estimate);
   EXPECT_GT(estimate(k + 1, 1e-12, {}, 1e-3), 1e-5);
   EXPECT_FALSE(estimate.wants_residual());  // not again at once
@@ -209,7 +224,7 @@ TEST(ErrorEstimate, ALargeResidualKeepsARunGoing) {
 
 TEST(ErrorEstimate, AResidualCountsMoreTheLongerItStays) {
   const auto hidden = [](int iterations) {
-    ErrorEstimate estimate(Origin::kCold, 1e-6);
+    FixedEstimate estimate(Origin::kCold, 1e-6);
     return estimate(iterations, 1e-12, shrinking(1e-20), 1e-3);
   };
   EXPECT_GT(hidden(80), 1e-3 / 40);
@@ -219,7 +234,7 @@ TEST(ErrorEstimate, AResidualCountsMoreTheLongerItStays) {
 // Weights of round cages rest near their start before they move on.
 TEST(ErrorEstimate, IsNotBelievedBeforeWeightsHaveMoved) {
   const auto after = [](Origin origin, double since_start) {
-    ErrorEstimate estimate(origin, 1e-6);
+    FixedEstimate estimate(origin, 1e-6);
     auto movement = shrinking(1e-7);
     movement.since_start = since_start;
     estimate(200, 1e-12, movement);
@@ -231,7 +246,7 @@ TEST(ErrorEstimate, IsNotBelievedBeforeWeightsHaveMoved) {
 }
 
 TEST(ErrorEstimate, PassesOnResidualsThatAreNotFinite) {
-  ErrorEstimate estimate(Origin::kCold, 1e-6);
+  FixedEstimate estimate(Origin::kCold, 1e-6);
   const int last = bring_to_the_end(estimate);
   EXPECT_TRUE(std::isnan(estimate(last + 1, 1e-12, {}, std::nan(""))));
 }

@@ -144,7 +144,7 @@ struct Certified : Iteration<2> {
   double gap = 0;
 
   void start(const Start<2>&) override {}
-  Step iterate(int, bool) override { return {}; }
+  Step iterate(int, int, bool) override { return {}; }
   Weights weights() const override { return {WeightMatrix::Zero(3, 1), {}}; }
   void read_weights(Index, double*) const override {}
   Certificate certify(const WeightMatrix&) const override { return {1, 1 - gap, gap}; }
@@ -155,7 +155,9 @@ TEST(GapCriterion, TheDefaultOneWaitsForWeightsThatStillMoveFar) {
   const auto ends = [](double wanted, double gap, double error) {
     Certified iteration;
     iteration.gap = gap;
-    return GapCriterion(wanted).is_met(iteration, 500, false, error);
+    SolverOptions options;
+    options.gap = wanted;
+    return GapCriterion().is_met(plan::gap_target(options, false), iteration, 500, false, error);
   };
   const double by_default = *resolve({}).gap;
   EXPECT_TRUE(ends(by_default, 9e-4, 5));

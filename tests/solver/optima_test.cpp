@@ -104,7 +104,7 @@ TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
     compact::CompactSplitting<double, Dim> splitting(problem, metric,
                                                      {0.6 * size / per_cell, 1.65});
     splitting.start_from_weights(harmonic_coordinates(problem));
-    splitting.iterate(8000, false);
+    splitting.iterate(0, 8000, false);
     expect_optimal(problem, splitting.all_weights(), reference.non_negative);
   }
 }

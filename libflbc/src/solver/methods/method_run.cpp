@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -17,7 +16,6 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
-#include "solver/run/run.h"
 
 namespace flbc {
 namespace {
@@ -37,10 +35,11 @@ double published_unit(const LbcProblem<Dim>& problem, Method method) {
 // For kPaper, r_p has the unit of gradients, 1 / length, and r_d is mu times that. For kLbc2014
 // they are gradients times a measure, and rho times that.
 template <int Dim>
-typename Residuals<Dim>::Units published_units(const LbcProblem<Dim>& problem, Method method) {
+std::unique_ptr<StopRule<Dim>> published_criterion(const LbcProblem<Dim>& problem, Method method) {
+  using Rule = PublishedCriterion<Dim>;
   const double length = plan::published_scale(problem.mesh);
-  if (method == Method::kPaper) return {1 / length, std::pow(length, Dim)};
-  return {std::pow(length, Dim - 1), 1};
+  if (method == Method::kPaper) return std::make_unique<Rule>(1 / length, std::pow(length, Dim));
+  return std::make_unique<Rule>(std::pow(length, Dim - 1), 1);
 }
 
 // The sum of squared measures divided by the sum of measures.
@@ -67,13 +66,13 @@ std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Di
 // Method::kValue on all pairs.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
-                                           const SolverOptions& options, double penalty, bool half,
+                                           const SolverOptions& options, double penalty,
                                            bool looks) {
   compact::Settings settings;
   settings.penalty = penalty;
   settings.relaxation = *options.relaxation;
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
-  settings.half = half && plan::half_precision(problem.mesh.num_cells(), options);
+  settings.half = plan::half_precision(problem.mesh.num_cells(), options);
   settings.balances = !options.penalty;
   settings.looks = looks && settings.balances;
   return make_in<compact::CompactSplitting>(options.precision, problem, metric_of(problem, options),
@@ -135,14 +134,18 @@ std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
 
 template <int Dim>
 std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOptions& options,
-                                                              Origin origin, bool rough) const {
+                                                              const WarmStart<Dim>& start) const {
+  const bool in_double = options.precision == Precision::kDouble;
   switch (options.method) {
-    case Method::kValue:
-      return std::make_unique<EstimatedError<Dim>>(*problem_, options, origin, rough);
+    case Method::kValue: {
+      const bool looks = !start.for_finer_mesh && problem_->smoothness == 0;
+      return std::make_unique<EstimatedError<Dim>>(*problem_, *iteration_, in_double,
+                                                   origin_of(start.from), looks);
+    }
     case Method::kGradient:
-      return std::make_unique<RecoveredError<Dim>>(*problem_, options);
+      return std::make_unique<RecoveredError<Dim>>(*problem_, *iteration_, in_double);
     default:
-      return std::make_unique<Residuals<Dim>>(options, published_units(*problem_, options.method));
+      return published_criterion(*problem_, options.method);
   }
 }
 
@@ -170,19 +173,18 @@ bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
                             : from.penalty;
   settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
   settings.relaxation = *options.relaxation;
-  settings.tolerance = *options.tolerance;
   settings.half = plan::half_precision(problem_->mesh.num_cells(), options);
   settings.balances = cold && !options.penalty;
   iteration_ = make_in<active_set::ActiveSet>(
       options.precision, *problem_, metric_of(*problem_, options), settings, std::move(active));
   iteration_->start(from);
-  is_active_ = true;
   return true;
 }
 
 template <int Dim>
 void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& start) {
-  if (begin_on_active_set(options, start)) return;
+  is_active_ = begin_on_active_set(options, start);
+  if (is_active_) return;
   if (options.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
     const double penalty = options.penalty ? *options.penalty
@@ -190,7 +192,7 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
                                ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
                                : from.penalty;
     // A finer mesh needs the penalty of the first iterations.
-    iteration_ = make_value(*problem_, options, penalty, true, !start.for_finer_mesh);
+    iteration_ = make_value(*problem_, options, penalty, !start.for_finer_mesh);
     iteration_->start(from);
     return;
   }
@@ -199,51 +201,27 @@ void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& s
   iteration_->start({});
 }
 
-// The state of the active set stores the penalty of all pairs.
 template <int Dim>
-void MethodRun<Dim>::continue_on_all_pairs(const SolverOptions& options) {
-  const auto from = iteration_->state();
-  auto all = make_value(*problem_, options, options.penalty.value_or(from.penalty), false, true);
-  all->start(from);
-  iteration_ = std::move(all);
-  is_active_ = false;
-}
-
-template <int Dim>
-Weights MethodRun<Dim>::iterate(const SolverOptions& options, const Reporter& reporter,
+Weights MethodRun<Dim>::iterate(const SolverOptions& given, const Reporter& reporter,
                                 SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
-  constexpr int kNever = std::numeric_limits<int>::max();
-  const bool begins = !iteration_;
-  const auto origin = begins ? origin_of(start.from) : Origin::kNearby;
-  const auto stop = make_stop_rule(options, origin, start.for_finer_mesh);
-  GapCriterion gap(*options.gap);
-  const RunContext<Dim> context{*problem_, options, *stop, gap, reporter};
-  if (begins) begin(options, start);
+  auto options = given;
+  if (is_active_ && plan::proves(options)) iteration_ = nullptr;
+  if (!iteration_) {
+    begin(options, start);
+    state_ = {make_stop_rule(options, start)};
+    // Meanwhile, small changes do not imply a small error.
+    if (is_active_ && start.from == nullptr) {
+      state_.earliest = plan::kUntilDualsAreThere;
+      if (start.for_finer_mesh) {
+        options.max_iterations = std::min(options.max_iterations, plan::kUntilDualsAreThere);
+      }
+    }
+  }
   if (start.started) start.started();
-  int last = kNever;
-  if (begins && is_active_ && start.from == nullptr) {
-    stop->not_before(plan::kUntilDualsAreThere);
-    if (start.for_finer_mesh) last = plan::kUntilDualsAreThere;
-  }
-  // Certificates need the duals of all pairs, which need iterations to grow.
-  int on_active_set = kNever;
-  if (is_active_ && *options.gap > 0) on_active_set = plan::kFirstCertified - 1;
-  if (is_active_ && (*options.gap > 0 || options.certify)) {
-    on_active_set =
-        std::min(on_active_set, std::max(0, options.max_iterations - plan::kUntilDualsAreThere));
-  }
-  bool ended = run(*iteration_, context, report, std::min(last, on_active_set));
+  run(*iteration_, state_, {*problem_, options, plan::gap_target(options, is_active_), reporter},
+      report);
   iteration_->describe(report);
-  if (report.iterations == last) ended = true;
-  if (is_active_ && (!ended || options.certify)) {
-    continue_on_all_pairs(options);
-    stop->not_before(report.iterations + plan::kUntilDualsAreThere);
-    run(*iteration_, context, report);
-    const auto active_set = report.active_set;
-    iteration_->describe(report);
-    report.active_set = active_set;
-  }
   report.seconds.solve = watch.lap();
   auto weights = iteration_->weights();
   report.seconds.recover = watch.lap();

@@ -7,9 +7,7 @@
 #include <memory>
 
 #include "solver/methods/active_set/active_lists.h"
-#include "solver/run/iteration.h"
-#include "solver/run/reporter.h"
-#include "solver/run/stop_rule.h"
+#include "solver/run/run.h"
 #include "solver/start/transfer.h"
 
 namespace flbc {
@@ -25,15 +23,15 @@ struct WarmStart {
                                 //!< suffices
 };
 
-//! Owns the iteration of a method, and switches from the active set to all pairs if needed. Keeps a
-//! reference to the problem.
+//! Owns the iteration of a method and the state of its run. Keeps a reference to the problem.
 template <int Dim>
 class MethodRun {
  public:
   explicit MethodRun(const LbcProblem<Dim>& problem) : problem_(&problem) {}
 
   //! Solves, without the final projection, so weights may be negative. The first call begins at the
-  //! start; later calls resume.
+  //! start. Later calls resume: a run in parts makes the same iterations as one in one piece. Only
+  //! if a certificate is wanted after a run on an active set, the run starts over on all pairs.
   //! \param options  resolved \param report  reset
   //! \throws SolverError
   Weights solve(const SolverOptions& options, const Reporter& reporter, SolveReport& report,
@@ -57,12 +55,12 @@ class MethodRun {
                   WarmStart<Dim> start);
   void begin(const SolverOptions& options, const WarmStart<Dim>& start);
   bool begin_on_active_set(const SolverOptions& options, const WarmStart<Dim>& start);
-  void continue_on_all_pairs(const SolverOptions& options);
-  std::unique_ptr<StopRule<Dim>> make_stop_rule(const SolverOptions& options, Origin origin,
-                                                bool rough) const;
+  std::unique_ptr<StopRule<Dim>> make_stop_rule(const SolverOptions& options,
+                                                const WarmStart<Dim>& start) const;
 
   const LbcProblem<Dim>* problem_;
   std::unique_ptr<Iteration<Dim>> iteration_;
+  RunState<Dim> state_;
   bool is_active_ = false;
 };
 

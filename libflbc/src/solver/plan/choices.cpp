@@ -85,7 +85,16 @@ bool active_set(const Sizes& sizes, const SolverOptions& options) {
   if (options.method != Method::kValue || n > kMostActiveControlPoints) return false;
   if (options.active_set != ActiveSet::kAuto) return options.active_set == ActiveSet::kOn;
   if (static_cast<double>(n) * vertices < kActivePairs) return false;
-  return dim == 3 && n >= kActiveControlPoints && !options.certify;
+  return dim == 3 && n >= kActiveControlPoints && !proves(options);
+}
+
+bool proves(const SolverOptions& options) {
+  return options.certify || (options.gap && *options.gap > 0 && *options.gap != kGap);
+}
+
+GapTarget gap_target(const SolverOptions& options, bool on_active_set) {
+  if (on_active_set) return {};
+  return {*options.gap, *options.gap == kGap};
 }
 
 bool active_set_pays(double density, const SolverOptions& options) {

@@ -10,6 +10,13 @@
 
 namespace flbc::plan {
 
+//! The gap that ends a run.
+struct GapTarget {
+  double gap = 0;        //!< relative; 0 = none
+  bool settles = false;  //!< whether it also waits until the weights hardly move (kSettled), unless
+                         //!< the gap is very small (kSmallGap)
+};
+
 //! The inputs of a choice.
 struct Sizes {
   int dim;
@@ -36,6 +43,13 @@ bool half_precision(Index cells, const SolverOptions& options);
 
 //! Whether to try an active set, because it may be faster and supports all options.
 bool active_set(const Sizes& sizes, const SolverOptions& options);
+
+//! Whether a certificate is wanted, which needs the duals of all pairs.
+bool proves(const SolverOptions& options);
+
+//! The gap that ends a run. By default, methods with an estimated error have one if the tolerance is
+//! not set. \param on_active_set  then there is none by default
+GapTarget gap_target(const SolverOptions& options, bool on_active_set);
 
 //! Whether an active set is small enough to be faster. \param density  of its pairs
 bool active_set_pays(double density, const SolverOptions& options);

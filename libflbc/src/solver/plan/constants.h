@@ -27,7 +27,7 @@ constexpr double kPenaltyOfSmoothness = 10;
 constexpr double with_smoothness(double penalty, double smoothness) {
   return penalty + kPenaltyOfSmoothness * smoothness;
 }
-//! `value` on all pairs balances after these iterations.
+//! `value` balances after these iterations.
 constexpr int kBalancedAfter[] = {5, 10, 20, 40};
 //! `value` on all pairs looks at its residuals after this many iterations, and whenever their
 //! number has grown by the factor.
@@ -44,8 +44,6 @@ constexpr double kLeastViolation = 120, kMostViolation = 500;
 constexpr int kAfterLook = 32;
 //! `value`: factors by which the penalty changes at most then, and the smallest penalty.
 constexpr double kMostLowered = 0.3, kMostRaised = 3, kSmallestPenalty = 1.0 / 400;
-//! `value` on the active set balances after these, by rebuilding the iteration.
-constexpr int kFirstBalance = 10, kLastBalance = 40;
 //! `value` on the active set uses this fraction of the penalty of all pairs. Fewer weights move,
 //! and after a multilevel start they are nearly correct.
 constexpr double kActivePenaltyCold = 0.5, kActivePenaltyWarm = 0.25;
@@ -111,8 +109,9 @@ constexpr double kTolerance = 1e-7, kGradientTolerance = 1e-6, kGap = 1e-3;
 //! tolerances, or if the gap is at most the second. Weights of round cages still drift at a gap of
 //! 1e-3 (lab book).
 constexpr double kSettled = 10, kSmallGap = 1e-4;
-//! Minimum number of iterations of `value`.
+//! Minimum number of iterations, and iterations between two reports of progress.
 constexpr int kFewestIterations = 8;
+constexpr int kCheckInterval = 10;
 //! Maximum number of vertices whose weights are compared; larger meshes are sampled.
 constexpr std::size_t kFewestSampled = 4096;
 //! First iteration with a certificate, and the factor to the next. A certificate takes as long as
@@ -124,7 +123,7 @@ constexpr double kUnknownError = 2;
 //! `gradient`: iterations between two recoveries, each of which takes as long as one or two
 //! iterations; recoveries that are judged together; and the least error relative to the squared
 //! residual that it had on all meshes tried.
-constexpr int kRecoveryInterval = 32;
+constexpr int kRecoveryInterval = 40;
 constexpr std::size_t kRecoveriesJudged = 3;
 constexpr double kErrorOfResidual = 2;
 

@@ -87,6 +87,11 @@ void validate(const SolverOptions& options) {
     throw OptionError("certify needs a method that minimizes the objective; choose another method");
   }
   validate_gap(options, iterative);
+  if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
+    throw OptionError(
+        "active_set on has no certificate, which needs the duals of all pairs; choose active_set "
+        "auto, or leave certify and gap out");
+  }
   const bool gradients = options.method == Method::kGradient || options.method == Method::kPaper;
   if (options.linear_solver == LinearSolver::kNone && !gradients) {
     throw OptionError("linear_solver none is for the methods gradient and paper only");

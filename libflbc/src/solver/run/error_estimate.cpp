@@ -98,31 +98,31 @@ std::optional<Movement> WeightHistory::operator()(int iteration, const ReadRow& 
 
 // How many times smaller the estimate must be, because the weights of a cold start may still be
 // about to move.
-double ErrorEstimate::safety(int iteration) const {
+double ErrorEstimate::safety(int iteration, double tolerance) const {
   using namespace plan::error_estimate;
-  if (origin_ != Origin::kCold || tolerance_ > kLooseTolerance) return 1;
+  if (origin_ != Origin::kCold || tolerance > kLooseTolerance) return 1;
   if (looks_ && iteration < plan::kFirstLook) return kEarlySafety;
-  const bool rests = moved_ && *moved_ < kFewMoved * tolerance_;
+  const bool rests = moved_ && *moved_ < kFewMoved * tolerance;
   return rests || iteration < kFirstMeasured ? kRestingSafety : 1;
 }
 
 // Whether the residual confirms an estimate that would end the run.
-double ErrorEstimate::confirmed(int iteration, double residual) {
+double ErrorEstimate::confirmed(int iteration, double tolerance, double residual) {
   using namespace plan::error_estimate;
   const bool cold = origin_ == Origin::kCold;
   if (residual >= 0) {
     hidden_ = std::max(kPoincare, cold ? kPerIteration * iteration : 0) * residual;
     next_measured_ = iteration + iteration / kInterval;
   }
-  const double safety = this->safety(iteration);
-  const bool ends = safety * shown_ <= tolerance_ && (cold || iteration >= kFirstMeasured);
-  wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance_ && iteration >= next_measured_));
-  const double unknown = plan::kUnknownError * tolerance_;
+  const double safety = this->safety(iteration, tolerance);
+  const bool ends = safety * shown_ <= tolerance && (cold || iteration >= kFirstMeasured);
+  wants_residual_ = ends && (hidden_ < 0 || (hidden_ > tolerance && iteration >= next_measured_));
+  const double unknown = plan::kUnknownError * tolerance;
   if (!ends) return safety > 1 ? std::max(shown_, unknown) : shown_;
   return std::max(shown_, hidden_ < 0 ? unknown : hidden_);
 }
 
-double ErrorEstimate::operator()(int iteration, double change,
+double ErrorEstimate::operator()(int iteration, double tolerance, double change,
                                  const std::optional<Movement>& movement, double residual) {
   using namespace plan::error_estimate;
   if (!std::isfinite(change)) return change;
@@ -134,7 +134,7 @@ double ErrorEstimate::operator()(int iteration, double change,
   } else if (!moved_) {
     shown_ = (origin_ == Origin::kCold ? 1 : 2) * kOfChange * change;
   }
-  return confirmed(iteration, residual);
+  return confirmed(iteration, tolerance, residual);
 }
 
 }  // namespace flbc

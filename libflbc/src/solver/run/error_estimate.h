@@ -85,30 +85,29 @@ enum class Origin {
 //! Constants: plan/constants.h.
 class ErrorEstimate {
  public:
-  //! \param tolerance  target mean squared error \param looks  whether the iteration adapts its
-  //! penalty late (plan::kFirstLook), so that early estimates of cold starts say little
-  ErrorEstimate(Origin origin, double tolerance, bool looks = false)
-      : origin_(origin), tolerance_(tolerance), looks_(looks) {}
+  //! \param looks  whether the iteration adapts its penalty late (plan::kFirstLook), so that early
+  //! estimates of cold starts say little
+  explicit ErrorEstimate(Origin origin, bool looks = false) : origin_(origin), looks_(looks) {}
 
   //! Whether the next iteration should measure its residual.
   bool wants_residual() const { return wants_residual_; }
 
   //! Estimates of one run, iteration by iteration.
+  //! \param tolerance  target mean squared error
   //! \param change  mean squared change of a weight in this iteration
   //! \param movement  of the weights; empty if unknown
   //! \param residual  mean squared difference of z and grad w per control point, times the squared
   //! size of the cage; negative if not measured
   //! \return the latest estimate; above the tolerance until a residual has confirmed it; not finite
   //! if an argument is not finite
-  double operator()(int iteration, double change, const std::optional<Movement>& movement,
-                    double residual = -1);
+  double operator()(int iteration, double tolerance, double change,
+                    const std::optional<Movement>& movement, double residual = -1);
 
  private:
-  double safety(int iteration) const;
-  double confirmed(int iteration, double residual);
+  double safety(int iteration, double tolerance) const;
+  double confirmed(int iteration, double tolerance, double residual);
 
   Origin origin_;
-  double tolerance_;
   bool looks_;
   std::optional<double> moved_;  // since the start
   double shown_ = 0;             // by the weights

@@ -33,8 +33,18 @@ struct Weights {
   WeightMatrix to_dense() && { return is_sparse() ? sparse.dense() : std::move(dense); }
 };
 
+//! The point that a run has reached, as an iteration needs it to adapt.
+struct Milestone {
+  int made;          //!< iterations since the start, over all runs that resumed
+  Step step;         //!< the last of them
+  double error;      //!< estimated mean squared error of the weights
+  double tolerance;  //!< its target
+  bool ends;         //!< whether the run would end here
+};
+
 //! An iteration and its state. Boundary values of the weights are exact; interior columns sum to
-//! one and reproduce their points up to the iteration's precision, and may be negative.
+//! one and reproduce their points up to the iteration's precision, and may be negative. The run
+//! counts the iterations.
 template <int Dim>
 class Iteration {
  public:
@@ -43,9 +53,10 @@ class Iteration {
   //! Starts from weights and duals, or cold. Must be called before iterate().
   virtual void start(const Start<Dim>& start) = 0;
 
-  //! Iterates `count` >= 1 times. \param measure  whether to measure residuals in the last
-  //! iteration
-  virtual Step iterate(int count, bool measure) = 0;
+  //! Iterates. adapt() must follow before the next call. \param made  iterations since the start
+  //! \param count  >= 1; 1 if the iteration adapts its penalty \param measure  whether to measure
+  //! residuals in the last iteration
+  virtual Step iterate(int made, int count, bool measure) = 0;
 
   virtual Weights weights() const = 0;
 
@@ -56,17 +67,12 @@ class Iteration {
   //! if not supported.
   virtual Start<Dim> state() const { return {}; }
 
-  //! Whether duals are complete, so that certify() gives a useful bound.
-  virtual bool is_certifiable() const { return true; }
-
   //! Certificate of weights (n x V) from the current duals.
   virtual Certificate certify(const WeightMatrix& weights) const = 0;
 
-  //! Lets the iteration change its precision, its penalty, or the pairs it works on.
-  //! \param made  iterations of the run \param error  estimated mean squared error of the weights
-  //! \param ends  whether this error would end the run
+  //! Lets the iteration change its penalty, its precision, or the pairs it works on.
   //! \return iterations to make before the run may end; 0 for none
-  virtual int adapt(int /*made*/, double /*error*/, bool /*ends*/) { return 0; }
+  virtual int adapt(const Milestone&) { return 0; }
 
   //! Fills in the penalty, the size of the state, and the active set.
   virtual void describe(SolveReport& report) const = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/instantiate.h"
@@ -27,27 +28,34 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
   return progress;
 }
 
-// Iterates with as many threads as the machine has cores to spare.
+// Iterates to the next evaluation, with as many threads as the machine has cores to spare.
 template <int Dim>
-Step iterate(Iteration<Dim>& iteration, int count, bool measure, ThreadChoice& choice) {
+Step iterate(Iteration<Dim>& iteration, const RunState<Dim>& state, int count,
+             ThreadChoice& choice) {
   const ThreadScope scope(choice.threads());
   const double on_core = seconds_on_core();
   Stopwatch watch;
-  const Step step = iteration.iterate(count, measure);
+  const Step step = iteration.iterate(state.made, count, state.stop->wants_residuals());
   choice.note(count, watch.lap(), seconds_on_core() - on_core);
   return step;
 }
 
-// Ends the run or reports progress. Sets status and criterion. \return whether to stop
+// Ends the run or reports progress, if due. Sets status and criterion. \param last  whether the
+// limit is reached \return whether to end
 template <int Dim>
-bool is_finished(const Iteration<Dim>& iteration, const RunContext<Dim>& context,
-                 SolveReport& report) {
-  const bool last = report.iterations >= context.options.max_iterations;
+bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
+                 const RunContext<Dim>& context, bool last, SolveReport& report) {
+  const bool converged = report.primal_residual <= 1 && report.dual_residual <= 1;
+  const bool due = converged ? state.made >= std::max(plan::kFewestIterations, state.earliest)
+                             : state.made % plan::kCheckInterval == 0;
+  if (!due && !last) return false;
   report.status = SolveStatus::kConverged;
   report.criterion = Criterion::kTolerance;
-  if (report.primal_residual <= 1 && report.dual_residual <= 1) return true;
+  if (converged) return true;
   report.criterion = Criterion::kGap;
-  if (context.gap.is_met(iteration, report.iterations, last, report.primal_residual)) return true;
+  if (state.gap.is_met(context.gap, iteration, state.made, last, report.primal_residual)) {
+    return true;
+  }
   report.criterion = Criterion::kNone;
   report.status = SolveStatus::kIterationLimit;
   if (last) return true;
@@ -71,35 +79,33 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
 }
 
 template <int Dim>
-bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport& report,
-         int pause) {
-  auto& stop = context.stop;
-  const auto adapt = [&](bool ends) {
-    const double error = *context.options.tolerance * std::max(report.primal_residual, 1.0);
-    const int to_make = iteration.adapt(report.iterations, error, ends);
-    if (to_make > 0) stop.not_before(report.iterations + to_make);
-    return to_make > 0;
-  };
+void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
+         SolveReport& report) {
+  const double tolerance = *context.options.tolerance;
+  const int before = state.made;
+  const int limit = before + std::min(context.options.max_iterations,
+                                      std::numeric_limits<int>::max() - before);
+  const int interval = state.stop->interval();
   ThreadChoice choice(omp_get_max_threads());
-  stop.begin(iteration);
-  if (report.iterations > 0) adapt(false);
-  while (report.iterations < pause) {
+  while (state.made < limit) {
     context.reporter.poll();
-    const int count = stop.next(report.iterations);
-    const Step step = iterate(iteration, count, stop.wants_residuals(), choice);
-    report.iterations += count;
-    if (stop.judge(step, iteration, report)) {
-      require_finite(std::isfinite(report.primal_residual) && std::isfinite(report.dual_residual),
-                     report);
-      if (is_finished(iteration, context, report)) {
-        if (report.status != SolveStatus::kConverged || !adapt(true)) return true;
-        continue;
-      }
-    }
-    if (report.iterations < pause) adapt(false);
+    const int count = std::min(interval - state.made % interval, limit - state.made);
+    const Step step = iterate(iteration, state, count, choice);
+    state.made += count;
+    report.iterations = state.made - before;
+    const auto [primal, dual] = state.stop->judge(step, iteration, state.made, tolerance);
+    report.primal_residual = primal;
+    report.dual_residual = dual;
+    require_finite(std::isfinite(primal) && std::isfinite(dual), report);
+    const bool ends = is_finished(iteration, state, context, state.made == limit, report);
+    const bool converged = ends && report.status == SolveStatus::kConverged;
+    const int to_make =
+        iteration.adapt({state.made, step, tolerance * std::max(primal, 1.0), tolerance, converged});
+    if (to_make > 0) state.earliest = state.made + to_make;
+    if (ends && !(converged && to_make > 0)) return;
   }
   report.status = SolveStatus::kIterationLimit;
-  return false;
+  report.criterion = Criterion::kNone;
 }
 
 FLBC_INSTANTIATE_FUNCTION(unscaled)

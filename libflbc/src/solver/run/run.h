@@ -3,61 +3,41 @@
 //! The loop of every iterative method.
 #pragma once
 
-#include <limits>
+#include <memory>
 
-#include "solver/plan/constants.h"
+#include "solver/run/gap_criterion.h"
 #include "solver/run/iteration.h"
 #include "solver/run/reporter.h"
 #include "solver/run/stop_rule.h"
 
 namespace flbc {
 
-//! Certifies the weights of an iteration at times that depend only on the number of iterations, so
-//! runs are reproducible.
-class GapCriterion {
- public:
-  //! \param wanted  target relative gap; 0 = never met. The default one also asks for settled weights
-  //! (plan::kSettled), unless the gap is very small (plan::kSmallGap).
-  explicit GapCriterion(double wanted) : wanted_(wanted) {}
-
-  //! Certifies if due. \param made  iterations of the run \param last  whether this is the last
-  //! iteration \param error  estimated error of the weights relative to the tolerance
-  //! \return whether the gap is at most the target
-  template <int Dim>
-  bool is_met(const Iteration<Dim>& iteration, int made, bool last, double error) {
-    if (wanted_ == 0 || made < (last ? plan::kFirstCertified : next_)) return false;
-    if (!iteration.is_certifiable()) return false;
-    next_ = static_cast<int>(plan::kCertifiedGrowth * made);
-    const double gap = iteration.certify(iteration.weights().to_dense()).relative_gap;
-    const bool waits = wanted_ == plan::kGap && error > plan::kSettled;
-    return gap <= (waits ? plan::kSmallGap : wanted_);
-  }
-
- private:
-  double wanted_;
-  int next_ = plan::kFirstCertified;
+//! The state of a run besides its iteration. A run that resumes keeps it, so iterations are counted
+//! and judged as if it had never been interrupted.
+template <int Dim>
+struct RunState {
+  std::unique_ptr<StopRule<Dim>> stop;
+  GapCriterion gap{};
+  int made = 0;      //!< iterations since the start
+  int earliest = 0;  //!< the run must not end before this iteration
 };
 
-//! Inputs of a run other than the iteration. Keeps references.
+//! Inputs of a run other than the iteration and its state. Keeps references.
 template <int Dim>
 struct RunContext {
   const LbcProblem<Dim>& problem;
   const SolverOptions& options;  //!< resolved
-  StopRule<Dim>& stop;
-  GapCriterion& gap;
+  const plan::GapTarget gap;
   const Reporter& reporter;
 };
 
 //! Iterates until the stop rule or the certified gap is met, the limit of iterations is reached, or
-//! the caller stops it.
-//! \param pause  iteration after which to pause, so another method can take over
-//! \param report  receives iterations, status, criterion, and residuals; the iteration count
-//! continues
-//! \return whether the run has ended; otherwise it pauses
+//! the caller stops it. \param report  receives iterations of this call, status, criterion, and
+//! residuals
 //! \throws SolverError if numbers are not finite
 template <int Dim>
-bool run(Iteration<Dim>& iteration, const RunContext<Dim>& context, SolveReport& report,
-         int pause = std::numeric_limits<int>::max());
+void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
+         SolveReport& report);
 
 //! Extreme penalties and relaxations cause overflow, which must never be returned as a result.
 //! \throws SolverError unless `finite`

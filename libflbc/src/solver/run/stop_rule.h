@@ -3,91 +3,66 @@
 //! Stopping rules: estimated error, or the residuals of the paper.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "flbc/options.h"
 #include "solver/run/error_estimate.h"
 #include "solver/run/iteration.h"
 
 namespace flbc {
 
-//! Evaluates an iteration after each step. Keeps references to constructor arguments.
+//! Residuals relative to their thresholds.
+struct Ratios {
+  double primal = 0, dual = 0;
+};
+
+//! Evaluates a run after each step.
 template <int Dim>
 class StopRule {
  public:
   virtual ~StopRule() = default;
 
-  //! Must be called before the first step, and when another iteration takes over.
-  virtual void begin(const Iteration<Dim>&) {}
-
-  //! Iterations until the next evaluation, >= 1. \param made  iterations so far
-  virtual int next(int made) const = 0;
+  //! Iterations between two evaluations.
+  virtual int interval() const { return plan::kCheckInterval; }
 
   //! Whether the last of them must measure residuals.
-  virtual bool wants_residuals() const = 0;
+  virtual bool wants_residuals() const { return true; }
 
-  //! Evaluates the last step: sets the residuals of the report, relative to their thresholds.
-  //! \return whether the run may end, or progress is due
-  virtual bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) = 0;
-
-  //! The run must not end before this iteration.
-  void not_before(int iteration) { earliest_ = iteration; }
-
- protected:
-  //! Whether to evaluate: when the estimate would end the run, otherwise every check_interval
-  //! iterations.
-  bool looks(const SolverOptions& options, const SolveReport& report, int fewest) const {
-    const int made = report.iterations;
-    if (made >= options.max_iterations) return true;
-    const bool shows_end = report.primal_residual <= 1 && report.dual_residual <= 1;
-    return shows_end ? made >= std::max(fewest, earliest_) : made % options.check_interval == 0;
-  }
-  static int to_next_look(const SolverOptions& options, int made) {
-    const int interval = options.check_interval;
-    return std::min(interval - made % interval, options.max_iterations - made);
-  }
-
- private:
-  int earliest_ = 0;
+  //! Evaluates the last step. \param made  iterations since the start
+  virtual Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
+                       double tolerance) = 0;
 };
 
 //! Method::kValue: the estimated mean squared error of the weights is at most the tolerance.
 template <int Dim>
-class EstimatedError : public StopRule<Dim> {
+class EstimatedError final : public StopRule<Dim> {
  public:
-  //! \param origin  of the first iteration \param rough  whether the result is only a start for a
-  //! finer mesh, so the run may end early
-  EstimatedError(const LbcProblem<Dim>& problem, const SolverOptions& options, Origin origin,
-                 bool rough = false);
+  //! \param iteration  started \param in_double  whether it iterates in double precision
+  //! \param origin  of its start \param looks  whether it adapts its penalty late
+  EstimatedError(const LbcProblem<Dim>& problem, const Iteration<Dim>& iteration, bool in_double,
+                 Origin origin, bool looks);
 
-  void begin(const Iteration<Dim>& iteration) override;
-  int next(int) const override { return 1; }
+  int interval() const override { return 1; }
   bool wants_residuals() const override { return estimate_.wants_residual(); }
-  bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) override;
+  Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
+               double tolerance) override;
 
  private:
-  const SolverOptions& options_;
   const double num_weights_, residual_scale_;
   ErrorEstimate estimate_;
   WeightHistory history_;
-  bool begun_ = false;
 };
 
 //! Method::kGradient: the same for periodically recovered weights.
 template <int Dim>
-class RecoveredError : public StopRule<Dim> {
+class RecoveredError final : public StopRule<Dim> {
  public:
-  RecoveredError(const LbcProblem<Dim>& problem, const SolverOptions& options);
+  //! Arguments as above.
+  RecoveredError(const LbcProblem<Dim>& problem, const Iteration<Dim>& iteration, bool in_double);
 
-  void begin(const Iteration<Dim>& iteration) override;
-  int next(int made) const override { return this->to_next_look(options_, made); }
-  bool wants_residuals() const override { return true; }
-  bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) override;
+  Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
+               double tolerance) override;
 
  private:
-  const SolverOptions& options_;
-  const int interval_;
   const double residual_scale_;
   ErrorEstimate estimate_;
   WeightHistory history_;
@@ -96,21 +71,18 @@ class RecoveredError : public StopRule<Dim> {
 
 //! Method::kPaper and kLbc2014: both residuals are below the thresholds of section 5 of the paper.
 template <int Dim>
-class Residuals : public StopRule<Dim> {
+class PublishedCriterion final : public StopRule<Dim> {
  public:
-  //! Residuals in published units of length relative to those in problem units.
-  struct Units {
-    double primal, dual;
-  };
-  Residuals(const SolverOptions& options, Units units) : options_(options), units_(units) {}
+  //! \param primal, dual  residuals in published units of length relative to those in problem units
+  PublishedCriterion(double primal, double dual) : primal_(primal), dual_(dual) {}
 
-  int next(int made) const override { return this->to_next_look(options_, made); }
-  bool wants_residuals() const override { return true; }
-  bool judge(const Step& step, const Iteration<Dim>& iteration, SolveReport& report) override;
+  Ratios judge(const Step& step, const Iteration<Dim>&, int, double tolerance) override {
+    constexpr double kDualToPrimal = 10;  // section 5 of the paper: N 1e-7 and N 1e-6
+    return {primal_ * step.primal / tolerance, dual_ * step.dual / (kDualToPrimal * tolerance)};
+  }
 
  private:
-  const SolverOptions& options_;
-  const Units units_;
+  const double primal_, dual_;
 };
 
 }  // namespace flbc

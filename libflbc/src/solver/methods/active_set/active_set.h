@@ -15,9 +15,8 @@ struct Settings {
   double penalty = 1;     //!< of all pairs
   double part = 1;        //!< factor of the penalty for an active set, where fewer weights move
   double relaxation = 1;  //!< alpha in (0, 2)
-  double tolerance = 1;   //!< target mean squared error
   bool half = false;      //!< starts with duals and radii in half precision
-  bool balances = false;  //!< adapts the penalty to the change of weights since the start
+  bool balances = false;  //!< adapts the penalty early (splitting/penalty_rule.h)
 };
 
 //! The splitting on the active set: the pairs of vertices and control points whose weights may be
@@ -31,7 +30,7 @@ class ActiveSet final : public Iteration<Dim> {
 
   //! \param start  not cold
   void start(const Start<Dim>& start) override;
-  Step iterate(int count, bool measure) override;
+  Step iterate(int made, int count, bool measure) override;
   Weights weights() const override { return {{}, splitting_->sparse_weights()}; }
   void read_weights(Index vertex, double* weights) const override {
     splitting_->read_weights(vertex, weights);
@@ -39,31 +38,29 @@ class ActiveSet final : public Iteration<Dim> {
   //! The penalty refers to all pairs.
   Start<Dim> state() const override;
 
-  //! Duals are known only for active pairs.
-  bool is_certifiable() const override { return false; }
+  //! None, because duals are known only for active pairs.
   Certificate certify(const WeightMatrix&) const override { return {}; }
 
-  //! Balances the penalty, extends the set, and switches to single precision. Each change makes a
+  //! Balances the penalty, extends the set, and switches to single precision. The last two make a
   //! new splitting that starts from the current one.
-  int adapt(int made, double error, bool ends) override;
+  int adapt(const Milestone& at) override;
 
   void describe(SolveReport& report) const override;
 
  private:
   using Splitting = ActiveSplitting<Scalar, Dim>;
 
-  void rebuild(double penalty, bool half, ActiveLists active, const Start<Dim>& from);
-  int next_balance() const;
-  double balanced_penalty(int made);
-  int grow(double error);
+  void rebuild(double penalty, bool half, ActiveLists active, const Start<Dim>& from,
+               bool balances = false);
+  int grow(const Milestone& at);
 
   const LbcProblem<Dim>& problem_;
   const splitting::Metric metric_;
   const Settings settings_;
   ActiveLists first_active_;  // until the start
   std::unique_ptr<Splitting> splitting_;
-  VectorsAt<1> start_weights_;  // null if the penalty is fixed
-  int since_ = 0;               // iteration of the last change or check
+  splitting::PenaltyRule rule_;
+  int since_ = 0;  // iteration of the last change or check
   int growths_ = 0;
 };
 

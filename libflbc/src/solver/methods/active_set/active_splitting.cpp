@@ -18,7 +18,7 @@ namespace {
 template <class Scalar>
 struct PatchRows {
   AlignedArray<Scalar> extrapolated, difference, residual, violation_sum;
-  AlignedArray<double> violation;
+  AlignedArray<double> violation, motion;
   std::vector<std::uint16_t> slot_of;
 
   PatchRows(std::size_t largest_block, std::size_t n, bool measures)
@@ -27,6 +27,7 @@ struct PatchRows {
         residual(largest_block),
         violation_sum(measures ? padded(n) : 0),
         violation(measures ? padded(n) : 0),
+        motion(measures ? padded(n) : 0),
         slot_of(n + 1) {}
 };
 
@@ -94,49 +95,65 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   return state;
 }
 
-// Z-steps of all cells; stores the divergence of each patch for collection.
-// \return the squared violation of z = grad w, if measured
+// Calls body(p, rows, state) for all patches, where `rows` has a of the rows of patch p.
 template <class Scalar, int Dim>
-double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation) {
+template <class Body>
+void ActiveSplitting<Scalar, Dim>::for_patches(bool measures, const Body& body) {
   const auto num_patches = static_cast<Index>(patches_.patches.size());
-  const Lists lists = lists_.view();
-  std::vector<double> violations(num_patches, 0);
   const auto pass = [&](Index begin, Index end) {
     const FlushDenormals flush;
     PatchRows<Scalar> rows(patches_.largest_block, n_ + 1, measures);
     for (Index p = begin; p < end; ++p) {
       const Patch& patch = patches_.patches[p];
-      const Index* numbers = patches_.rows.data() + patch.first_row;
       for (std::size_t j = 0; j < patch.stride; ++j) {
         rows.slot_of[patches_.items[patch.first_item + j]] = static_cast<std::uint16_t>(j);
       }
       auto state = patch_state(patch);
-      state.relaxation = static_cast<Scalar>(relaxation);
       state.extrapolated = rows.extrapolated.data();
       state.residual = rows.residual.data();
-      list_kernel_.gather(lists, numbers, patch.num_rows, rows.slot_of.data(), a_.data(),
-                          patch.stride, state.extrapolated);
-      std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
+      state.difference = rows.difference.data();
+      state.violation = rows.violation.data();
+      state.violation_sum = rows.violation_sum.data();
+      gather(patch, rows.slot_of, a_, patch.num_rows, rows.extrapolated);
       if (measures) {
-        const auto size = patch.num_rows * patch.stride;
-        std::fill_n(rows.difference.data(), size, Scalar(0));
-        list_kernel_.gather(lists, numbers, patch.num_interior, rows.slot_of.data(),
-                            difference_.data(), patch.stride, rows.difference.data());
+        std::fill_n(rows.difference.data(), patch.num_rows * patch.stride, Scalar(0));
+        gather(patch, rows.slot_of, difference_, patch.num_interior, rows.difference);
         std::fill_n(rows.violation.data(), rows.violation.size(), 0.0);
-        state.difference = rows.difference.data();
-        state.violation = rows.violation.data();
-        state.violation_sum = rows.violation_sum.data();
-        loops_.z_step_measured(state, {0, patch.stride});
-        violations[p] =
-            std::accumulate(rows.violation.data(), rows.violation.data() + patch.stride, 0.0);
-      } else {
-        loops_.z_step(state, {0, patch.stride});
+        std::fill_n(rows.motion.data(), rows.motion.size(), 0.0);
       }
-      list_kernel_.scatter(lists, numbers, patch.num_interior, rows.slot_of.data(), state.residual,
-                           patch.stride, patches_.leaves.data() + patch.first_row, left_.data());
+      body(p, rows, state);
     }
   };
   parallel_for(num_patches, pass, 2);
+}
+
+// Copies the first `count` rows of a patch into a block of dense rows.
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::gather(const Patch& patch,
+                                          const std::vector<std::uint16_t>& slot_of,
+                                          const AlignedArray<Scalar>& numbers, Index count,
+                                          AlignedArray<Scalar>& block) const {
+  list_kernel_.gather(lists_.view(), patches_.rows.data() + patch.first_row, count, slot_of.data(),
+                      numbers.data(), patch.stride, block.data());
+}
+
+// Z-steps of all cells; stores the divergence of each patch for collection.
+// \return the squared violation of z = grad w, if measured
+template <class Scalar, int Dim>
+double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation) {
+  std::vector<double> violations(patches_.patches.size(), 0);
+  const Lists lists = lists_.view();
+  for_patches(measures, [&](Index p, PatchRows<Scalar>& rows, State& state) {
+    const Patch& patch = patches_.patches[p];
+    state.relaxation = static_cast<Scalar>(relaxation);
+    std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
+    (measures ? loops_.z_step_measured : loops_.z_step)(state, {0, patch.stride});
+    violations[p] = std::accumulate(rows.violation.data(),
+                                    rows.violation.data() + (measures ? patch.stride : 0), 0.0);
+    list_kernel_.scatter(lists, patches_.rows.data() + patch.first_row, patch.num_interior,
+                         rows.slot_of.data(), state.residual, patch.stride,
+                         patches_.leaves.data() + patch.first_row, left_.data());
+  });
   return std::accumulate(violations.begin(), violations.end(), 0.0);
 }
 
@@ -180,18 +197,70 @@ compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
   });
 }
 
+// As in CompactSplitting.
 template <class Scalar, int Dim>
-Step ActiveSplitting<Scalar, Dim>::iterate(bool measures) {
-  if (measures) {
-    difference_ = AlignedArray<Scalar>(W_.size());
-    for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
-  }
+Step ActiveSplitting<Scalar, Dim>::iterate(bool measures, splitting::Due due) {
+  if (measures) set_difference();
   const double of_cells = pass_cells(measures, relaxation_);
   collect_divergence();
   multigrid_.cycle(residual_.data());
+  AlignedArray<Scalar> S;
+  if (due != splitting::Due::kNothing) {
+    S = AlignedArray<Scalar>(S_.size());
+    std::copy_n(S_.data(), S_.size(), S.data());
+    std::swap(S, S_);
+  }
   const auto sums = pass_rows(measures ? loops_.y_step_measured : loops_.y_step);
+  if (due != splitting::Due::kNothing) std::swap(S, S_);
   const double scale = 1 / (sigma() * sigma());
   return {scale * sums.change, measures ? scale * (of_cells + sums.violation) : -1};
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::set_difference() {
+  if (difference_.size() == 0) difference_ = AlignedArray<Scalar>(W_.size());
+  for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
+}
+
+template <class Scalar, int Dim>
+splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
+  set_difference();
+  AlignedArray<Scalar> moved(W_.size());
+  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
+  std::vector<splitting::BalanceLengths> parts(patches_.patches.size());
+  for_patches(true, [&](Index p, PatchRows<Scalar>& rows, const State& state) {
+    const Patch& patch = patches_.patches[p];
+    std::fill_n(rows.extrapolated.data(), patch.num_rows * patch.stride, Scalar(0));
+    gather(patch, rows.slot_of, moved, patch.num_interior, rows.extrapolated);
+    loops_.balance(state, {0, patch.stride}, rows.extrapolated.data(), rows.violation.data(),
+                   rows.motion.data());
+    const auto total = [&](const AlignedArray<double>& numbers) {
+      return std::accumulate(numbers.data(), numbers.data() + patch.stride, 0.0);
+    };
+    parts[p] = {total(rows.violation), total(rows.motion)};
+  });
+  splitting::BalanceLengths lengths{data_.boundary_dual2, 0};
+  for (const auto& part : parts) {
+    lengths.dual2 += part.dual2;
+    lengths.motion2 += part.motion2;
+  }
+  return lengths;
+}
+
+// As in CompactSplitting.
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
+  set_difference();
+  const auto factor = static_cast<Scalar>(penalty / penalty_);
+  penalty_ = penalty;
+  for (std::size_t k = 0; k < W_.size(); ++k) {
+    const Scalar w = factor * (a_[k] - difference_[k]);
+    W_[k] = w - difference_[k];
+    a_[k] = w + difference_[k];
+  }
+  for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
+  for (std::size_t k = W_.size(); k < a_.size(); ++k) a_[k] *= factor;
+  pass_rows(loops_.w_step);
 }
 
 template <class Scalar, int Dim>
@@ -268,7 +337,7 @@ void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_du
 
 // As in CompactSplitting: subtracts the effect of the duals on the weights from W.
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
+void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start, bool balances) {
   set_weights(start.weights);
   set_cell_dual(start.flux_density);
   set_vertex_dual(start.vertex_dual_at(penalty_));
@@ -278,6 +347,9 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
   pass_rows(loops_.correct);
   for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
   pass_rows(loops_.w_step);
+  if (!balances) return;
+  start_ = AlignedArray<Scalar>(W_.size());
+  std::copy_n(a_.data(), start_.size(), start_.data());
 }
 
 // Boundary values are known to higher than single precision.

@@ -11,6 +11,7 @@
 #include "solver/methods/active_set/active_data.h"
 #include "solver/methods/active_set/active_multigrid.h"
 #include "solver/methods/splitting/compact_data.h"
+#include "solver/methods/splitting/penalty_rule.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::active_set {
@@ -18,7 +19,7 @@ namespace flbc::active_set {
 //! The iteration of compact_splitting.h for weights that vanish outside the active set, where
 //! nothing is stored or computed. Its limit is the optimum among such weights. This is the true
 //! optimum if the set contains its supports. ActiveMultigrid performs the linear step; the units
-//! are those of compact_kernel.h. The set, the penalty, and the precision are fixed.
+//! are those of compact_kernel.h. The set and the precision are fixed.
 template <class Scalar, int Dim>
 class ActiveSplitting {
  public:
@@ -31,11 +32,17 @@ class ActiveSplitting {
   ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric, double penalty,
                   double relaxation, bool half, ActiveLists active, const RowMatrix& system);
 
-  //! Starts from given weights and duals.
-  void start(const Start<Dim>& start);
+  //! Starts from given weights and duals. \param balances  whether the penalty will be balanced
+  void start(const Start<Dim>& start, bool balances = false);
 
   //! See CompactSplitting.
-  Step iterate(bool measure);
+  Step iterate(bool measure, splitting::Due due = splitting::Due::kNothing);
+
+  //! Changes rho, keeping weights and duals, and performs the w_step that waited for it.
+  void set_penalty(double penalty);
+
+  //! See PenaltyRule.
+  splitting::BalanceLengths lengths_since_start();
 
   double penalty() const { return penalty_; }
   bool stores_half() const { return loops_.bytes < sizeof(Scalar); }
@@ -67,6 +74,11 @@ class ActiveSplitting {
   Scalar weight_at(std::size_t place) const;
   bool has_vertex_dual() const { return S_.size() > 0; }
   State patch_state(const Patch& patch);
+  template <class Body>
+  void for_patches(bool measures, const Body& body);
+  void gather(const Patch& patch, const std::vector<std::uint16_t>& slot_of,
+              const AlignedArray<Scalar>& numbers, Index count, AlignedArray<Scalar>& block) const;
+  void set_difference();
   State row_state(Index row);
   double pass_cells(bool measures, double relaxation);
   void collect_divergence();
@@ -84,7 +96,7 @@ class ActiveSplitting {
   const Index n_;
   const splitting::Metric metric_;
   const double unit_;  // u
-  const double penalty_;
+  double penalty_;
   const double relaxation_;
   const ActiveLists active_;
   // of the rows: interior ones in the order of the sweeps, then the boundary
@@ -100,7 +112,8 @@ class ActiveSplitting {
   AlignedArray<Scalar> W_;
   AlignedArray<Scalar> S_;
   AlignedArray<Scalar> residual_;
-  AlignedArray<Scalar> difference_;
+  AlignedArray<Scalar> difference_;  // temporary
+  AlignedArray<Scalar> start_;       // while the penalty is balanced
   AlignedArray<Scalar> left_;
   AlignedArray<unsigned char> P_;  // in the storage format of the loops
 };

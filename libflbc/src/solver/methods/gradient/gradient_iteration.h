@@ -41,7 +41,7 @@ class GradientIteration final : public Iteration<Dim> {
     admm_.start_from_weights(start_weights_);
   }
 
-  Step iterate(int count, bool) override {
+  Step iterate(int, int count, bool) override {
     start_weights_ = {};
     const Change change = admm_.iterate(count);
     const auto residuals = admm_.residuals(change);

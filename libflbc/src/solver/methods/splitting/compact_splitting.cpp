@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -36,7 +35,8 @@ CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
       unit_(radius_unit(problem, metric_)),
       penalty_(settings.penalty),
       solver_(splitting::system_matrix(problem, metric_), stride_, settings.linear_solver),
-      data_(make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_)) {
+      data_(make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_)),
+      rule_(false, false, problem.smoothness) {
   set_constraints(problem, stride_, data_);
   set_radii(problem, metric_, unit_, slices_, *loops_, data_);
   const std::size_t interior = data_.vertices.size();
@@ -121,55 +121,56 @@ RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells,
 }
 
 template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate(int count, bool measure) {
-  Step step;
-  for (int k = 1; k <= count; ++k) {
-    ++made_;
-    const bool balances =
-        balances_ && std::find(std::begin(plan::kBalancedAfter), std::end(plan::kBalancedAfter),
-                               made_) != std::end(plan::kBalancedAfter);
-    step = balances              ? iterate_and_adapt(plan::kBalance, plan::kLargestPenalty)
-           : made_ == next_look_ ? iterate_and_look()
-                                 : iterate_once(measure && k == count);
-  }
-  return step;
+Step CompactSplitting<Scalar, Dim>::iterate(int made, int count, bool measure) {
+  for (int k = 1; k < count; ++k) iterate_once(false, splitting::Due::kNothing);
+  return iterate_once(measure, rule_.due(made + count));
 }
 
-// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step.
+// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step. Where
+// that waits for another penalty, it is performed on a copy of S, to measure it.
 template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure) {
-  if (measure) return iterate_measured(settings_.paper_residuals);
-  return {pass(arrays(), loops_->z_step, loops_->y_step).change / (sigma() * sigma())};
-}
-
-// The same with the violation of the constraints. \param paper  whether to add r_p and r_d
-// \param waits  whether the next w_step waits for another penalty
-template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate_measured(bool paper, bool waits) {
-  const double scale = 1 / (sigma() * sigma());
-  set_difference();
-  violation_ = AlignedArray<double>(stride_);
-  violation_sum_ = AlignedArray<Scalar>(stride_);
-  // First w, then its change in the iteration, which is zero on the boundary.
-  AlignedArray<Scalar> moved;
-  if (paper) {
-    moved = AlignedArray<Scalar>(a_.size());
-#pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]);
+Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure, splitting::Due due) {
+  const bool looks = due == splitting::Due::kLook;
+  const bool paper = looks || (measure && settings_.paper_residuals);
+  AlignedArray<Scalar> w, S;
+  if (paper) w = all_rows_of_w();
+  if (measure || looks) {
+    set_difference();
+    violation_ = AlignedArray<double>(stride_);
+    violation_sum_ = AlignedArray<Scalar>(stride_);
   }
   auto state = arrays();
-  if (waits) state.vertex_dual = nullptr;
+  if (due != splitting::Due::kNothing) {
+    S = AlignedArray<Scalar>(S_.size());
+    std::copy_n(S_.data(), S_.size(), S.data());
+    state.vertex_dual = S.data();
+  }
+  const double scale = 1 / (sigma() * sigma());
+  if (!measure && !looks) return {scale * pass(state, loops_->z_step, loops_->y_step).change};
   const RowSums sums = pass(state, loops_->z_step_measured, loops_->y_step_measured);
   const double of_cells = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
   Step step{scale * sums.change, scale * (of_cells + sums.violation)};
-  if (paper) add_paper_residuals(moved, step);
+  if (paper) {
+    measure_paper_residuals(std::move(w), looks ? scale * of_cells : step.violation, step);
+  }
   return step;
 }
 
-// r_p is the violation of the constraints, r_d = rho times the change of the gradients and the
-// weights in an iteration, both in the metric.
+// w of the interior rows; zero on the boundary, where it does not change.
 template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::add_paper_residuals(AlignedArray<Scalar>& moved, Step& step) {
+AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::all_rows_of_w() const {
+  AlignedArray<Scalar> w(a_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < W_.size(); ++k) w[k] = Scalar(0.5) * (a_[k] + W_[k]);
+  return w;
+}
+
+// r_p is the violation of the constraints, r_d = rho times the change of the gradients and the
+// weights in an iteration, both in the metric. \param moved  w before the iteration
+// \param violation  squared; a look takes that of the gradients
+template <class Scalar, int Dim>
+void CompactSplitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar> moved,
+                                                            double violation, Step& step) {
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]) - moved[k];
   const std::size_t rows = S_.size() > 0 ? data_.vertices.size() : 0;
@@ -181,41 +182,11 @@ void CompactSplitting<Scalar, Dim>::add_paper_residuals(AlignedArray<Scalar>& mo
       of_rows += metric * delta * delta;
     }
   }
-  const double of_cells = squared_lengths(moved).second;
+  const double of_cells = squared_lengths(moved).motion2;
   const double cells = static_cast<double>(problem_.mesh.num_cells()) * Dim;
   const double components = (cells + static_cast<double>(rows)) * n_;
-  step.primal = std::sqrt(step.violation) / components;
+  step.primal = std::sqrt(violation) / components;
   step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / components;
-}
-
-// The w_step that y_step performs in advance must wait for the new penalty.
-template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate_and_adapt(double ratio, double largest) {
-  auto state = arrays();
-  state.vertex_dual = nullptr;
-  const Step step{pass(state, loops_->z_step, loops_->y_step).change / (sigma() * sigma())};
-  adapt_penalty(ratio, largest);
-  pass(arrays(), nullptr, loops_->w_step);
-  return step;
-}
-
-// Weights in thin parts and slits creep long after the rest has settled. There the constraints are
-// violated little for the speed of the weights, and a smaller penalty lets them move on.
-template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate_and_look() {
-  const Step step = iterate_measured(true, true);
-  next_look_ = static_cast<int>(plan::kLookGrowth * made_);
-  const double ratio = step.primal / step.dual;
-  if (ratio < plan::kLeastViolation) {
-    const double factor = std::max(ratio / plan::kLeastViolation, plan::kMostLowered);
-    set_penalty(std::min(penalty_, std::max(factor * penalty_, plan::kSmallestPenalty)));
-    settled_ = made_ + plan::kAfterLook;
-  } else if (ratio > plan::kMostViolation) {
-    const double factor = std::min(ratio / plan::kMostViolation, plan::kMostRaised);
-    set_penalty(std::max(penalty_, std::min(factor * penalty_, plan::kLargestPenalty)));
-  }
-  pass(arrays(), nullptr, loops_->w_step);
-  return step;
 }
 
 // w - W, which is (a - W) / 2.
@@ -228,7 +199,7 @@ void CompactSplitting<Scalar, Dim>::set_difference() {
 
 // |P + G (w - W)|^2 and |G moved|^2; needs w - W.
 template <class Scalar, int Dim>
-std::pair<double, double> CompactSplitting<Scalar, Dim>::squared_lengths(
+splitting::BalanceLengths CompactSplitting<Scalar, Dim>::squared_lengths(
     const AlignedArray<Scalar>& moved) {
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
@@ -241,23 +212,21 @@ std::pair<double, double> CompactSplitting<Scalar, Dim>::squared_lengths(
 }
 
 template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::adapt_penalty(double ratio, double largest) {
-  if (start_.size() == 0) return;
+splitting::BalanceLengths CompactSplitting<Scalar, Dim>::lengths_since_start() {
   set_difference();
   AlignedArray<Scalar> moved(a_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
-  auto [dual2, motion2] = squared_lengths(moved);
-  dual2 += data_.boundary_dual2;
-  if (!(dual2 > 0) || !(motion2 > 0)) return;
-  const double balanced = std::min(ratio * penalty_ * std::sqrt(dual2 / motion2), largest);
-  set_penalty(plan::with_smoothness(balanced, problem_.smoothness));
+  auto lengths = squared_lengths(moved);
+  lengths.dual2 += data_.boundary_dual2;
+  return lengths;
 }
 
 // In the units of the arrays the duals do not change, and w changes with sigma. The step w - W
 // belongs to the duals.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
+  if (penalty == penalty_) return;
   set_difference();
   const auto factor = static_cast<Scalar>(penalty / penalty_);
   penalty_ = penalty;
@@ -275,10 +244,7 @@ void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
-  made_ = settled_ = 0;
-  balances_ = settings_.balances && start.is_cold();
-  // With smoothness, runs end before it would matter.
-  next_look_ = settings_.looks && problem_.smoothness == 0 ? plan::kFirstLook : 0;
+  rule_ = {settings_.balances && start.is_cold(), settings_.looks, problem_.smoothness};
   if (!start.is_cold()) {
     start_from_duals(start);
   } else if (settings_.harmonic_cold) {
@@ -396,12 +362,18 @@ void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_d
   }
 }
 
-// ---- precision ----------------------------------------------------------------------------------
+// ---- adaptation ---------------------------------------------------------------------------------
 
 template <class Scalar, int Dim>
-int CompactSplitting<Scalar, Dim>::adapt(int made, double error, bool) {
-  if (stores_half() && plan::trembles(made, error)) store_in_single();
-  return std::max(0, settled_ - made_);
+int CompactSplitting<Scalar, Dim>::adapt(const Milestone& at) {
+  if (const auto due = rule_.due(at.made); due != splitting::Due::kNothing) {
+    set_penalty(due == splitting::Due::kBalance
+                    ? rule_.balanced(penalty_, lengths_since_start())
+                    : rule_.after_look(at.made, penalty_, at.step.primal / at.step.dual));
+    pass(arrays(), nullptr, loops_->w_step);
+  }
+  if (stores_half() && plan::trembles(at.made, at.error)) store_in_single();
+  return rule_.to_make(at.made);
 }
 
 template <class Scalar, int Dim>

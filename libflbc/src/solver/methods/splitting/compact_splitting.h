@@ -4,7 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "base/aligned_array.h"
@@ -12,6 +11,7 @@
 #include "flbc/lbc_problem.h"
 #include "linear/spd_solver.h"
 #include "solver/methods/splitting/compact_data.h"
+#include "solver/methods/splitting/penalty_rule.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::compact {
@@ -22,9 +22,8 @@ struct Settings {
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
   bool half = false;             //!< stores P and the radii in half precision; for float only
-  bool looks = false;            //!< adapts the penalty to late residuals
-  bool balances = false;         //!< adapts the penalty during the first iterations after a cold
-                                 //!< start
+  bool balances = false;         //!< adapts the penalty (penalty_rule.h): early after a cold start
+  bool looks = false;            //!< and late
   bool harmonic_cold = false;    //!< a cold start computes accurate harmonic coordinates, instead
                                  //!< of approximately minimizing sum m |grad w|^2 with the existing
                                  //!< factor
@@ -81,17 +80,15 @@ class CompactSplitting final : public Iteration<Dim> {
 
   //! Step::change refers to the last iteration. Step::violation, if measured, is the violation of z
   //! = grad w before the iteration and of u = w after it, because the w_step of the next iteration
-  //! is performed in advance.
-  Step iterate(int count, bool measure) override;
+  //! is performed in advance. If the penalty rule is due after it, that w_step waits for adapt().
+  Step iterate(int made, int count, bool measure) override;
 
-  //! Performs an iteration, then balances the penalty against the change of weights since the
-  //! start, keeping duals. rho becomes ratio * rho |grad w - y| / |grad (w - w_start)|, at most
-  //! `largest`, plus a multiple of the smoothness. Not allowed after a start from duals.
-  Step iterate_and_adapt(double ratio, double largest = std::numeric_limits<double>::infinity());
+  //! Changes the penalty if the rule is due, and the storage of duals to single precision once half
+  //! precision makes them fluctuate.
+  int adapt(const Milestone& at) override;
 
-  //! Switches the storage of duals to single precision, because half precision makes them
-  //! fluctuate. Delays the end of a run until the weights have followed a lowered penalty.
-  int adapt(int made, double error, bool ends) override;
+  //! Changes rho, keeping weights and duals.
+  void set_penalty(double penalty);
   void store_in_single();
   bool stores_half() const { return loops_ == &kernel_.half; }
 
@@ -127,7 +124,7 @@ class CompactSplitting final : public Iteration<Dim> {
   using RowLoop = typename Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
-  std::pair<double, double> squared_lengths(const AlignedArray<Scalar>& moved);
+  splitting::BalanceLengths squared_lengths(const AlignedArray<Scalar>& moved);
   State arrays();
   void set_weights(const VectorsAt<1>& weights);
   void set_boundary_rows();
@@ -137,12 +134,10 @@ class CompactSplitting final : public Iteration<Dim> {
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
   void for_slices(const State& state, const std::function<void(const State&, Columns)>& body) const;
   RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
-  Step iterate_once(bool measure);
-  Step iterate_measured(bool paper, bool waits = false);
-  Step iterate_and_look();
-  void add_paper_residuals(AlignedArray<Scalar>& moved, Step& step);
-  void adapt_penalty(double ratio, double largest);
-  void set_penalty(double penalty);
+  Step iterate_once(bool measure, splitting::Due due);
+  AlignedArray<Scalar> all_rows_of_w() const;
+  void measure_paper_residuals(AlignedArray<Scalar> moved, double violation, Step& step);
+  splitting::BalanceLengths lengths_since_start();
   void set_difference();
 
   const LbcProblem<Dim>& problem_;
@@ -157,10 +152,7 @@ class CompactSplitting final : public Iteration<Dim> {
   double penalty_;     // rho
   SpdSolver<Scalar> solver_;
   CompactData<Scalar, Dim> data_;
-  int made_ = 0;  // iterations since the start
-  bool balances_ = false;
-  int next_look_ = 0;  // iteration that looks at its residuals; 0 = never
-  int settled_ = 0;    // iteration in which a lowered penalty has taken effect
+  splitting::PenaltyRule rule_;
   // state, by rows: interior vertices in the order of the solver, then the boundary
   AlignedArray<Scalar> a_;
   AlignedArray<Scalar> W_;
