@@ -146,6 +146,18 @@ AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& c
 }
 
 template <class Scalar, int Dim>
+void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+               const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& patches) {
+  patches.radius = AlignedArray<unsigned char>(loops.bytes * patches.num_numbers);
+  store_in_cells<1>(patches, loops, problem.num_control_points(), patches.radius, [&](Index s) {
+    const double scale = compact::dual_scale(problem, metric, unit, s);
+    return [&problem, s, scale](Index i, int) {
+      return scale * std::max(problem.phi(i, s), compact::kSmallestPhi);
+    };
+  });
+}
+
+template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
                                       const splitting::Metric& metric, double unit,
                                       compact::CompactData<Scalar, Dim>& data,
@@ -172,13 +184,8 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
     result.largest_block = std::max(result.largest_block, patch.num_rows * patch.stride);
     result.patches.push_back(patch);
   }
-  result.radius = AlignedArray<unsigned char>(loops.bytes * next_number);
-  store_in_cells<1>(result, loops, n, result.radius, [&](Index s) {
-    const double scale = compact::dual_scale(problem, metric, unit, s);
-    return [&problem, s, scale](Index i, int) {
-      return scale * std::max(problem.phi(i, s), compact::kSmallestPhi);
-    };
-  });
+  result.num_numbers = next_number;
+  set_radii(problem, metric, unit, loops, result);
   result.left = items_by_vertex<std::size_t>(num_interior, [&](const auto& visit) {
     for (const Patch& patch : result.patches) {
       for (Index k = 0; k < patch.num_interior; ++k) {

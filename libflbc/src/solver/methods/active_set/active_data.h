@@ -64,6 +64,7 @@ struct CellPatches {
   std::vector<Index> rows;                        // of the splitting, interior ones first
   std::vector<ControlPoint> items;                // ascending; n in the padding
   AlignedArray<unsigned char> radius;             // in the storage format of the loops
+  std::size_t num_numbers = 0;                    // of all cells, per component
   std::vector<std::size_t> leaves;  // location of the divergence contribution of a row, ordered as
                                     // rows
   std::size_t num_left = 0;         // numbers
@@ -78,6 +79,11 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
                                       compact::CompactData<Scalar, Dim>& data,
                                       const PackedLists& lists,
                                       const compact::Loops<Scalar, Dim>& loops);
+
+//! Makes the radii, in the storage format of the loops.
+template <class Scalar, int Dim>
+void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+               const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& patches);
 
 //! Stores values of all cells in the format of the loops, `Rows` per control point; zero in the
 //! padding.

@@ -56,9 +56,7 @@ int ActiveSet<Scalar, Dim>::adapt(const Milestone& at) {
     to_make = grow(at);
     since_ = at.made;
   }
-  if (splitting_->stores_half() && plan::trembles(at.made, at.error)) {
-    rebuild(splitting_->penalty(), false, splitting_->active(), splitting_->state());
-  }
+  if (splitting_->stores_half() && plan::trembles(at.made, at.error)) splitting_->store_in_single();
   return to_make;
 }
 

@@ -41,7 +41,7 @@ class ActiveSet final : public Iteration<Dim> {
   //! None, because duals are known only for active pairs.
   Certificate certify(const WeightMatrix&) const override { return {}; }
 
-  //! Balances the penalty, extends the set, and switches to single precision. The last two make a
+  //! Balances the penalty, extends the set, and switches to single precision. A larger set makes a
   //! new splitting that starts from the current one.
   int adapt(const Milestone& at) override;
 

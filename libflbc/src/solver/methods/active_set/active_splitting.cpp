@@ -56,8 +56,8 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
                                               double relaxation, bool half, ActiveLists active,
                                               const RowMatrix& system)
     : problem_(problem),
-      loops_(half ? select_kernel<compact::Kernel<Scalar, Dim>>().half
-                  : select_kernel<compact::Kernel<Scalar, Dim>>().exact),
+      loops_(half ? &select_kernel<compact::Kernel<Scalar, Dim>>().half
+                  : &select_kernel<compact::Kernel<Scalar, Dim>>().exact),
       list_kernel_(select_kernel<Kernel<Scalar, Dim>>()),
       n_(problem.num_control_points()),
       metric_(std::move(metric)),
@@ -71,7 +71,7 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
       bases_(row_bases<Scalar, Dim>(
           lists_, problem.cage.points,
           problem.mesh.points(Eigen::all, vertices_of_rows(problem, data_)), &targets_)),
-      patches_(make_patches(problem, metric_, unit_, data_, lists_, loops_)),
+      patches_(make_patches(problem, metric_, unit_, data_, lists_, *loops_)),
       multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
       a_(lists_.size()),
       W_(num_interior_numbers()),
@@ -87,9 +87,9 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   state.stride = state.cell_stride = patch.stride;
   state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
   state.num_interior = static_cast<std::size_t>(patch.num_interior);
-  state.cell_dual = P_.data() + loops_.bytes * Dim * patch.first_number;
+  state.cell_dual = P_.data() + loops_->bytes * Dim * patch.first_number;
   state.cells = patches_.cells.data() + patch.first_cell;
-  state.radius = patches_.radius.data() + loops_.bytes * patch.first_number;
+  state.radius = patches_.radius.data() + loops_->bytes * patch.first_number;
   state.sigma = static_cast<Scalar>(sigma());
   state.smoothing = static_cast<Scalar>(compact::smoothing(problem_, penalty_));
   return state;
@@ -147,7 +147,7 @@ double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation
     const Patch& patch = patches_.patches[p];
     state.relaxation = static_cast<Scalar>(relaxation);
     std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
-    (measures ? loops_.z_step_measured : loops_.z_step)(state, {0, patch.stride});
+    (measures ? loops_->z_step_measured : loops_->z_step)(state, {0, patch.stride});
     violations[p] = std::accumulate(rows.violation.data(),
                                     rows.violation.data() + (measures ? patch.stride : 0), 0.0);
     list_kernel_.scatter(lists, patches_.rows.data() + patch.first_row, patch.num_interior,
@@ -210,7 +210,7 @@ Step ActiveSplitting<Scalar, Dim>::iterate(bool measures, splitting::Due due) {
     std::copy_n(S_.data(), S_.size(), S.data());
     std::swap(S, S_);
   }
-  const auto sums = pass_rows(measures ? loops_.y_step_measured : loops_.y_step);
+  const auto sums = pass_rows(measures ? loops_->y_step_measured : loops_->y_step);
   if (due != splitting::Due::kNothing) std::swap(S, S_);
   const double scale = 1 / (sigma() * sigma());
   return {scale * sums.change, measures ? scale * (of_cells + sums.violation) : -1};
@@ -232,7 +232,7 @@ splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
     const Patch& patch = patches_.patches[p];
     std::fill_n(rows.extrapolated.data(), patch.num_rows * patch.stride, Scalar(0));
     gather(patch, rows.slot_of, moved, patch.num_interior, rows.extrapolated);
-    loops_.balance(state, {0, patch.stride}, rows.extrapolated.data(), rows.violation.data(),
+    loops_->balance(state, {0, patch.stride}, rows.extrapolated.data(), rows.violation.data(),
                    rows.motion.data());
     const auto total = [&](const AlignedArray<double>& numbers) {
       return std::accumulate(numbers.data(), numbers.data() + patch.stride, 0.0);
@@ -260,7 +260,18 @@ void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
   }
   for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
   for (std::size_t k = W_.size(); k < a_.size(); ++k) a_[k] *= factor;
-  pass_rows(loops_.w_step);
+  pass_rows(loops_->w_step);
+}
+
+// As in CompactSplitting.
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::store_in_single() {
+  const std::size_t size = Dim * patches_.num_numbers;
+  AlignedArray<unsigned char> exact(size * sizeof(Scalar));
+  loops_->decode(P_.data(), 0, reinterpret_cast<Scalar*>(exact.data()), size);
+  P_ = std::move(exact);
+  loops_ = &select_kernel<compact::Kernel<Scalar, Dim>>().exact;
+  set_radii(problem_, metric_, unit_, *loops_, patches_);
 }
 
 template <class Scalar, int Dim>
@@ -309,13 +320,13 @@ void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
   });
   // Truncated weights must be compensated elsewhere in the row.
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
-  pass_rows(loops_.correct);
+  pass_rows(loops_->correct);
   std::copy_n(a_.data(), W_.size(), W_.data());
 }
 
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-  store_in_cells<Dim>(patches_, loops_, n_, P_, [&](Index s) {
+  store_in_cells<Dim>(patches_, *loops_, n_, P_, [&](Index s) {
     const double scale = compact::dual_scale(problem_, metric_, unit_, s);
     return [scale, density = flux_density(s)](Index i, int d) { return scale * density(i, d); };
   });
@@ -344,9 +355,9 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start, bool balances)
   pass_cells(false, 0);
   collect_divergence();
   multigrid_.cycle(residual_.data());
-  pass_rows(loops_.correct);
+  pass_rows(loops_->correct);
   for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
-  pass_rows(loops_.w_step);
+  pass_rows(loops_->w_step);
   if (!balances) return;
   start_ = AlignedArray<Scalar>(W_.size());
   std::copy_n(a_.data(), start_.size(), start_.data());
@@ -409,7 +420,7 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
   const Index k = patches_.place_of_cell[cell];
   const Patch& patch = patches_.patches[k / kPatchCells];
   AlignedArray<Scalar> rows(Dim * patch.stride);
-  loops_.decode(P_.data(), Dim * patch.number_of(k), rows.data(), Dim * patch.stride);
+  loops_->decode(P_.data(), Dim * patch.number_of(k), rows.data(), Dim * patch.stride);
   const double scale = 1 / compact::dual_scale(problem_, metric_, unit_, cell);
   for (std::size_t j = 0; j < patch.stride; ++j) {
     const Index i = patches_.items[patch.first_item + j];

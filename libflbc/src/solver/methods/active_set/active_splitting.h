@@ -19,7 +19,7 @@ namespace flbc::active_set {
 //! The iteration of compact_splitting.h for weights that vanish outside the active set, where
 //! nothing is stored or computed. Its limit is the optimum among such weights. This is the true
 //! optimum if the set contains its supports. ActiveMultigrid performs the linear step; the units
-//! are those of compact_kernel.h. The set and the precision are fixed.
+//! are those of compact_kernel.h. The set is fixed.
 template <class Scalar, int Dim>
 class ActiveSplitting {
  public:
@@ -41,11 +41,13 @@ class ActiveSplitting {
   //! Changes rho, keeping weights and duals, and performs the w_step that waited for it.
   void set_penalty(double penalty);
 
+  void store_in_single();
+
   //! See PenaltyRule.
   splitting::BalanceLengths lengths_since_start();
 
   double penalty() const { return penalty_; }
-  bool stores_half() const { return loops_.bytes < sizeof(Scalar); }
+  bool stores_half() const { return loops_->bytes < sizeof(Scalar); }
   const ActiveLists& active() const { return active_; }
 
   //! w of an interior vertex, n values, zero for inactive pairs.
@@ -91,7 +93,7 @@ class ActiveSplitting {
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
 
   const LbcProblem<Dim>& problem_;
-  const compact::Loops<Scalar, Dim>& loops_;
+  const compact::Loops<Scalar, Dim>* loops_;
   const Kernel<Scalar, Dim>& list_kernel_;
   const Index n_;
   const splitting::Metric metric_;
