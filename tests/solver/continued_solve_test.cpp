@@ -71,8 +71,8 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
   }
 }
 
-// A run that is cut, or that ends by its limit, is a part of the whole run: the same weights and the
-// same memory, whatever adapts on the way.
+// A run that is cut, or that ends by its limit, is a part of the whole run: the same weights and
+// the same memory, whatever adapts on the way.
 TEST_IN_2D_AND_3D(ContinuedSolveTest, ACutRunIsAPartOfTheWhole) {
   constexpr int kAll = 520;
   const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);

@@ -13,8 +13,9 @@ namespace flbc {
 //! runs are reproducible.
 class GapCriterion {
  public:
-  //! Certifies if due. \param made  iterations since the start \param last  whether this is the last
-  //! iteration of the run \param error  estimated error of the weights relative to the tolerance
+  //! Certifies if due. \param made  iterations since the start \param last  whether this is the
+  //! last iteration of the run \param error  estimated error of the weights relative to the
+  //! tolerance
   //! \return whether the target is met
   template <int Dim>
   bool is_met(const plan::GapTarget& target, const Iteration<Dim>& iteration, int made, bool last,

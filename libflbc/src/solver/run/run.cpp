@@ -83,8 +83,8 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
          SolveReport& report) {
   const double tolerance = *context.options.tolerance;
   const int before = state.made;
-  const int limit = before + std::min(context.options.max_iterations,
-                                      std::numeric_limits<int>::max() - before);
+  const int limit =
+      before + std::min(context.options.max_iterations, std::numeric_limits<int>::max() - before);
   const int interval = state.stop->interval();
   ThreadChoice choice(omp_get_max_threads());
   while (state.made < limit) {
@@ -99,8 +99,8 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
     require_finite(std::isfinite(primal) && std::isfinite(dual), report);
     const bool ends = is_finished(iteration, state, context, state.made == limit, report);
     const bool converged = ends && report.status == SolveStatus::kConverged;
-    const int to_make =
-        iteration.adapt({state.made, step, tolerance * std::max(primal, 1.0), tolerance, converged});
+    const int to_make = iteration.adapt(
+        {state.made, step, tolerance * std::max(primal, 1.0), tolerance, converged});
     if (to_make > 0) state.earliest = state.made + to_make;
     if (ends && !(converged && to_make > 0)) return;
   }

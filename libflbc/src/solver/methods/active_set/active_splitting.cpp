@@ -233,7 +233,7 @@ splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
     std::fill_n(rows.extrapolated.data(), patch.num_rows * patch.stride, Scalar(0));
     gather(patch, rows.slot_of, moved, patch.num_interior, rows.extrapolated);
     loops_->balance(state, {0, patch.stride}, rows.extrapolated.data(), rows.violation.data(),
-                   rows.motion.data());
+                    rows.motion.data());
     const auto total = [&](const AlignedArray<double>& numbers) {
       return std::accumulate(numbers.data(), numbers.data() + patch.stride, 0.0);
     };

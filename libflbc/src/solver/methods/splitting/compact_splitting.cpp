@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <omp.h>
-
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
 #include "base/padded_rows.h"
+#include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
 #include "problem/boundary_flux.h"
@@ -74,13 +73,12 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   return arrays;
 }
 
-// Calls `body` for each slice of control points; to be called by all threads of a team.
+// Calls `body` for each slice of control points, in parallel.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::for_slices(
     const State& state, const std::function<void(const State&, Columns)>& body) const {
-  const FlushDenormals flush;
-#pragma omp for schedule(static, 1)
-  for (std::size_t k = 0; k < slices_.size(); ++k) {
+  const auto of_slice = [&](std::size_t k) {
+    const FlushDenormals flush;
     const Slice slice = slices_[k];
     const auto start_of = [&](std::size_t rows) {
       return loops_->bytes * slices_.offset_of(slice, rows);
@@ -90,7 +88,8 @@ void CompactSplitting<Scalar, Dim>::for_slices(
     part.cell_dual = static_cast<unsigned char*>(state.cell_dual) + start_of(state.num_cells * Dim);
     part.radius = data_.radius.data() + start_of(state.num_cells);
     body(part, Columns{slice.begin, slice.end});
-  }
+  };
+  parallel_for(slices_.size(), of_slice, 2);
 }
 
 // One pass: each thread takes its slice of control points through the cells and the linear system,
@@ -100,21 +99,18 @@ RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells,
   constexpr Index kRowBlock = 256;
   const auto num_rows = static_cast<Index>(data_.vertices.size());
   std::vector<RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
-#pragma omp parallel
-  {
-    const FlushDenormals flush;
-    if (cells != nullptr) {
-      for_slices(state, [&](const State& slice, Columns columns) {
-        cells(slice, columns);
-        solver_.solve_slice(residual_.data(), stride_, columns.begin, columns.end);
-      });
-    }
-#pragma omp for schedule(static)
-    for (std::size_t block = 0; block < parts.size(); ++block) {
-      const Index begin = static_cast<Index>(block) * kRowBlock;
-      parts[block] = rows(state, begin, std::min(num_rows, begin + kRowBlock));
-    }
+  if (cells != nullptr) {
+    for_slices(state, [&](const State& slice, Columns columns) {
+      cells(slice, columns);
+      solver_.solve_slice(residual_.data(), stride_, columns.begin, columns.end);
+    });
   }
+  const auto of_block = [&](std::size_t block) {
+    const FlushDenormals flush;
+    const Index begin = static_cast<Index>(block) * kRowBlock;
+    parts[block] = rows(state, begin, std::min(num_rows, begin + kRowBlock));
+  };
+  parallel_for(parts.size(), of_block, 2);
   RowSums sums;
   for (const RowSums& part : parts) sums += part;
   return sums;
@@ -160,8 +156,7 @@ Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure, splitting::Due du
 template <class Scalar, int Dim>
 AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::all_rows_of_w() const {
   AlignedArray<Scalar> w(a_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) w[k] = Scalar(0.5) * (a_[k] + W_[k]);
+  parallel_for(W_.size(), [&](std::size_t k) { w[k] = Scalar(0.5) * (a_[k] + W_[k]); });
   return w;
 }
 
@@ -171,8 +166,8 @@ AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::all_rows_of_w() const {
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar> moved,
                                                             double violation, Step& step) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = Scalar(0.5) * (a_[k] + W_[k]) - moved[k];
+  parallel_for(W_.size(),
+               [&](std::size_t k) { moved[k] = Scalar(0.5) * (a_[k] + W_[k]) - moved[k]; });
   const std::size_t rows = S_.size() > 0 ? data_.vertices.size() : 0;
   double of_rows = 0;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -193,8 +188,7 @@ void CompactSplitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar>
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_difference() {
   if (difference_.size() == 0) difference_ = AlignedArray<Scalar>(a_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
+  parallel_for(W_.size(), [&](std::size_t k) { difference_[k] = Scalar(0.5) * (a_[k] - W_[k]); });
 }
 
 // |P + G (w - W)|^2 and |G moved|^2; needs w - W.
@@ -203,7 +197,6 @@ splitting::BalanceLengths CompactSplitting<Scalar, Dim>::squared_lengths(
     const AlignedArray<Scalar>& moved) {
   AlignedArray<double> dual(stride_);
   AlignedArray<double> motion(stride_);
-#pragma omp parallel
   for_slices(arrays(), [&](const State& slice, Columns columns) {
     loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
   });
@@ -215,8 +208,7 @@ template <class Scalar, int Dim>
 splitting::BalanceLengths CompactSplitting<Scalar, Dim>::lengths_since_start() {
   set_difference();
   AlignedArray<Scalar> moved(a_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
+  parallel_for(W_.size(), [&](std::size_t k) { moved[k] = a_[k] - difference_[k] - start_[k]; });
   auto lengths = squared_lengths(moved);
   lengths.dual2 += data_.boundary_dual2;
   return lengths;
@@ -230,12 +222,11 @@ void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
   set_difference();
   const auto factor = static_cast<Scalar>(penalty / penalty_);
   penalty_ = penalty;
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) {
+  parallel_for(W_.size(), [&](std::size_t k) {
     const Scalar w = factor * (a_[k] - difference_[k]);
     W_[k] = w - difference_[k];
     a_[k] = w + difference_[k];
-  }
+  });
   for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
   set_boundary_rows();
 }
@@ -257,13 +248,12 @@ void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
 // a and W, both sigma w.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+  parallel_for(data_.vertices.size(), [&](std::size_t row) {
     const Eigen::VectorXd at_vertex = weights(data_.vertices[row]);
     for (Index i = 0; i < n_; ++i) {
       a_[row * stride_ + i] = W_[row * stride_ + i] = static_cast<Scalar>(sigma() * at_vertex[i]);
     }
-  }
+  });
   set_boundary_rows();
 }
 
@@ -302,7 +292,6 @@ template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::begin_from_weights() {
   std::copy_n(a_.data(), W_.size(), W_.data());
   std::fill_n(S_.data(), S_.size(), Scalar(0));
-#pragma omp parallel
   for_slices(arrays(), loops_->start_cell_dual);
   pass(arrays(), nullptr, loops_->w_step);
   start_ = AlignedArray<Scalar>(W_.size());
@@ -319,30 +308,28 @@ void CompactSplitting<Scalar, Dim>::start_from_duals(const Start<Dim>& start) {
   auto state = arrays();
   state.relaxation = 0;  // only computes the residual
   pass(state, loops_->z_step, loops_->correct);
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
+  parallel_for(W_.size(), [&](std::size_t k) { W_[k] = 2 * W_[k] - a_[k]; });
   pass(arrays(), nullptr, loops_->w_step);
 }
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-#pragma omp parallel
-  {
+  const auto set_cells = [&](std::size_t begin, std::size_t end) {
     AlignedArray<Scalar> row(stride_);
-#pragma omp for schedule(static)
-    for (std::size_t k = 0; k < data_.cells.size(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
       const Index s = data_.cell_index[k];
       const double scale = dual_scale(problem_, metric_, unit_, s);
       const Eigen::Matrix<double, Eigen::Dynamic, Dim> density = flux_density(s);
       for (int d = 0; d < Dim; ++d) {
         for (Index i = 0; i < n_; ++i) row[i] = static_cast<Scalar>(scale * density(i, d));
         slices_.for_each(k * Dim + d, data_.cells.size() * Dim,
-                         [&](std::size_t begin, std::size_t width, std::size_t place) {
-                           loops_->encode(row.data() + begin, P_.data(), place, width);
+                         [&](std::size_t first, std::size_t width, std::size_t place) {
+                           loops_->encode(row.data() + first, P_.data(), place, width);
                          });
       }
     }
-  }
+  };
+  parallel_for(data_.cells.size(), set_cells);
 }
 
 // S, and the vertex part of the right-hand side, which an iteration prepares for the next one.
@@ -351,15 +338,14 @@ void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_d
   std::fill_n(S_.data(), S_.size(), Scalar(0));
   std::fill_n(residual_.data(), residual_.size(), Scalar(0));
   if (S_.size() == 0 || !vertex_dual) return;
-#pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+  parallel_for(data_.vertices.size(), [&](std::size_t row) {
     const Eigen::VectorXd at_vertex = vertex_dual(data_.vertices[row]);
     for (Index i = 0; i < n_; ++i) {
       const std::size_t place = row * stride_ + i;
       S_[place] = static_cast<Scalar>(sigma() * at_vertex[i]);
       residual_[place] = data_.vertex_metric[row] * S_[place];
     }
-  }
+  });
 }
 
 // ---- adaptation ---------------------------------------------------------------------------------
@@ -398,10 +384,9 @@ void CompactSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) 
 template <class Scalar, int Dim>
 WeightMatrix CompactSplitting<Scalar, Dim>::all_weights() const {
   WeightMatrix weights(n_, problem_.mesh.num_vertices());
-#pragma omp parallel for schedule(static)
-  for (std::size_t row = 0; row < data_.vertices.size(); ++row) {
+  parallel_for(data_.vertices.size(), [&](std::size_t row) {
     read_weights(data_.vertices[row], weights.col(data_.vertices[row]).data());
-  }
+  });
   // Boundary values are known to higher than single precision.
   problem_.boundary.impose_on(weights);
   return weights;
@@ -472,7 +457,6 @@ void CompactSplitting<Scalar, Dim>::with_flux(
     }
   }
   const State state = const_cast<CompactSplitting*>(this)->arrays();  // the loop only reads it
-#pragma omp parallel
   for_slices(state, [&](const State& slice, Columns columns) {
     loops_->flux(slice, columns, scale.data(), flux.data());
   });

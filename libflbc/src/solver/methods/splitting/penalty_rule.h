@@ -14,10 +14,10 @@ struct BalanceLengths {
   double dual2, motion2;
 };
 
-//! Adapts a penalty twice. In the first iterations after a cold start, it balances the duals against
-//! the change of the weights. Later it looks at the residuals: weights in thin parts and slits creep
-//! long after the rest has settled. There the constraints are violated little for the speed of the
-//! weights, and a smaller penalty lets them move on. Constants: plan/constants.h.
+//! Adapts a penalty twice. In the first iterations after a cold start, it balances the duals
+//! against the change of the weights. Later it looks at the residuals: weights in thin parts and
+//! slits creep long after the rest has settled. There the constraints are violated little for the
+//! speed of the weights, and a smaller penalty lets them move on. Constants: plan/constants.h.
 class PenaltyRule {
  public:
   //! \param balances, looks  whether it does so at all
