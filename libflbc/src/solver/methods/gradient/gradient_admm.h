@@ -67,7 +67,8 @@ class GradientAdmm {
   CellFieldView<Scalar, Dim> gradients() const { return {gradient_.data(), stride_, n_}; }
 
   //! The dual of the total variation, -mu u of Z = G: at an optimum phi A times the direction of
-  //! the gradient. With over-relaxation it may temporarily be longer than phi A.
+  //! the gradient. With over-relaxation it may temporarily be longer than phi A. Valid until the
+  //! next call; not thread-safe.
   CellFieldView<Scalar, Dim> flux() const;
 
   //! Size of the state per cell and control point, without phi.
