@@ -4,15 +4,16 @@ include_guard(DIRECTORY)
 include(${CMAKE_CURRENT_LIST_DIR}/kernels.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
 
-# flbc_add_module(NAME [LIBRARY component] [DEPENDS module...] [HEADERS header...] [KERNELS kernel...]
+# flbc_add_module(NAME [HOT] [LIBRARY component] [DEPENDS module...] [HEADERS header...] [KERNELS kernel...]
 #                 [LINKS library...] [DEFINES macro...] SOURCES file...)
 # The sources of the current folder, which other files include as "NAME/header.h". NAME may be nested,
 # such as solver/run.
+# HOT      its loops outside of kernels take a measurable part of a solve: all optimizations
 # LIBRARY  the optional component that contains the module, instead of the core
 # HEADERS  public headers without a source of their name; those with one are found
 # LINKS    other libraries that only this module uses
 function(flbc_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" LIBRARY "DEPENDS;HEADERS;KERNELS;LINKS;DEFINES;SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg HOT LIBRARY "DEPENDS;HEADERS;KERNELS;LINKS;DEFINES;SOURCES")
   string(REPLACE / _ id ${name})
   list(TRANSFORM arg_DEPENDS REPLACE / _)
   list(TRANSFORM arg_DEPENDS PREPEND flbc_module_)
@@ -44,17 +45,19 @@ function(flbc_add_module name)
 
   set(library flbc)
   set(files_in_unit 12)
+  if(NOT arg_HOT)
+    flbc_optimise_lightly(${target})
+  endif()
   if(arg_LIBRARY)
     set(library flbc_${arg_LIBRARY})
     set(files_in_unit 16)
-    flbc_optimise_lightly(${target})
   elseif(name STREQUAL base)
     # Compiling Eigen dominates build time.
     target_precompile_headers(${target} PRIVATE
       <algorithm> <functional> <map> <string> <vector>
       <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore>)
     target_include_directories(${target} PUBLIC ${flbc_GENERATED_HEADERS})
-  else()
+  elseif(NOT arg_HOT)  # GCC compiles all that follows as it compiled the header
     target_precompile_headers(${target} REUSE_FROM flbc_module_base)
   endif()
   flbc_compile_in_units(${target} ${files_in_unit})

@@ -12,11 +12,11 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "base/instantiate.h"
 #include "coordinates/points_in_cage.h"
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -62,9 +62,9 @@ class Dual {
     Vector<Dim> gradient = evaluate(lambda);
     for (int step = 0; step < kMostSteps && gradient.norm() > kRounding; ++step) {
       Eigen::Matrix<double, Dim, Dim> hessian =
-          offsets_ * weights_.asDiagonal() * offsets_.transpose() - gradient * gradient.transpose();
+          dense::moments<Dim>(offsets_, weights_) - gradient * gradient.transpose();
       hessian.diagonal().array() += kRounding;  // near a facet, rounding hides the curvature
-      Vector<Dim> direction = -hessian.ldlt().solve(gradient);
+      Vector<Dim> direction = -dense::solve_symmetric<Dim>(hessian, gradient);
       const double change = (offsets_.transpose() * direction).cwiseAbs().maxCoeff();
       if (change > kMostChange) direction *= kMostChange / change;
       const double descent = -gradient.dot(direction);

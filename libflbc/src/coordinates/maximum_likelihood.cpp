@@ -11,11 +11,10 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "base/instantiate.h"
 #include "coordinates/points_in_cage.h"
 #include "coordinates/seen_facet.h"
+#include "linear/dense.h"
 
 namespace flbc {
 namespace {
@@ -44,8 +43,8 @@ bool maximize_likelihood(const PointList<Dim>& directions, Eigen::VectorXd& weig
     weights = (1 + (directions.transpose() * psi).array()).inverse();
     const Vector<Dim> gradient = -(directions * weights);
     const Eigen::Matrix<double, Dim, Dim> hessian =
-        directions * weights.cwiseAbs2().asDiagonal() * directions.transpose();
-    const Vector<Dim> direction = -hessian.ldlt().solve(gradient);
+        dense::moments<Dim>(directions, weights.cwiseAbs2());
+    const Vector<Dim> direction = -dense::solve_symmetric<Dim>(hessian, gradient);
     decrement = std::sqrt(std::max(0.0, -gradient.dot(direction)));
     if (gradient.norm() <= kRounding * weights.sum() || decrement < kRounding) return true;
     psi += direction / (decrement < 0.25 ? 1 : 1 + decrement);

@@ -2,6 +2,7 @@
 #include "flbc/placement.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -148,10 +149,12 @@ void place_beside(const Cage<Dim>& cage, const PointList<Dim>& points,
 }
 
 // Evaluates the weights of one placed point at a time.
-// \tparam Inside  Eigen::VectorXd(Index point), for points inside
-template <int Dim, class Inside>
+template <int Dim>
 class WeightsAt {
  public:
+  using Inside = std::function<Eigen::VectorXd(Index point)>;
+
+  // \param inside  for points inside
   WeightsAt(const Cage<Dim>& cage, const Placement<Dim>& placement, Inside inside)
       : cage_(cage), placement_(placement), inside_(std::move(inside)) {
     for (const auto& beside : placement.on_cage) beside_[beside.point] = {&beside, false};
@@ -279,16 +282,15 @@ Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Wei
                    const Placement<Dim>& placement) {
   const auto inside = [&](Index p) { return interpolate(mesh, weights, placement.places[p]); };
   return weights_of_points<Weights>(cage.size(), static_cast<Index>(placement.places.size()),
-                                    WeightsAt<Dim, decltype(inside)>(cage, placement, inside));
+                                    WeightsAt<Dim>(cage, placement, inside));
 }
 
 template <int Dim>
 SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
                          const Placement<Dim>& placement) {
   const auto column = [&](Index p) { return Eigen::VectorXd(inside.col(p)); };
-  return weights_of_points<SparseWeights>(
-      cage.size(), static_cast<Index>(placement.places.size()),
-      WeightsAt<Dim, decltype(column)>(cage, placement, column));
+  return weights_of_points<SparseWeights>(cage.size(), static_cast<Index>(placement.places.size()),
+                                          WeightsAt<Dim>(cage, placement, column));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \

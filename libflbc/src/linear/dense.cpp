@@ -28,6 +28,7 @@ Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& m
   return solution;
 }
 
+template Eigen::Vector2d solve_symmetric(const Eigen::Matrix2d&, const Eigen::Vector2d&);
 template Eigen::Vector3d solve_symmetric(const Eigen::Matrix3d&, const Eigen::Vector3d&);
 template Eigen::Vector4d solve_symmetric(const Eigen::Matrix4d&, const Eigen::Vector4d&);
 
@@ -42,9 +43,18 @@ Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynami
   return columns * columns.transpose();
 }
 
+template <int N>
+Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns,
+                                    const Eigen::VectorXd& weights) {
+  return columns * weights.asDiagonal() * columns.transpose();
+}
+
 template decltype(gram<3>) gram<3>;
 template decltype(gram<4>) gram<4>;
-FLBC_INSTANTIATE_FUNCTION(moments)
+template Eigen::Matrix2d moments(const Eigen::Matrix2Xd&);
+template Eigen::Matrix3d moments(const Eigen::Matrix3Xd&);
+template Eigen::Matrix2d moments(const Eigen::Matrix2Xd&, const Eigen::VectorXd&);
+template Eigen::Matrix3d moments(const Eigen::Matrix3Xd&, const Eigen::VectorXd&);
 
 template <int N>
 Eigen::Matrix<double, N, N> principal_axes(const Eigen::Matrix<double, N, N>& symmetric) {

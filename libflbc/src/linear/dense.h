@@ -8,7 +8,7 @@
 
 namespace flbc::dense {
 
-//! Solves a symmetric, positive semidefinite system. N = 3, 4.
+//! Solves a symmetric, positive semidefinite system. N = 2, 3, 4.
 template <int N>
 Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& matrix,
                                             const Eigen::Matrix<double, N, 1>& right_side);
@@ -21,6 +21,11 @@ Eigen::Matrix<double, N, N> gram(const Eigen::Matrix<double, Eigen::Dynamic, N>&
 //! The sum of x x^T over the columns x. N = 2, 3.
 template <int N>
 Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns);
+
+//! The sum of w x x^T over the columns x and their weights w. N = 2, 3.
+template <int N>
+Eigen::Matrix<double, N, N> moments(const Eigen::Matrix<double, N, Eigen::Dynamic>& columns,
+                                    const Eigen::VectorXd& weights);
 
 //! Orthonormal eigenvectors of a symmetric matrix, one per column. N = 2, 3.
 template <int N>

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
-#include "base/parallel.h"
 #include "flbc/domain_mesh.h"
 
 namespace flbc {
@@ -22,23 +19,10 @@ struct CellGeometry {
 
 //! The edges of a cell from its first corner to the others.
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim> cell_edges(const DomainMesh<Dim>& mesh, Index cell) {
-  Eigen::Matrix<double, Dim, Dim> edges;
-  for (int k = 0; k < Dim; ++k) {
-    edges.col(k) = mesh.points.col(mesh.cells(k + 1, cell)) - mesh.points.col(mesh.cells(0, cell));
-  }
-  return edges;
-}
+Eigen::Matrix<double, Dim, Dim> cell_edges(const DomainMesh<Dim>& mesh, Index cell);
 
 template <int Dim>
-CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell) {
-  const Eigen::Matrix<double, Dim, Dim> edges = cell_edges(mesh, cell);
-  CellGeometry<Dim> geometry;
-  geometry.measure = std::abs(edges.determinant()) / (Dim == 2 ? 2 : 6);
-  geometry.hat_gradients.template rightCols<Dim>() = edges.inverse().transpose();
-  geometry.hat_gradients.col(0) = -geometry.hat_gradients.template rightCols<Dim>().rowwise().sum();
-  return geometry;
-}
+CellGeometry<Dim> cell_geometry(const DomainMesh<Dim>& mesh, Index cell);
 
 //! Distance of a point outside the facets of a cell.
 //! \param coordinates  barycentric coordinates of the point \param hat_gradients  of the cell
@@ -56,11 +40,7 @@ double distance_beyond(const Vector<Dim + 1>& coordinates,
 
 //! Measures of all cells.
 template <int Dim>
-Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh) {
-  Eigen::VectorXd measures(mesh.num_cells());
-  parallel_for(mesh.num_cells(), [&](Index s) { measures[s] = cell_geometry(mesh, s).measure; });
-  return measures;
-}
+Eigen::VectorXd cell_measures(const DomainMesh<Dim>& mesh);
 
 //! The centroid of a cell or facet.
 //! \param points  Dim x V
@@ -87,13 +67,6 @@ PointList<Dim> centroids(const PointList<Dim>& points, const Simplices& simplice
 template <int Dim>
 Eigen::Matrix<double, Eigen::Dynamic, Dim> weight_gradients(const DomainMesh<Dim>& mesh, Index cell,
                                                             const CellGeometry<Dim>& geometry,
-                                                            const WeightMatrix& weights) {
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> gradients =
-      weights.col(mesh.cells(0, cell)) * geometry.hat_gradients.col(0).transpose();
-  for (int k = 1; k <= Dim; ++k) {
-    gradients += weights.col(mesh.cells(k, cell)) * geometry.hat_gradients.col(k).transpose();
-  }
-  return gradients;
-}
+                                                            const WeightMatrix& weights);
 
 }  // namespace flbc
