@@ -2,14 +2,10 @@
 // Tests of parallel loops: each index once, the order of sums, and exceptions.
 #include "base/parallel.h"
 
-#include <algorithm>
 #include <atomic>
 #include <new>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "support/test.h"
 
 namespace flbc {
 namespace {
@@ -63,14 +59,13 @@ TEST(Parallel, EachThreadHasItsOwnScratch) {
 
 TEST(Parallel, TheLowestExceptionReachesTheCaller) {
   with_threads([] {
-    try {
-      parallel_for(1000, [](Index k) {
-        if (k % 300 == 299) throw std::runtime_error(std::to_string(k));
-      });
-      FAIL() << "expected an exception";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "299");
-    }
+    testing::expect_error<std::runtime_error>(
+        [] {
+          parallel_for(1000, [](Index k) {
+            if (k % 300 == 299) throw std::runtime_error(std::to_string(k));
+          });
+        },
+        {"299"});
   });
 }
 

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sample cages and models of meshes/ keep the promises of meshes/README.md.
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "flbc/io/model_file.h"
+#include "support/test.h"
 
 namespace flbc {
 namespace {

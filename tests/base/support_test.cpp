@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests of the test helpers: sample meshes and the reference measures.
-#include <cmath>
-#include <limits>
-#include <map>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
 
-#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
-#include "support/simplex.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -87,20 +78,6 @@ TEST_IN_2D_AND_3D(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
     EXPECT_EQ(euler(box), 2);
     EXPECT_EQ(euler(corner), 2);
     EXPECT_EQ(euler(ring), 0);
-  }
-}
-
-// Each cell of a Kuhn triangulation contains the main diagonal of its cube.
-TEST_IN_2D_AND_3D(SupportTest, BoxSampleIsAStructuredGrid) {
-  const auto mesh = make_sample<Dim>(Shape::kBox, 3).mesh;
-  EXPECT_EQ(mesh.num_vertices(), Dim == 2 ? 16 : 64);
-  EXPECT_EQ(mesh.num_cells(), Dim == 2 ? 2 * 9 : 6 * 27);
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    const auto corners = cell_corners(mesh, s);
-    const Vector<Dim> span = corners.rowwise().maxCoeff() - corners.rowwise().minCoeff();
-    EXPECT_LT((span - Vector<Dim>::Constant(1.0 / 3)).norm(), 1e-14);
-    const Eigen::RowVectorXd heights = corners.colwise().sum();
-    EXPECT_NEAR(heights.maxCoeff() - heights.minCoeff(), Dim / 3.0, 1e-14);
   }
 }
 

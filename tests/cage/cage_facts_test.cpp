@@ -2,12 +2,7 @@
 // Sizes of cages known beforehand.
 #include "flbc/cage_facts.h"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

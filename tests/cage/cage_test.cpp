@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/cage.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -34,13 +24,6 @@ namespace {
     all += "\n  " + defect.message;
   }
   return ::testing::AssertionFailure() << "no such defect among:" << all;
-}
-
-TEST_IN_2D_AND_3D(CageTest, SizeIsTheDiagonalAndFollowsScaling) {
-  const Cage<Dim> cage = box_cage<Dim>(1);
-  EXPECT_DOUBLE_EQ(bounding_box_diagonal<Dim>(cage.points), 2 * std::sqrt(double(Dim)));
-  EXPECT_DOUBLE_EQ(bounding_box_diagonal<Dim>(1e-9 * cage.points), 2e-9 * std::sqrt(double(Dim)));
-  EXPECT_EQ(bounding_box_diagonal<Dim>(PointList<Dim>(Dim, 0)), 0);
 }
 
 TEST_IN_2D_AND_3D(CageTest, SoundCagesHaveNoDefects) {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cage/facet_locator.h"
 
-#include <random>
-
-#include <gtest/gtest.h>
-
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc {
 namespace {

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-
 #include "flbc/meshing.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

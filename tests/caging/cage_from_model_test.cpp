@@ -1,26 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Generated cages enclose their models, even defective ones.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <Eigen/Geometry>
-
-#include "flbc/bounding_box.h"
-#include "flbc/cage_facts.h"
 #include "flbc/cage_from_model.h"
-#include "flbc/errors.h"
+#include "flbc/cage_facts.h"
 #include "flbc/meshing.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

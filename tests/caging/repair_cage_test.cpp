@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Defective cages become sound, and say what was done to them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <set>
-#include <string>
-
-#include "flbc/cage_facts.h"
-#include "flbc/errors.h"
-#include "flbc/meshing.h"
 #include "flbc/repair_cage.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "flbc/cage_facts.h"
+#include "flbc/meshing.h"
 #include "support/enclosure_judge.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

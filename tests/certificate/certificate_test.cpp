@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/certificate.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
-#include "flbc/quality.h"
 #include "flbc/recovery.h"
 #include "mesh/cell_geometry.h"
 #include "polytope/vertex_linear_program.h"
-#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

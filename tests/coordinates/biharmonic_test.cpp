@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/biharmonic.h"
 
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-
 #include "base/parallel.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
-#include "flbc/quality.h"
-
-#include <gtest/gtest.h>
-
 #include "coordinates/mean_count.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
+#include "flbc/interpolate.h"
 #include "flbc/recovery.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -65,14 +58,8 @@ TEST_IN_2D_AND_3D(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
   points.col(2).setConstant(0.5);
   points.col(2)[0] = points.col(2)[1] = 1.5;  // in the hole
   points.col(3).setConstant(100);
-  try {
-    locate_points(sample.mesh, points);
-    FAIL() << "found points that are outside";
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("2 of 4 points are outside"), std::string::npos) << message;
-    EXPECT_NE(message.find("vertex 2 at (1.5, 1.5"), std::string::npos) << message;
-  }
+  expect_error<InputError>([&] { locate_points(sample.mesh, points); },
+                           {"2 of 4 points are outside", "vertex 2 at (1.5, 1.5"});
   points.col(2).setConstant(0.5);
   points.col(3) = points.col(0).array() - 1e-8;  // as much outside as a file's rounding makes it
   EXPECT_NO_THROW(locate_points(sample.mesh, points));

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/deform.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "flbc/errors.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc {
 namespace {
@@ -90,16 +85,9 @@ TEST_IN_2D_AND_3D(Deform, MeasuresDisplacements) {
 TEST_IN_2D_AND_3D(Deform, RefusesPosesOfAnotherCage) {
   const auto weights = Deform<Dim>::make_weights(4);
   const PointList<Dim> pose = PointList<Dim>::Zero(Dim, 8);
-  const auto expect_refused = [&](const auto& any) {
-    try {
-      deform(any, pose);
-      FAIL() << "an error was expected";
-    } catch (const InputError& error) {
-      EXPECT_STREQ(error.what(), "the weights are for 7 control points, but the pose has 8");
-    }
-  };
-  expect_refused(weights);
-  expect_refused(SparseWeights(weights));
+  const std::string words = "the weights are for 7 control points, but the pose has 8";
+  testing::expect_refused(words, [&] { deform(weights, pose); });
+  testing::expect_refused(words, [&] { deform(SparseWeights(weights), pose); });
   EXPECT_EQ(deform(WeightMatrix(8, 0), pose).cols(), 0);
   EXPECT_EQ(deform(SparseWeights(WeightMatrix(8, 0)), pose).cols(), 0);
 }

@@ -2,19 +2,12 @@
 // Evaluator agrees with placement and deformation, in batches and from several threads.
 #include "flbc/evaluator.h"
 
-#include <random>
 #include <thread>
-#include <vector>
 
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/deform.h"
-#include "flbc/errors.h"
 #include "flbc/poses.h"
-#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

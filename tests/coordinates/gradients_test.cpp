@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/gradients.h"
 
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

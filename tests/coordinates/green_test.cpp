@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/green.h"
 
-#include <array>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 #include "base/parallel.h"
 #include "flbc/deform.h"
-#include "flbc/errors.h"
 #include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

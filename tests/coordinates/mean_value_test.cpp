@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/mean_value.h"
 
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include "base/parallel.h"
 #include "flbc/cell_locator.h"
-#include "flbc/errors.h"
 #include "flbc/interpolate.h"
-#include "flbc/quality.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
 #include "support/hollow_sample.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -271,13 +258,7 @@ TEST_IN_2D_AND_3D(MeanValueTest, NoPointsAndPointsThatAreNone) {
   EXPECT_EQ(mean_value_coordinates(cage, PointList<Dim>(Dim, 0)).rows(), cage.size());
   PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);
   points(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  try {
-    mean_value_coordinates(cage, points);
-    FAIL() << "took nan for a point";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("point 2 at (0, nan"), std::string::npos)
-        << error.what();
-  }
+  expect_error<InputError>([&] { mean_value_coordinates(cage, points); }, {"point 2 at (0, nan"});
 }
 
 }  // namespace

@@ -2,18 +2,10 @@
 // Weights at points inside a cage, slightly outside, and far outside.
 #include "flbc/placement.h"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
-#include "flbc/errors.h"
 #include "flbc/mean_value.h"
 #include "flbc/sparsify.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

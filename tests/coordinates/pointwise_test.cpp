@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/pointwise.h"
 
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include "base/parallel.h"
 #include "coordinates/polygon_triangulation.h"
 #include "flbc/blended.h"
 #include "flbc/cage_facts.h"
-#include "flbc/errors.h"
 #include "flbc/maximum_entropy.h"
 #include "flbc/maximum_likelihood.h"
 #include "flbc/mean_value.h"
-#include "flbc/quality.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/code_cages.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
 #include "support/hollow_sample.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -303,13 +289,8 @@ TEST_IN_2D_AND_3D(PointwiseTest, NamesThePointOutside) {
   PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);
   points(0, 1) = 1.5;
   for (const auto method : non_negative_methods<Dim>()) {
-    try {
-      pointwise_coordinates(cage, points, method);
-      FAIL() << "took a point outside";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("point 1 at (1.5, 0"), std::string::npos)
-          << error.what();
-    }
+    expect_error<InputError>([&] { pointwise_coordinates(cage, points, method); },
+                             {"point 1 at (1.5, 0"});
   }
 }
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/recovery.h"
-#include "flbc/harmonic.h"
-
-#include <gtest/gtest.h>
-
 #include "base/aligned_array.h"
 #include "base/parallel.h"
+#include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -2,16 +2,9 @@
 // Weights that go from one version of a model to another.
 #include "flbc/transfer_weights.h"
 
-#include <random>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/mean_value.h"
 #include "flbc/non_negative.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -101,16 +94,9 @@ TEST_IN_2D_AND_3D(TransferTest, UnmatchedPointsAreNamed) {
   auto to = t.model.points;
   to.col(4).array() += 3 * t.size;
   to.col(9).array() += 2 * t.size;
-  try {
-    t.transfer(to, 0.01 * t.size);
-    FAIL();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("2 of " + std::to_string(to.cols()) + " vertices (4 and 9)"),
-              std::string::npos)
-        << message;
-    EXPECT_NE(message.find("the farthest is vertex 4"), std::string::npos) << message;
-  }
+  expect_error<InputError>(
+      [&] { t.transfer(to, 0.01 * t.size); },
+      {"2 of " + std::to_string(to.cols()) + " vertices (4 and 9)", "the farthest is vertex 4"});
 }
 
 TEST_IN_2D_AND_3D(TransferTest, SegmentsAndPointsAreElementsToo) {

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "flbc/errors.h"
-#include "flbc/poses.h"
-#include "flbc/quality.h"
-#include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
-#include "support/dimensions.h"
+#include "flbc/poses.h"
+#include "flbc/sparsify.h"
 #include "support/feasible_vertices.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

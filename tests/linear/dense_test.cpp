@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linear/dense.h"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include "support/test.h"
 
 namespace flbc::dense {
 namespace {

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linear/multigrid.h"
-#include "linear/multigrid_cg.h"
-
-#include <cmath>
-#include <cstring>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 
 #include "base/parallel.h"
 #include "flbc/solver.h"
+#include "linear/multigrid.h"
+#include "linear/multigrid_cg.h"
 #include "mesh/cell_geometry.h"
 #include "problem/laplacian.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

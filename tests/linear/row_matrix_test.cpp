@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse matrices assembled by several threads equal those of the textbook, and are bit-identical
 // for any number of threads.
-#include <cstring>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
+#include "linear/row_matrix.h"
 #include "base/parallel.h"
 #include "linear/matrix_arrays.h"
-#include "linear/row_matrix.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

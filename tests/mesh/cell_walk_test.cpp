@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/cell_walk.h"
 
-#include <algorithm>
-#include <numeric>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/domain_mesh.h"
 
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/errors.h"
-#include "support/dimensions.h"
-#include "support/errors.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/domain_mesh.h"
 
-#include <cmath>
-#include <limits>
-#include <set>
-
-#include <gtest/gtest.h>
-
-#include "flbc/cage.h"
-#include "flbc/errors.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
-#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/hilbert_order.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <set>
-
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc {
 namespace {

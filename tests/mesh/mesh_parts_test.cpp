@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/domain_mesh.h"
 
-#include <algorithm>
-
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -65,15 +59,8 @@ TEST_IN_2D_AND_3D(MeshPartsTest, OnePartIsTheWhole) {
 }
 
 TEST_IN_2D_AND_3D(MeshPartsTest, RefusalNamesAPlaceInEachOfTwoParts) {
-  try {
-    require_connected(join_parts(three_parts<Dim>()));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("3 parts, one with (0, 0"), std::string::npos)
-        << error.what();
-    EXPECT_NE(std::string(error.what()).find(", one with (10, 10"), std::string::npos)
-        << error.what();
-  }
+  expect_error<InputError>([&] { require_connected(join_parts(three_parts<Dim>())); },
+                           {"3 parts, one with (0, 0", ", one with (10, 10"});
 }
 
 }  // namespace

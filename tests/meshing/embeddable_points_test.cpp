@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 
-#include <gtest/gtest.h>
-
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 
-#include <algorithm>
-#include <numeric>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "flbc/cage_facts.h"
-#include "flbc/domain_mesh.h"
-#include "flbc/errors.h"
-#include "support/code_cages.h"
-#include "support/dimensions.h"
+#include "support/mesh_checks.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -37,13 +29,6 @@ Cage<Dim> three_parts() {
               box_beside<Dim>(3, 6));
 }
 
-template <int Dim>
-double measure_of(const DomainMesh<Dim>& mesh) {
-  double sum = 0;
-  for (Index s = 0; s < mesh.num_cells(); ++s) sum += signed_measure(mesh, s);
-  return sum;
-}
-
 TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   const auto cage = three_parts<Dim>();
   MeshingOptions<Dim> options;
@@ -51,7 +36,7 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   auto mesh = mesh_in_parts<Dim>(cage, options, fill<Dim>);
   EXPECT_NO_THROW(normalize_and_validate(mesh));
   const double measure = measure_cage(cage).measure;
-  EXPECT_NEAR(measure_of(mesh), measure, 1e-10 * measure);
+  EXPECT_NEAR(total_volume(mesh), measure, 1e-10 * measure);
   EXPECT_EQ(PointList<Dim>(mesh.points.leftCols(cage.size())), cage.points);
   EXPECT_NEAR(mesh.num_vertices(), options.vertices, 0.15 * options.vertices);
 
@@ -59,7 +44,7 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   const auto cages = cage_parts(cage);
   ASSERT_EQ(parts.size(), cages.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const double share = measure_of(parts[p].mesh) / measure;
+    const double share = total_volume(parts[p].mesh) / measure;
     MeshingOptions<Dim> alone;
     alone.vertices = static_cast<Index>(std::lround(share * options.vertices));
     const auto expected = fill<Dim>(cages[p].cage, alone);
@@ -80,12 +65,7 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, EmbedsEachPointInItsPart) {
   EXPECT_EQ(PointList<Dim>(mesh.points.middleCols(cage.size(), 5)), options.embedded_points);
 
   options.embedded_points.col(3).setConstant(0.45);  // in the hole
-  try {
-    mesh_in_parts<Dim>(cage, options, fill<Dim>);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).substr(0, 8), "point 3 ") << error.what();
-  }
+  expect_refused("point 3 ", [&] { mesh_in_parts<Dim>(cage, options, fill<Dim>); });
 }
 
 TEST_IN_2D_AND_3D(MeshInPartsTest, NamesThePartThatFails) {
@@ -94,15 +74,9 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, NamesThePartThatFails) {
     if (part.points.minCoeff() > 1) throw InputError("no");
     return fill<Dim>(part, options);
   };
-  try {
-    mesh_in_parts<Dim>(cage, {}, failing);
-    FAIL();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    const auto first = std::to_string(3 << Dim);
-    EXPECT_EQ(message.substr(0, message.find(" at (")), "part 3 of 3, with control point " + first);
-    EXPECT_EQ(message.substr(message.size() - 4), ": no");
-  }
+  expect_error<InputError>(
+      [&] { mesh_in_parts<Dim>(cage, {}, failing); },
+      {"part 3 of 3, with control point " + std::to_string(3 << Dim) + " at (", ": no"});
 }
 
 TEST_IN_2D_AND_3D(MeshInPartsTest, MeshersAloneTakeOnePart) {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/surface_subdivision.h"
 
-#include <algorithm>
-
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
-#include "support/code_cages.h"
 #include "support/mesh_checks.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

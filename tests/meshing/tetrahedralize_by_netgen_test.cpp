@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "base/stopwatch.h"
-#include "flbc/errors.h"
-#include "flbc/quality.h"
 #include "flbc/solver.h"
-#include "support/code_cages.h"
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

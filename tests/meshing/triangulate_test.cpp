@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <string>
 
-#include "flbc/errors.h"
 #include "flbc/meshing.h"
-#include "support/code_cages.h"
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -2,20 +2,10 @@
 // From a model and a cage to a model that follows the cage.
 #include "flbc/openmesh/bind.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-
-#include <sstream>
-
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/solver.h"
-#include "support/errors.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

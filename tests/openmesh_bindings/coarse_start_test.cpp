@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program that links a mesher starts from coarser meshes without saying so.
-#include <cmath>
-
-#include <gtest/gtest.h>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "flbc/meshing.h"
 #include "flbc/openmesh/bind.h"
 #include "flbc/openmesh/lbc.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

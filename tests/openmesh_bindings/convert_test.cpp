@@ -2,18 +2,9 @@
 // Conversion to a mesh and back is lossless.
 #include "flbc/openmesh/convert.h"
 
-#include <gtest/gtest.h>
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-
-#include <algorithm>
-#include <array>
-#include <set>
-
 #include "flbc/cage_facts.h"
-#include "support/errors.h"
 #include "support/hollow_sample.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

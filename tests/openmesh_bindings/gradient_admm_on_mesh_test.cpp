@@ -3,21 +3,12 @@
 // state in the properties of the mesh.
 #include "flbc/openmesh/gradient_admm.h"
 
-#include <map>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
-#include <OpenMesh/Core/IO/MeshIO.hh>
-
-#include "base/parallel.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/solver.h"
 #include "solver/methods/gradient/gradient_admm.h"
 #include "support/hollow_sample.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
 #include "support/scratch.h"
+#include "support/test.h"
 #include "support/textbook_admm.h"
 #include "support/wide_meshes.h"
 

@@ -2,17 +2,10 @@
 // Sparse weights on a mesh: kept through all that OpenMesh does, and moving it as arrays would.
 #include "flbc/openmesh/influences.h"
 
-#include <gtest/gtest.h>
-#include <OpenMesh/Core/IO/MeshIO.hh>
-
-#include <cstring>
-#include <sstream>
-
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/lbc.h"
 #include "flbc/openmesh/sparsify.h"
-#include "support/errors.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

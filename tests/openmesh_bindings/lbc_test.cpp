@@ -2,17 +2,11 @@
 // Solving on meshes of OpenMesh and on TetMesh: the same results as on plain arrays, in properties.
 #include "flbc/openmesh/lbc.h"
 
-#include <gtest/gtest.h>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
-#include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "flbc/openmesh/bind.h"
-#include "support/errors.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
 #include "support/scratch.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

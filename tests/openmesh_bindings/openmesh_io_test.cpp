@@ -3,11 +3,9 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <fstream>
 
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/openmesh/mesh_io.h"
 #include "support/scratch.h"
+#include "support/test.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -2,14 +2,11 @@
 // Skins written from a mesh: a reader of glTF moves them as deform() moves the mesh.
 #include "flbc/openmesh/skin.h"
 
-#include <gtest/gtest.h>
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-
 #include "flbc/openmesh/deform.h"
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
 #include "support/io_files.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/tet_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <Eigen/Geometry>
-
-#include "flbc/errors.h"
 #include "flbc/openmesh/domain.h"
 #include "support/io_files.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -177,24 +163,6 @@ TEST(TetMesh, NeighboursOfVerticesAgainstBruteForce) {
   }
 }
 
-TEST(TetMesh, BoundaryAgainstBruteForce) {
-  for (const auto& [mesh, tunnels] : meshes()) {
-    const auto tets = TetMesh::from(mesh);
-    std::set<int> vertices;
-    std::set<int> edges;
-    for (const auto f : tets.faces()) {
-      if (!tets.is_boundary(f)) continue;
-      const auto v = tets.fv_range(f);
-      for (std::size_t k = 0; k < 3; ++k) {
-        vertices.insert(v[k].idx());
-        edges.insert(tets.find_edge(v[k], v[(k + 1) % 3]).idx());
-      }
-    }
-    for (const auto v : tets.vertices()) EXPECT_EQ(tets.is_boundary(v), vertices.count(v.idx()));
-    for (const auto e : tets.edges()) EXPECT_EQ(tets.is_boundary(e), edges.count(e.idx()));
-  }
-}
-
 TEST(TetMesh, ManyCellsAroundOneEdge) {
   // A fan around the edge of vertices 0 and 1: its faces crowd at two vertices.
   constexpr int kCells = 20000;
@@ -217,13 +185,6 @@ TEST(TetMesh, ManyCellsAroundOneEdge) {
   EXPECT_TRUE(tets.is_boundary(Vertex(0)));
 }
 
-TEST(TetMesh, TurnsInvertedCells) {
-  auto mesh = meshes()[3].first;
-  for (Index s = 0; s < mesh.num_cells(); s += 2) std::swap(mesh.cells(0, s), mesh.cells(1, s));
-  const auto tets = TetMesh::from(mesh);
-  for (Index s = 0; s < mesh.num_cells(); ++s) EXPECT_GT(signed_measure(tets.domain(), s), 0);
-}
-
 TEST(TetMesh, RefusesDefectsAndKeepsItsElements) {
   const auto good = meshes()[0].first;
   TetMesh tets = TetMesh::from(good);
@@ -233,31 +194,11 @@ TEST(TetMesh, RefusesDefectsAndKeepsItsElements) {
   expect_error<InputError>([&] { tets.assign({}); }, {"no cells"});
   auto crowded = good;
   crowded.cells = good.cells.col(0).replicate(1, 3);
-  expect_error<InputError>([&] { tets.assign_valid(crowded); }, {"cells 0, 1 and 2", "share one facet"});
+  expect_error<InputError>([&] { tets.assign_valid(crowded); },
+                           {"cells 0, 1 and 2", "share one facet"});
   EXPECT_EQ(tets.n_faces(), 4u);
   EXPECT_TRUE(bit_equal(tets.domain().points, good.points));
   EXPECT_EQ(tets.domain().cells, good.cells);
-}
-
-TEST(TetMesh, HandlesAreInvalidByDefault) {
-  EXPECT_FALSE(CellHandle().is_valid());
-  EXPECT_FALSE(CPropHandleT<double>().is_valid());
-  EXPECT_FALSE(TetMesh::VertexHandle().is_valid());
-  EXPECT_TRUE(CellHandle(0).is_valid());
-  EXPECT_EQ(CellHandle(3), CellHandle(3));
-  EXPECT_EQ(std::hash<CellHandle>()(CellHandle(3)), std::hash<CellHandle>()(CellHandle(3)));
-  TetMesh tets;
-  OpenMesh::VPropHandleT<int> property;
-  EXPECT_FALSE(tets.get_property_handle(property, "none"));
-  tets.remove_property(property);
-  EXPECT_TRUE(tets.vertices().begin() == tets.vertices().end());
-}
-
-TEST(TetMesh, PointsCanMove) {
-  TetMesh tets = TetMesh::from(meshes()[0].first);
-  tets.set_point(Vertex(2), {4, 5, 6});
-  EXPECT_EQ(tets.point(Vertex(2)), OpenMesh::Vec3d(4, 5, 6));
-  EXPECT_EQ(tets.domain().points.col(2), Vector<3>(4, 5, 6));
 }
 
 // The facets of a domain, in their own numbering and their own order of vertices.

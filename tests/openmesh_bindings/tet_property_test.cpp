@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "flbc/openmesh/tet_mesh.h"
 #include "flbc/openmesh/wide_property.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::openmesh {
 namespace {

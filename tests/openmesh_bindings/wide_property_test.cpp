@@ -2,11 +2,7 @@
 // Wide properties do in memory what other properties of OpenMesh do.
 #include "flbc/openmesh/wide_property.h"
 
-#include <sstream>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
+#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::openmesh {
@@ -31,16 +27,6 @@ struct WideProperty : ::testing::Test {
   typename Case::Mesh mesh_ = testing::make_squares<typename Case::Mesh>();
 };
 TYPED_TEST_SUITE(WideProperty, testing::WideCases);
-
-TYPED_TEST(WideProperty, HasOneRowOfNothingAtFirst) {
-  typename TestFixture::Vertices handle;
-  this->mesh_.add_property(handle, "rows");
-  const auto& rows = this->mesh_.property(handle);
-  EXPECT_EQ(rows.n_elements(), this->mesh_.n_vertices());
-  EXPECT_EQ(rows.components(), 1U);
-  EXPECT_EQ(rows.width(), 0U);
-  EXPECT_EQ(rows.bytes(), 0U);
-}
 
 TYPED_TEST(WideProperty, LaysRowsOutElementMajor) {
   using Scalar = typename TypeParam::Scalar;
@@ -102,12 +88,6 @@ TYPED_TEST(WideProperty, GivesNewElementsZeroRows) {
     EXPECT_TRUE(is_filled<typename TypeParam::Scalar>(
         rows[v], key(this->mesh_, OpenMesh::VertexHandle(v)), 2, 9));
   }
-}
-
-TYPED_TEST(WideProperty, ReservesWithoutLosingRows) {
-  const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 1, 11);
-  this->mesh_.reserve(5000, 5000, 5000);
-  expect_filled(this->mesh_, handle, 1, 11);
 }
 
 TYPED_TEST(WideProperty, ClearsItsRowsAndKeepsItsShape) {

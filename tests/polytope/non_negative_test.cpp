@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/non_negative.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "flbc/errors.h"
 #include "polytope/nearest_point_in_hull.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/bounded_distances.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

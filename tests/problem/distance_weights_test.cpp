@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/distance_weights.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
 #include "problem/geodesic/eikonal_mesh.h"
 #include "problem/geodesic/march.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/interpolated_distances.h"
 
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/lbc_problem.h"
 #include "mesh/cell_walk.h"
-#include "support/dimensions.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The iteration on the active set: its linear step against a dense solver of the same problem, and
 // its limit against the iteration on all pairs.
-#include <algorithm>
-#include <memory>
-#include <set>
-#include <type_traits>
-#include <utility>
-
-#include <gtest/gtest.h>
+#include "solver/methods/active_set/active_set.h"
 
 #include "base/parallel.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "polytope/nearest_point_in_hull.h"
-#include "solver/methods/active_set/active_set.h"
 #include "solver/plan/choices.h"
 #include "solver/run/run.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
 #include "support/fine_cages.h"
-#include "support/judge.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

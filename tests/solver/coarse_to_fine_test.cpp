@@ -2,17 +2,11 @@
 // The start from a coarser mesh: what carries over exactly, and that the answer stays the same.
 #include "flbc/solver.h"
 
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/start/transfer.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -4,28 +4,15 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/constants.h"
 
-#include <cmath>
-#include <tuple>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/published_penalty.h"
-#include "flbc/quality.h"
 #include "flbc/solver.h"
-#include "support/dimensions.h"
 #include "support/fine_cages.h"
-#include "support/judge.h"
 #include "support/published_problem.h"
-#include "support/sample_meshes.h"
-#include "support/simplex.h"
 #include "support/splitting_cases.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A solver that resumes from where it stopped, and penalties in units of the cage.
-#include <cmath>
-#include <tuple>
-
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
-#include "support/dimensions.h"
 #include "support/fine_cages.h"
-#include "support/judge.h"
 #include "support/many_iterations.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

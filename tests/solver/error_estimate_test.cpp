@@ -2,16 +2,9 @@
 // The estimate that Method::kValue stops by, on errors that are known because they are made up.
 #include "solver/run/error_estimate.h"
 
-#include <algorithm>
-#include <cmath>
 #include <complex>
-#include <functional>
-#include <numeric>
-#include <optional>
-#include <type_traits>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "support/test.h"
 
 namespace flbc {
 namespace {

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that end because their weights are proved to be near the optimum.
-#include <cmath>
-#include <type_traits>
-
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/names.h"
 #include "flbc/solver.h"
 #include "solver/run/run.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
 #include "support/solver_models.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

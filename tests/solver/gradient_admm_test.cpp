@@ -2,21 +2,12 @@
 // The compact iteration against the textbook one, iterate by iterate.
 #include "solver/methods/gradient/gradient_admm.h"
 
-#include <algorithm>
-#include <numeric>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/recovery.h"
-#include "support/dimensions.h"
 #include "support/hollow_sample.h"
-#include "support/judge.h"
 #include "support/published_problem.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 #include "support/textbook_admm.h"
 
 namespace flbc::testing {
@@ -168,26 +159,6 @@ TEST_IN_2D_AND_3D(GradientAdmmTest, SinglePrecisionFollowsDouble) {
         std::max(difference, (single.gradients().cell(s) - expected).cwiseAbs().maxCoeff());
   }
   EXPECT_LT(difference, 1e-4 * largest);
-}
-
-TEST_IN_2D_AND_3D(GradientAdmmTest, ThreadsDoNotChangeABit) {
-  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
-  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  const auto run = [&](int threads) {
-    const ThreadScope scope(threads);
-    gradient::GradientAdmm<float, Dim> admm(problem, 1000, 1.8, {});
-    admm.start_from_least_norm();
-    double residuals = 0;
-    for (int k = 0; k < 20; ++k) residuals += admm.residuals(admm.iterate()).primal;
-    Eigen::MatrixXd last = admm.gradients().cell(problem.mesh.num_cells() / 2);
-    return std::make_pair(residuals, last);
-  };
-  const auto one = run(1);
-  for (const int threads : {2, 4}) {
-    const auto many = run(threads);
-    EXPECT_EQ(one.first, many.first);
-    EXPECT_TRUE((one.second.array() == many.second.array()).all());
-  }
 }
 
 // Gradients and flux, and what the duals make of them in another iteration.

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether Method::kGradient keeps what its tolerance promises: a mean squared error of its weights,
 // from the optimum without non-negativity, which kValue finds by another iteration.
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/solver.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
 #include "support/many_iterations.h"
-#include "support/sample_meshes.h"
-#include "support/simplex.h"
 #include "support/solver_models.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Methods against the optima of models of real size that were found by other means
 // (tests/data/references/README.md, "Models").
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "support/model_optimum.h"
 #include "support/solver_models.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

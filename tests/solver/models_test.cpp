@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From cage to coordinates on real cages: every documented property, measured independently.
 
-#include <gtest/gtest.h>
-
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/quality.h"
 #include "flbc/solver.h"
-#include "support/judge.h"
 #include "support/scratch.h"
 #include "support/solver_models.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

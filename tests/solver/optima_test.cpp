@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library's solvers against optima of an interior-point method (tests/data/references): three
 // iterations and a fourth method that have nothing in common but the problem.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/certificate.h"
 #include "flbc/harmonic.h"
 #include "flbc/interpolate.h"
 #include "flbc/published_penalty.h"
-#include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "solver/methods/splitting/compact_splitting.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
 #include "support/reference_optimum.h"
-#include "support/simplex.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

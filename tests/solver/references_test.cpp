@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks the reference optima by independent measures, by the setup of the library, and by
 // optimality, without the program that made them.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "flbc/lbc_problem.h"
-#include "flbc/quality.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
 #include "support/harmonic_weights.h"
-#include "support/judge.h"
 #include "support/reference_optimum.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

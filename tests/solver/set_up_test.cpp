@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distances from a coarser mesh: when they are taken, and what they change.
-#include <cmath>
-#include <optional>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/solver.h"
 #include "support/coarse_sample_mesher.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The quadratic term of SolverOptions::smoothness: the optimum is unique, so that weights
 // themselves are compared.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "flbc/certificate.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
-#include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "support/coarse_sample_mesher.h"
-#include "support/dimensions.h"
 #include "support/newton_optimum.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cages of several parts: each part is solved as if it were alone, for any numbering.
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "flbc/check.h"
-#include "flbc/domain_mesh.h"
-#include "flbc/errors.h"
 #include "flbc/solver.h"
-#include "support/dimensions.h"
-#include "support/errors.h"
 #include "support/hollow_sample.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/run/thread_choice.h"
 
-#include <gtest/gtest.h>
-
-#include <functional>
+#include "support/test.h"
 
 namespace flbc {
 namespace {

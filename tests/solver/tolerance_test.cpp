@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether Method::kValue keeps what its tolerance promises: on real cages, at any scale, on meshes
 // of very different cells, and with few and many control points.
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/solver.h"
-#include "support/dimensions.h"
-#include "support/judge.h"
 #include "support/many_iterations.h"
-#include "support/sample_meshes.h"
 #include "support/solver_models.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

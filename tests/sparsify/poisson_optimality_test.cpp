@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The energy of reduce_by_poisson() and how near its minimum it comes, by trying all supports.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
 #include "flbc/poses.h"
 #include "sparsify/poisson/poisson_energy.h"
 #include "sparsify/support_selection.h"
-#include "support/dense_algebra.h"
-#include "support/dimensions.h"
 #include "support/poisson_problem.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparsify.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <type_traits>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/poses.h"
-#include "support/dimensions.h"
 #include "support/io_files.h"
 #include "support/poisson_problem.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparsify.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "base/parallel.h"
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "flbc/errors.h"
 #include "flbc/io/weights_triplets.h"
 #include "flbc/non_negative.h"
 #include "flbc/poses.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify_error.h"
-#include "support/dimensions.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
 #include "support/model_cages.h"
 #include "support/poisson_problem.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -4,13 +4,7 @@
 //! Shares nothing with the library but its types.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <vector>
-
-#include <Eigen/Geometry>
-
-#include "flbc/cage.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

@@ -4,12 +4,8 @@
 //! of feasible weights of a point for few control points.
 #pragma once
 
-#include <random>
-#include <vector>
-
-#include <Eigen/LU>
-
 #include "flbc/types.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

@@ -3,12 +3,7 @@
 //! Cages with more control points than the coarse shapes have corners.
 #pragma once
 
-#include <stdexcept>
-#include <vector>
-
-#include <Eigen/LU>
-
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

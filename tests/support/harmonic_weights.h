@@ -3,10 +3,7 @@
 //! Feasible weights that are easy to get: a start for solvers and something sound to break.
 #pragma once
 
-#include "support/dense_algebra.h"
-#include "support/judge.h"
-#include "support/sample_meshes.h"
-#include "support/simplex.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

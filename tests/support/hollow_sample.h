@@ -3,11 +3,7 @@
 //! A box with a box-shaped hole: the boundary has two components in 2D and in 3D.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

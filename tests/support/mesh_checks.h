@@ -3,19 +3,8 @@
 //! Properties of any mesh of a cage's interior.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <utility>
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "flbc/domain_mesh.h"
 #include "flbc/meshing.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

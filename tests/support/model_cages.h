@@ -5,12 +5,8 @@
 #pragma once
 
 #include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "flbc/cage.h"
+#include "support/test.h"
 
 #ifndef FLBC_MODELS_DIR
 #define FLBC_MODELS_DIR ""

@@ -5,14 +5,8 @@
 #pragma once
 
 #include <fstream>
-#include <limits>
-#include <map>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "flbc/cage.h"
-#include "flbc/domain_mesh.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

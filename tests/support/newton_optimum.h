@@ -4,13 +4,8 @@
 //! shares neither method nor code with the solvers.
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <vector>
-
 #include "flbc/lbc_problem.h"
-#include "support/dense_algebra.h"
-#include "support/simplex.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

@@ -6,12 +6,9 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "flbc/types.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

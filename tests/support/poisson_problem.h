@@ -3,19 +3,11 @@
 //! Weights on points with edges, to be made sparse.
 #pragma once
 
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "flbc/bounding_box.h"
-#include "flbc/cage.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "support/feasible_vertices.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

@@ -3,11 +3,7 @@
 //! Small problems with optima that were found by other means (tests/data/references/README.md).
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "flbc/cage.h"
-#include "flbc/domain_mesh.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

@@ -3,12 +3,9 @@
 //! Real cages and their meshes, for tests of the solver.
 #pragma once
 
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "flbc/meshing.h"
 #include "support/model_cages.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 

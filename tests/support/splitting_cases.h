@@ -3,12 +3,8 @@
 //! Metrics, penalties and the textbook solver for tests of the splittings on the weights.
 #pragma once
 
-#include <cmath>
-#include <utility>
-
 #include "solver/methods/splitting/metric.h"
-#include "support/judge.h"
-#include "support/simplex.h"
+#include "support/test.h"
 #include "support/textbook_lbc2014.h"
 
 namespace flbc::testing {

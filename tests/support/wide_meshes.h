@@ -4,13 +4,12 @@
 //! tests that rows stay with their elements.
 #pragma once
 
-#include <vector>
-
-#include <gtest/gtest.h>
+#include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "flbc/openmesh/wide_property.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 
