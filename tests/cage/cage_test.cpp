@@ -162,12 +162,7 @@ TEST(Cage2Test, DirectionsOfEdgesAreFree) {
 }
 
 TEST(Cage2Test, CollinearControlPointsAreAllowed) {
-  Cage<2> cage;
-  cage.points.resize(2, 5);
-  cage.points << 0, 1, 2, 2, 0, 0, 0, 0, 1, 1;
-  cage.facets.resize(2, 5);
-  cage.facets << 0, 1, 2, 3, 4, 1, 2, 3, 4, 0;
-  EXPECT_TRUE(find_defects(cage).empty());
+  EXPECT_TRUE(find_defects(loop(PointList<2>{{0, 1, 2, 2, 0}, {0, 0, 0, 1, 1}})).empty());
 }
 
 TEST(Cage2Test, Branch) {
@@ -199,15 +194,9 @@ TEST(Cage3Test, DegenerateTriangle) {
 
 TEST(Cage3Test, NonManifoldEdge) {
   // Two tetrahedra with a common edge 0-1.
-  Cage<3> cage;
-  cage.points.resize(3, 6);
-  cage.points << 0, 0, 1, 1, -1, -1,  //
-      0, 0, 0, 1, 0, -1,              //
-      0, 1, 0, 0, 0, 0;
-  cage.facets.resize(3, 8);
-  cage.facets << 0, 0, 0, 1, 0, 0, 0, 1,  //
-      1, 2, 3, 3, 1, 4, 5, 5,             //
-      2, 3, 1, 2, 4, 5, 1, 4;
+  Cage<3> cage{
+      PointList<3>{{0, 0, 1, 1, -1, -1}, {0, 0, 0, 1, 0, -1}, {0, 1, 0, 0, 0, 0}},
+      FacetList<3>{{0, 0, 0, 1, 0, 0, 0, 1}, {1, 2, 3, 3, 1, 4, 5, 5}, {2, 3, 1, 2, 4, 5, 1, 4}}};
   EXPECT_TRUE(reports(find_defects(cage), {"non-manifold", "triangles 0, 2, 4 and 6"}, {0, 1}));
 }
 

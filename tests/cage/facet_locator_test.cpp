@@ -8,14 +8,7 @@ namespace {
 
 // A box with one more corner next to the last: in 3D two facets are needles of that width.
 Cage<2> box_with_short_edge(double width) {
-  Cage<2> cage;
-  cage.points.resize(2, 5);
-  cage.points << 0, 1, 1, 1 - width, 0,  //
-      0, 0, 1, 1, 1;
-  cage.facets.resize(2, 5);
-  cage.facets << 0, 1, 2, 3, 4,  //
-      1, 2, 3, 4, 0;
-  return cage;
+  return testing::loop(PointList<2>{{0, 1, 1, 1 - width, 0}, {0, 0, 1, 1, 1}});
 }
 
 Cage<3> box_with_needles(double width) {

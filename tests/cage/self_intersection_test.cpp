@@ -10,17 +10,6 @@ bool mentions(const Defect& defect, const std::string& text) {
   return defect.message.find(text) != std::string::npos;
 }
 
-// A loop through the points in order.
-Cage<2> loop(const PointList<2>& points) {
-  Cage<2> cage;
-  cage.points = points;
-  cage.facets.resize(2, points.cols());
-  for (Index i = 0; i < points.cols(); ++i) {
-    cage.facets.col(i) << i, (i + 1) % static_cast<Index>(points.cols());
-  }
-  return cage;
-}
-
 TEST_IN_2D_AND_3D(SelfIntersectionTest, SoundCagesHaveNone) {
   const Cage<Dim> box = box_cage<Dim>(1);
   EXPECT_TRUE(find_self_intersections(box).empty());
@@ -66,8 +55,7 @@ TEST_IN_2D_AND_3D(SelfIntersectionTest, CornerOnAFacetTouches) {
 }
 
 TEST(SelfIntersection2Test, FigureOfEightNamesEdgesAndPlace) {
-  PointList<2> points(2, 4);
-  points << 0, 2, 2, 0, 0, 2, 0, 2;
+  PointList<2> points{{0, 2, 2, 0}, {0, 2, 0, 2}};
   const std::vector<Defect> defects = find_self_intersections(loop(points));
   ASSERT_EQ(defects.size(), 1u);
   EXPECT_EQ(defects[0].facets, (std::vector<Index>{0, 2}));
@@ -75,9 +63,7 @@ TEST(SelfIntersection2Test, FigureOfEightNamesEdgesAndPlace) {
 }
 
 TEST(SelfIntersection2Test, EdgeThatRunsBackAlongItsNeighbour) {
-  PointList<2> points(2, 5);
-  points << 0, 4, 2, 2, 0,  //
-      0, 0, 0, 3, 3;
+  PointList<2> points{{0, 4, 2, 2, 0}, {0, 0, 0, 3, 3}};
   const std::vector<Defect> defects = find_self_intersections(loop(points));
   ASSERT_FALSE(defects.empty());
   EXPECT_TRUE(mentions(defects[0], "control point 2 at (2, 0)"));

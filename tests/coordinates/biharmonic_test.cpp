@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/biharmonic.h"
 
-#include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"

@@ -3,7 +3,6 @@
 
 #include <Eigen/QR>
 
-#include "base/parallel.h"
 #include "flbc/deform.h"
 #include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"

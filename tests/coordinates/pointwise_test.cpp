@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/pointwise.h"
 
-#include "base/parallel.h"
 #include "coordinates/polygon_triangulation.h"
 #include "flbc/blended.h"
 #include "flbc/cage_facts.h"
@@ -25,25 +24,13 @@ std::vector<Method> non_negative_methods() {
 // A regular polygon, or the regular octahedron.
 template <int Dim>
 Cage<Dim> regular_cage() {
-  Cage<Dim> cage;
   if constexpr (Dim == 2) {
-    cage.points.resize(2, 7);
-    cage.facets.resize(2, 7);
-    for (Index k = 0; k < 7; ++k) {
-      cage.points.col(k) << std::cos(2 * kPi * k / 7), std::sin(2 * kPi * k / 7);
-      cage.facets.col(k) << k, (k + 1) % 7;
-    }
+    return regular_polygon(7);
   } else {
-    cage.points.resize(3, 6);
-    cage.points << 1, -1, 0, 0, 0, 0,  //
-        0, 0, 1, -1, 0, 0,             //
-        0, 0, 0, 0, 1, -1;
-    cage.facets.resize(3, 8);
-    cage.facets << 0, 2, 1, 3, 2, 1, 3, 0,  //
-        2, 1, 3, 0, 0, 2, 1, 3,             //
-        4, 4, 4, 4, 5, 5, 5, 5;
+    return {
+        PointList<3>{{1, -1, 0, 0, 0, 0}, {0, 0, 1, -1, 0, 0}, {0, 0, 0, 0, 1, -1}},
+        FacetList<3>{{0, 2, 1, 3, 2, 1, 3, 0}, {2, 1, 3, 0, 0, 2, 1, 3}, {4, 4, 4, 4, 5, 5, 5, 5}}};
   }
-  return cage;
 }
 
 TEST_IN_2D_AND_3D(PointwiseTest, NonNegativeAndReproduceInEveryCage) {
@@ -64,11 +51,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, NonNegativeAndReproduceInEveryCage) {
 TEST_IN_2D_AND_3D(PointwiseTest, AreBarycentricInASimplex) {
   const auto sample = make_sample<Dim>(Shape::kSimplex, 6);
   const auto points = centers(sample.mesh);
-  Eigen::Matrix<double, Dim + 1, Dim + 1> system;
-  system << sample.cage.points, Eigen::RowVectorXd::Ones(Dim + 1);
-  Eigen::MatrixXd right(Dim + 1, points.cols());
-  right << points, Eigen::RowVectorXd::Ones(points.cols());
-  const Eigen::MatrixXd expected = system.inverse() * right;
+  const auto expected = barycentric_coordinates<Dim>(sample.cage.points, points);
   for (const auto method : non_negative_methods<Dim>()) {
     const auto weights = pointwise_coordinates(sample.cage, points, method);
     EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-12);
@@ -223,16 +206,8 @@ TEST(PointwiseTest2D, LikelihoodByAnotherImplementation) {
 }
 
 TEST(PointwiseTest2D, BlendOfAQuadrilateralIsItsMeanValue) {
-  Cage<2> cage;
-  cage.points.resize(2, 4);
-  cage.points << 0, 3, 1, 0.2,  //
-      0, 0.3, 1, 2.5;           // concave at 2
-  cage.facets.resize(2, 4);
-  cage.facets << 0, 1, 2, 3,  //
-      1, 2, 3, 0;
-  PointList<2> points(2, 3);
-  points << 0.5, 1.5, 0.3,  //
-      0.5, 0.4, 1.8;
+  const auto cage = loop(PointList<2>{{0, 3, 1, 0.2}, {0, 0.3, 1, 2.5}});  // concave at 2
+  PointList<2> points{{0.5, 1.5, 0.3}, {0.5, 0.4, 1.8}};
   EXPECT_LT((blended_coordinates(cage, points) - mean_value_coordinates(cage, points))
                 .cwiseAbs()
                 .maxCoeff(),
@@ -344,10 +319,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, SameBitsForAnyNumberOfThreads) {
   const auto sample = make_sample<Dim>(Shape::kStar, 3);
   const auto points = centers(sample.mesh);
   for (const auto method : non_negative_methods<Dim>()) {
-    const ThreadScope one(1);
-    const auto alone = pointwise_coordinates(sample.cage, points, method);
-    const ThreadScope three(3);
-    EXPECT_EQ(pointwise_coordinates(sample.cage, points, method), alone);
+    expect_same_for_any_threads([&] { return pointwise_coordinates(sample.cage, points, method); });
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/recovery.h"
 #include "base/aligned_array.h"
-#include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "mesh/cell_geometry.h"
 #include "support/test.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/check.h"
 
-#include "base/parallel.h"
 #include "flbc/cage_facts.h"
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
@@ -297,10 +296,8 @@ TEST_IN_2D_AND_3D(CheckTest, JumpsOfGradientsAreThoseAcrossInteriorFacets) {
 
 // A square of two triangles, folded along its diagonal.
 TEST(Creases, AreChangesOfTheAngleBetweenFaces) {
-  PointList<3> rest(3, 4);
-  rest << 0, 1, 1, 0, /**/ 0, 0, 1, 1, /**/ 0, 0, 0, 0;
-  FacetList<3> triangles(3, 2);
-  triangles << 0, 0, 1, 2, 2, 3;
+  PointList<3> rest{{0, 1, 1, 0}, {0, 0, 1, 1}, {0, 0, 0, 0}};
+  FacetList<3> triangles{{0, 0}, {1, 2}, {2, 3}};
   EXPECT_NEAR(check_creases(rest, rest, triangles).largest, 0, 1e-12);
   for (const double height : {1.0, -1.0}) {
     PointList<3> posed = rest;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Dense>
 
-#include "base/parallel.h"
 #include "flbc/solver.h"
 #include "linear/multigrid.h"
 #include "linear/multigrid_cg.h"

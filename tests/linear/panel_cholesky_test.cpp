@@ -6,7 +6,6 @@
 #include <Eigen/SparseCholesky>
 #include <future>
 
-#include "base/parallel.h"
 #include "linear/sparse_factor.h"
 #include "problem/laplacian.h"
 #include "support/test.h"

@@ -2,7 +2,6 @@
 // Sparse matrices assembled by several threads equal those of the textbook, and are bit-identical
 // for any number of threads.
 #include "linear/row_matrix.h"
-#include "base/parallel.h"
 #include "linear/matrix_arrays.h"
 #include "support/test.h"
 

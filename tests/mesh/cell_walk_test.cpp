@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/cell_walk.h"
 
-#include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 #include "support/test.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/domain_mesh.h"
 
-#include "base/parallel.h"
 #include "support/test.h"
 
 namespace flbc::testing {

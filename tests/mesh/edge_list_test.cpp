@@ -98,9 +98,7 @@ TEST(EdgesOfPolygons, OfTrianglesAreThoseOfCells) {
 
 TEST(EdgesOfPolygons, QuadsAndLines) {
   // Two unit squares side by side, and a line of two pieces, the second of length 2.
-  PointList<2> points(2, 9);
-  points << 0, 1, 2, 0, 1, 2, 5, 6, 8,  //
-      0, 0, 0, 1, 1, 1, 0, 0, 0;
+  PointList<2> points{{0, 1, 2, 0, 1, 2, 5, 6, 8}, {0, 0, 0, 1, 1, 1, 0, 0, 0}};
   const auto edges = edges_of_polygons<2>(points, {{0, 1, 4, 3}, {1, 2, 5, 4}}, {{6, 7, 8}});
   ASSERT_EQ(edges.ends.size(), 7 + 2);
   for (std::size_t e = 0; e < edges.ends.size(); ++e) {

@@ -9,15 +9,8 @@ namespace {
 
 // A pyramid over the unit square 0 1 2 3 with apex 4; the cage's base is split along 0-2.
 Cage<3> pyramid() {
-  Cage<3> cage;
-  cage.points.resize(3, 5);
-  cage.points << 0, 1, 1, 0, 0.3,  //
-      0, 0, 1, 1, 0.4,             //
-      0, 0, 0, 0, 1;
-  cage.facets.resize(3, 6);
-  cage.facets << 0, 0, 0, 1, 2, 3,  //
-      2, 3, 1, 2, 3, 0,             //
-      1, 2, 4, 4, 4, 4;
+  Cage<3> cage{PointList<3>{{0, 1, 1, 0, 0.3}, {0, 0, 1, 1, 0.4}, {0, 0, 0, 0, 1}},
+               FacetList<3>{{0, 0, 0, 1, 2, 3}, {2, 3, 1, 2, 3, 0}, {1, 2, 4, 4, 4, 4}}};
   return cage;
 }
 
@@ -60,15 +53,8 @@ TEST(FlatPartsTest, FlatCellBetweenCrossingDiagonals) {
 
 // A control point in the middle of a flat side that belongs to a flat cell only.
 TEST(FlatPartsTest, ControlPointIsPutBack) {
-  Cage<3> cage;
-  cage.points.resize(3, 5);
-  cage.points << 0, 1, 0, 0.2, 0.25,  //
-      0, 0, 1, 0.3, 0.25,             //
-      0, 0, 0, 1, 0;
-  cage.facets.resize(3, 6);
-  cage.facets << 1, 2, 0, 0, 1, 2,  //
-      0, 1, 2, 1, 2, 0,             //
-      4, 4, 4, 3, 3, 3;
+  Cage<3> cage{PointList<3>{{0, 1, 0, 0.2, 0.25}, {0, 0, 1, 0.3, 0.25}, {0, 0, 0, 1, 0}},
+               FacetList<3>{{1, 2, 0, 0, 1, 2}, {0, 1, 2, 1, 2, 0}, {4, 4, 4, 3, 3, 3}}};
   DomainMesh<3> mesh;
   mesh.points = cage.points;
   mesh.cells.resize(4, 2);
@@ -82,15 +68,9 @@ TEST(FlatPartsTest, ControlPointIsPutBack) {
 
 TEST(FlatPartsTest, FlatCellInsideIsRefused) {
   // Two tetrahedra on either side of a flat cell 0 1 2 3 in the plane z = 0, as in a bipyramid.
-  Cage<3> cage;
-  cage.points.resize(3, 6);
-  cage.points << 0, 1, 1, 0, 0.5, 0.5,  //
-      0, 0, 1, 1, 0.5, 0.5,             //
-      0, 0, 0, 0, 1, -1;
-  cage.facets.resize(3, 8);
-  cage.facets << 0, 1, 2, 3, 1, 2, 3, 0,  //
-      1, 2, 3, 0, 0, 1, 2, 3,             //
-      4, 4, 4, 4, 5, 5, 5, 5;
+  Cage<3> cage{
+      PointList<3>{{0, 1, 1, 0, 0.5, 0.5}, {0, 0, 1, 1, 0.5, 0.5}, {0, 0, 0, 0, 1, -1}},
+      FacetList<3>{{0, 1, 2, 3, 1, 2, 3, 0}, {1, 2, 3, 0, 0, 1, 2, 3}, {4, 4, 4, 4, 5, 5, 5, 5}}};
   DomainMesh<3> mesh;
   mesh.points = cage.points;
   mesh.cells.resize(4, 5);

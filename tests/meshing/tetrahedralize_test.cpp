@@ -121,10 +121,9 @@ TEST(TetrahedralizeTest, AThinWallIsNamedWhereMeshingDoesNotEnd) {
 }
 
 TEST(TetrahedralizeTest, EmbeddedPointsFollowTheControlPoints) {
-  PointList<3> points(3, 4);
-  points << 0.1 + 0.2, -0.7, 0.123456789, -0.999,  //
-      0.75, 0.7, 0.987654321, 0.1,                 //
-      0.6, 0.1, 0.1, 0.33333;
+  PointList<3> points{{0.1 + 0.2, -0.7, 0.123456789, -0.999},
+                      {0.75, 0.7, 0.987654321, 0.1},
+                      {0.6, 0.1, 0.1, 0.33333}};
   const Cage<3> cage = join(box_cage<3>(1), box_cage<3>(0.5));
   for (Index count : {0, 3000}) {
     const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(count, points));

@@ -26,11 +26,7 @@ double smallest_angle_in_degrees(const DomainMesh<2>& mesh) {
 // A square of side 2 with a square hole of side 1, both loops in the directions given; the outer
 // one has a collinear control point on its lowest edge.
 Cage<2> square_with_hole(bool reverse_outer, bool reverse_hole) {
-  Cage<2> outer;
-  outer.points.resize(2, 5);
-  outer.points << -1, 0.3, 1, 1, -1, -1, -1, -1, 1, 1;
-  outer.facets.resize(2, 5);
-  outer.facets << 0, 1, 2, 3, 4, 1, 2, 3, 4, 0;
+  const auto outer = loop(PointList<2>{{-1, 0.3, 1, 1, -1}, {-1, -1, -1, 1, 1}});
   const Cage<2> hole = box_cage<2>(0.5);
   return join(reverse_outer ? reversed(outer) : outer, reverse_hole ? reversed(hole) : hole);
 }
@@ -93,9 +89,7 @@ TEST(TriangulateTest, DefectiveCagesAreRefused) {
 }
 
 TEST(TriangulateTest, EmbeddedPointsFollowTheControlPoints) {
-  PointList<2> points(2, 4);
-  points << 0.1, -0.7, 0.123456789, -0.9999,  //
-      -0.75, 0.7, 0.987654321, 0.1 + 0.2;
+  PointList<2> points{{0.1, -0.7, 0.123456789, -0.9999}, {-0.75, 0.7, 0.987654321, 0.1 + 0.2}};
   const Cage<2> cage = square_with_hole(false, true);
   for (Index count : {0, 2000}) {
     const DomainMesh<2> mesh = triangulate(cage, vertices<2>(count, points));

@@ -10,26 +10,12 @@
 namespace flbc::testing {
 namespace {
 
-// A star, so that 32 control points are the corners of a cage.
-Cage<2> star() {
-  constexpr int kCorners = 32;
-  Cage<2> cage;
-  cage.points.resize(2, kCorners);
-  cage.facets.resize(2, kCorners);
-  for (int k = 0; k < kCorners; ++k) {
-    const double angle = 2 * M_PI * k / kCorners, radius = k % 2 == 0 ? 1 : 0.6;
-    cage.points.col(k) << radius * std::cos(angle), radius * std::sin(angle);
-    cage.facets.col(k) << k, (k + 1) % kCorners;
-  }
-  return cage;
-}
-
 double mean_squared_difference(const WeightMatrix& a, const WeightMatrix& b) {
   return (a - b).array().square().mean();
 }
 
 TEST(CoarseStart, IsTakenInThePlaneWhereItPays) {
-  const auto cage = star();
+  const auto cage = regular_polygon(32, 0.6);
   const auto domain = triangulate(cage, {9000});
   auto mesh = openmesh::to_mesh<DoubleTri>(domain);
   const auto report = openmesh::solve(mesh, cage);
@@ -88,7 +74,7 @@ void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>&
 }
 
 TEST(CoarseStart, SolvesAsOnArrays) {
-  const auto cage = star();
+  const auto cage = regular_polygon(32, 0.6);
   expect_solve_of_cage_and_mesh(cage, triangulate(cage, {9000}));
   const auto sample = make_sample<3>(Shape::kCorner, 12, 0.1);
   ASSERT_GE(sample.mesh.num_vertices(), 3000);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/bounded_distances.h"
 
-#include "base/parallel.h"
 #include "flbc/lbc_problem.h"
 #include "support/test.h"
 
@@ -78,11 +77,7 @@ TEST_IN_2D_AND_3D(BoundedDistancesTest, AreAllThereIfAllAreNeeded) {
 
 TEST_IN_2D_AND_3D(BoundedDistancesTest, AreTheSameForAnyNumberOfThreads) {
   BoundedDistancesTest<Dim> t;
-  const auto with = [&](int threads) {
-    const ThreadScope scope(threads);
-    return t.bounded(t.within(0.3)).distances;
-  };
-  EXPECT_EQ(with(1), with(5));
+  expect_same_for_any_threads([&] { return t.bounded(t.within(0.3)).distances; });
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/constants.h"
 
-#include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
 #include "flbc/published_penalty.h"

@@ -11,14 +11,7 @@ namespace {
 
 // Cages on which weights are nearly undetermined: every function is a little of all.
 Cage<2> round_cage(std::integral_constant<int, 2>) {
-  constexpr int kCorners = 40;
-  Cage<2> cage{PointList<2>(2, kCorners), FacetList<2>(2, kCorners)};
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * std::acos(-1.0) * i / kCorners;
-    cage.points.col(i) << std::cos(angle), std::sin(angle);
-    cage.facets.col(i) << i, (i + 1) % kCorners;
-  }
-  return cage;
+  return regular_polygon(40);
 }
 
 // A globe of 7 parallels and 10 meridians.

@@ -2,7 +2,6 @@
 // The compact iteration against the textbook one, iterate by iterate.
 #include "solver/methods/gradient/gradient_admm.h"
 
-#include "base/parallel.h"
 #include "flbc/harmonic.h"
 #include "flbc/recovery.h"
 #include "support/hollow_sample.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparsify.h"
 
-#include "base/parallel.h"
 #include "flbc/io/weights_triplets.h"
 #include "flbc/non_negative.h"
 #include "flbc/poses.h"

@@ -3,6 +3,8 @@
 //! Cages made in code, the same way in 2D and 3D.
 #pragma once
 
+#include <cmath>
+
 #include "flbc/cage.h"
 
 namespace flbc::testing {
@@ -35,6 +37,25 @@ Cage<Dim> box_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
 template <int Dim>
 Cage<Dim> box_cage(double half) {
   return box_cage<Dim>(Vector<Dim>::Constant(-half), Vector<Dim>::Constant(half));
+}
+
+//! A closed loop through the points in order.
+inline Cage<2> loop(const PointList<2>& points) {
+  Cage<2> cage{points, FacetList<2>(2, points.cols())};
+  const auto n = static_cast<Index>(points.cols());
+  for (Index i = 0; i < n; ++i) cage.facets.col(i) << i, (i + 1) % n;
+  return cage;
+}
+
+//! On the unit circle; every second corner at another radius.
+inline Cage<2> regular_polygon(Index corners, double second_radius = 1) {
+  PointList<2> points(2, corners);
+  for (Index i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / corners;
+    points.col(i) << std::cos(angle), std::sin(angle);
+    if (i % 2 == 1) points.col(i) *= second_radius;
+  }
+  return loop(points);
 }
 
 //! Both cages in one: an inner one becomes a hole or cavity, its orientation does not matter.

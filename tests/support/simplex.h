@@ -49,6 +49,16 @@ double signed_simplex_measure(const PointList<Dim>& corners) {
   return determinant(edges) / std::tgamma(Dim + 1.0);
 }
 
+//! Barycentric coordinates of points in a simplex of full dimension, a column per point.
+template <int Dim>
+Eigen::MatrixXd barycentric_coordinates(const PointList<Dim>& corners,
+                                        const PointList<Dim>& points) {
+  Eigen::MatrixXd system(Dim + 1, Dim + 1), right(Dim + 1, points.cols());
+  system << corners, Eigen::RowVectorXd::Ones(Dim + 1);
+  right << points, Eigen::RowVectorXd::Ones(points.cols());
+  return solve_square(system, right);
+}
+
 //! Gradients of linear functions on a simplex of any dimension, tangential to it (least norm).
 //! \param values  n x #corners, a function per row \return Dim x n
 template <int Dim>

@@ -40,3 +40,4 @@
 #include "support/judge.h"
 #include "support/sample_meshes.h"
 #include "support/simplex.h"
+#include "support/threads.h"
