@@ -6,6 +6,7 @@
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/start/transfer.h"
+#include "support/coarse_sample_mesher.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -133,12 +134,7 @@ CoarseMesher<Dim> sample_mesher(Shape shape) {
     for (Index k = 1; sample.mesh.num_vertices() < vertices; ++k) {
       sample = make_sample<Dim>(shape, k, 0.2);
     }
-    // Where and as large as the cage given, whose first points are a frame.
-    const double scale =
-        bounding_box_diagonal(cage.points) / bounding_box_diagonal(sample.cage.points);
-    const Vector<Dim> shift = cage.points.col(0) - scale * sample.cage.points.col(0);
-    sample.mesh.points = (scale * sample.mesh.points).colwise() + shift;
-    return sample.mesh;
+    return mesh_in(cage, sample);
   };
 }
 

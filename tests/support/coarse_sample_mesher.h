@@ -9,16 +9,19 @@
 
 namespace flbc::testing {
 
-//! The sample's shape with fewer cells, where and as large as the cage given.
+//! The mesh of a sample where and as large as a cage of the same shape.
+template <int Dim>
+DomainMesh<Dim> mesh_in(const Cage<Dim>& cage, const Sample<Dim>& sample) {
+  const double scale =
+      bounding_box_diagonal(cage.points) / bounding_box_diagonal(sample.cage.points);
+  const Vector<Dim> shift = cage.points.col(0) - scale * sample.cage.points.col(0);
+  return {(scale * sample.mesh.points).colwise() + shift, sample.mesh.cells};
+}
+
 template <int Dim>
 CoarseMesher<Dim> coarse_sample_mesher(Index resolution, Shape shape = Shape::kCorner) {
   return [resolution, shape](const Cage<Dim>& cage, Index) {
-    auto sample = make_sample<Dim>(shape, resolution, 0.2);
-    const double scale =
-        bounding_box_diagonal(cage.points) / bounding_box_diagonal(sample.cage.points);
-    const Vector<Dim> shift = cage.points.col(0) - scale * sample.cage.points.col(0);
-    sample.mesh.points = (scale * sample.mesh.points).colwise() + shift;
-    return sample.mesh;
+    return mesh_in(cage, make_sample<Dim>(shape, resolution, 0.2));
   };
 }
 

@@ -23,15 +23,9 @@ Sample<Dim> make_hollow_sample() {
   sample.mesh.points = box.mesh.points;
   sample.mesh.cells = box.mesh.cells(Eigen::all, kept);
 
-  // The hole is the same box at a fifth of the size, with its facets turned round.
-  const Index n = box.cage.size();
-  sample.cage.points.resize(Dim, 2 * n);
-  sample.cage.points << box.cage.points, (box.cage.points.array() * 0.2 + 0.2).matrix();
-  sample.cage.facets.resize(Dim, 2 * box.cage.facets.cols());
-  sample.cage.facets << box.cage.facets, (box.cage.facets.array() + n).matrix();
-  for (auto f = box.cage.facets.cols(); f < sample.cage.facets.cols(); ++f) {
-    std::swap(sample.cage.facets(0, f), sample.cage.facets(1, f));
-  }
+  auto hole = reversed(box.cage);
+  hole.points = (0.2 * hole.points).array() + 0.2;
+  sample.cage = join(box.cage, hole);
   const auto shear = [](PointList<Dim>& points) {
     points.row(0) += 0.3 * points.row(1);
     points.row(Dim - 1) -= 0.15 * points.row(0);

@@ -29,37 +29,6 @@ void orient(DomainMesh<Dim>& mesh) {
   }
 }
 
-// Boundary facets with the orientation that positive cells induce, which points outward. Vertices
-// inside drop out.
-template <int Dim>
-Cage<Dim> boundary_of(const DomainMesh<Dim>& mesh) {
-  const auto all_facets = cells_by_facet(mesh);
-  const auto interior = interior_vertices(mesh);
-  std::vector<Index> number(mesh.num_vertices(), -1);
-  Cage<Dim> cage;
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (interior[v]) continue;
-    number[v] = cage.size();
-    cage.points.conservativeResize(Dim, number[v] + 1);
-    cage.points.col(number[v]) = mesh.points.col(v);
-  }
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int opposite = 0; opposite <= Dim; ++opposite) {
-      std::array<Index, Dim> facet{};
-      for (int k = 0, slot = 0; k <= Dim; ++k) {
-        if (k != opposite) facet[slot++] = mesh.cells(k, s);
-      }
-      FacetKey<Dim> key = facet;
-      std::sort(key.begin(), key.end());
-      if (all_facets.at(key).size() > 1) continue;
-      if (opposite % 2 == 1) std::swap(facet[0], facet[1]);
-      cage.facets.conservativeResize(Dim, cage.facets.cols() + 1);
-      for (int k = 0; k < Dim; ++k) cage.facets(k, cage.facets.cols() - 1) = number[facet[k]];
-    }
-  }
-  return cage;
-}
-
 // The cells of a regularly subdivided simplex in barycentric lattice coordinates. The simplex
 // k >= x_1 >= .. >= x_Dim >= 0 is a union of lattice cubes' Kuhn cells: monotone paths from p to
 // p + (1, .., 1), a step along each axis in any order.
@@ -166,6 +135,35 @@ void move_interior_vertices(DomainMesh<Dim>& mesh, double jitter) {
 }  // namespace
 
 template <int Dim>
+Cage<Dim> boundary_of(const DomainMesh<Dim>& mesh) {
+  const auto all_facets = cells_by_facet(mesh);
+  const auto interior = interior_vertices(mesh);
+  std::vector<Index> number(mesh.num_vertices(), -1);
+  Cage<Dim> cage;
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    if (interior[v]) continue;
+    number[v] = cage.size();
+    cage.points.conservativeResize(Dim, number[v] + 1);
+    cage.points.col(number[v]) = mesh.points.col(v);
+  }
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    for (int opposite = 0; opposite <= Dim; ++opposite) {
+      std::array<Index, Dim> facet{};
+      for (int k = 0, slot = 0; k <= Dim; ++k) {
+        if (k != opposite) facet[slot++] = mesh.cells(k, s);
+      }
+      FacetKey<Dim> key = facet;
+      std::sort(key.begin(), key.end());
+      if (all_facets.at(key).size() > 1) continue;
+      if (opposite % 2 == 1) std::swap(facet[0], facet[1]);
+      cage.facets.conservativeResize(Dim, cage.facets.cols() + 1);
+      for (int k = 0; k < Dim; ++k) cage.facets(k, cage.facets.cols() - 1) = number[facet[k]];
+    }
+  }
+  return cage;
+}
+
+template <int Dim>
 Sample<Dim> make_sample(Shape shape, Index subdivisions, double jitter) {
   if (subdivisions < 1) throw std::invalid_argument("sample mesh: subdivisions below 1");
   auto coarse = coarse_mesh<Dim>(shape);
@@ -193,6 +191,7 @@ std::vector<Sample<Dim>> samples() {
 }
 
 #define FLBC_INSTANTIATE(Dim)                                  \
+  template Cage<Dim> boundary_of(const DomainMesh<Dim>&);      \
   template Sample<Dim> make_sample<Dim>(Shape, Index, double); \
   template std::vector<Sample<Dim>> samples<Dim>();
 FLBC_INSTANTIATE(2)

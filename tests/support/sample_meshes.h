@@ -22,6 +22,10 @@ struct Sample {
   std::string name;
 };
 
+//! The boundary of a mesh of positive cells as a cage, oriented outward.
+template <int Dim>
+Cage<Dim> boundary_of(const DomainMesh<Dim>& mesh);
+
 //! \param subdivisions  k >= 1: every coarse cell becomes k^Dim cells
 //! \param jitter  moves interior vertices by up to this part of the least height of their cells,
 //!     the same way on every machine; 0 leaves them in place
