@@ -168,13 +168,6 @@ TEST_IN_2D_AND_3D(CageFromModelTest, OffsetIsADistance) {
   EXPECT_LT(cage.points.maxCoeff(), 2.5);
 }
 
-TEST_IN_2D_AND_3D(CageFromModelTest, CagesCanBeMeshed) {
-  const auto cage = make(crossed_bars<Dim>(), {}).cage;
-  if constexpr (Dim == 2) {
-    EXPECT_GT(triangulate(cage, {500}).num_cells(), 0);
-  }
-}
-
 TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   const auto model = box_cage<Dim>(1);
   CagingOptions options;

@@ -84,27 +84,6 @@ TYPED_TEST(TetProperty, AssigningKeepsAndResizes) {
   }
 }
 
-template <class PropHandle>
-void expect_wide_rows_work() {
-  using Handle = typename PropHandle::Handle;
-  TetMesh mesh = TetMesh::from(box(2));
-  PropHandle handle;
-  mesh.add_property(handle, "rows");
-  mesh.property(handle).set_shape(3, 5);
-  const Handle last(static_cast<int>(mesh.n_elements<Handle>()) - 1);
-  mesh.property(handle, last)(2, 4) = 7;
-  mesh.assign(box(3));
-  ASSERT_EQ(mesh.property(handle).n_elements(), mesh.n_elements<Handle>());
-  EXPECT_EQ(mesh.property(handle, last)(2, 4), 7);
-  EXPECT_EQ(mesh.property(handle, Handle(last.idx() + 1))(2, 4), 0);
-}
-
-TEST(TetProperties, WideRows) {
-  expect_wide_rows_work<VPropHandleT<Wide<double>>>();
-  expect_wide_rows_work<FPropHandleT<Wide<double>>>();
-  expect_wide_rows_work<CPropHandleT<Wide<float>>>();
-}
-
 TEST(TetProperties, OfTheMesh) {
   TetMesh mesh;
   MPropHandleT<std::string> handle;

@@ -228,20 +228,6 @@ TYPED_TEST(WideProperty, WorksThroughPropertyManagers) {
   EXPECT_TRUE(is_filled(std::as_const(mesh).property(of_mesh.getRawProperty()), 11, 2, 5));
 }
 
-TYPED_TEST(WideProperty, TellsSizesAndShowsInTheStatistics) {
-  const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "my rows", 2, 9);
-  const auto& rows = this->mesh_.property(handle);
-  const std::size_t numbers = rows.n_elements() * 2 * 9 * sizeof(typename TypeParam::Scalar);
-  EXPECT_GE(rows.size_of(), numbers);
-  EXPECT_LE(rows.size_of(), numbers + 100);
-  const std::size_t unknown = OpenMesh::BaseProperty::UnknownSize;
-  EXPECT_EQ(rows.size_of(5), unknown);
-  EXPECT_EQ(rows.element_size(), unknown);
-  std::ostringstream text;
-  this->mesh_.property_stats(text);
-  EXPECT_NE(text.str().find("my rows"), std::string::npos);
-}
-
 TYPED_TEST(WideProperty, IsNotMistakenForAPropertyOfAnotherType) {
   using Scalar = typename TypeParam::Scalar;
   using Other = std::conditional_t<std::is_same_v<Scalar, float>, double, float>;

@@ -59,38 +59,6 @@ TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
   }
 }
 
-// It ends by the error of its weights: about as near the optimum as requested, and without many
-// extra iterations.
-TEST_IN_2D_AND_3D(SolverTest, GradientEndsByTheErrorOfItsWeights) {
-  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
-    const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 5, 0.2);
-    SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    SolverOptions options;
-    options.non_negative = NonNegative::kOff;
-    options.precision = Precision::kDouble;
-    options.tolerance = 1e-14;
-    options.max_iterations = 5000;
-    const auto optimum = solve(problem, options).weights;
-    options = {};
-    options.method = Method::kGradient;
-    options.non_negative = NonNegative::kOff;
-    for (const double tolerance : {1e-4, 1e-5}) {
-      options.tolerance = tolerance;
-      for (const auto solver :
-           {LinearSolver::kDirect, LinearSolver::kMultigrid, LinearSolver::kNone}) {
-        SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(static_cast<int>(solver)));
-        options.linear_solver = solver;
-        const auto [weights, sparse, report] = solve(problem, options);
-        EXPECT_EQ(report.criterion, Criterion::kTolerance);
-        EXPECT_LT(mean_squared_difference(problem.mesh, weights, optimum), 3 * tolerance);
-        EXPECT_LE(report.primal_residual, 1);
-        EXPECT_EQ(report.dual_residual, 0);
-      }
-    }
-  }
-}
-
 // Without a global system it is the paper's iteration from the paper's start to its recovery, with
 // another penalty and relaxation.
 TEST_IN_2D_AND_3D(SolverTest, GradientWithoutALinearSolverIsThePapers) {
@@ -161,17 +129,6 @@ TEST_IN_2D_AND_3D(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
     EXPECT_LT(mean_squared_difference(sample.mesh, solution.weights, expected.weights), 1e-8);
     EXPECT_NEAR(solution.report.objective, expected.report.objective * std::pow(scale, Dim - 1),
                 1e-3 * solution.report.objective);
-  }
-}
-
-TEST_IN_2D_AND_3D(SolverTest, ThreadsDoNotChangeABit) {
-  const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
-  SolverOptions options;
-  options.threads = 1;
-  const auto one = solve(sample.cage, sample.mesh, options).weights;
-  for (const int threads : {2, 4}) {
-    options.threads = threads;
-    EXPECT_TRUE((solve(sample.cage, sample.mesh, options).weights.array() == one.array()).all());
   }
 }
 

@@ -57,18 +57,5 @@ TEST(ThreadChoiceTest, ThreadsReturnWhenTheMachineIsQuiet) {
   EXPECT_EQ(choice.threads(), 4);
 }
 
-TEST(ThreadChoiceTest, OneThreadStaysOne) {
-  ThreadChoice choice(1);
-  iterate(choice, kBusy, kSecond);
-  EXPECT_EQ(choice.threads(), 1);
-}
-
-TEST(ThreadChoiceTest, AThreadThatWorksHasACore) {
-  const double before = seconds_on_core();
-  volatile double sum = 0;
-  for (int k = 0; k < 1'000'000; ++k) sum = sum + k;
-  EXPECT_GT(seconds_on_core(), before);
-}
-
 }  // namespace
 }  // namespace flbc
