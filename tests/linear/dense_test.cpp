@@ -18,8 +18,8 @@ Eigen::MatrixXd columns_of(int rows, int cols) {
 }
 
 template <class Size>
-class Dense : public testing::Test {};
-using Sizes = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+class Dense : public ::testing::Test {};
+using Sizes = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Dense, Sizes);
 
 TYPED_TEST(Dense, SolvesSymmetricSystems) {
