@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc cage as its users see it.
-#include <png.h>
-
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "support/command_line.h"
+#include "support/png_image.h"
 
 namespace flbc::testing {
 namespace {
@@ -30,7 +28,7 @@ TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
     EXPECT_TRUE(report["fine"]) << name;
     EXPECT_LE(report["cage"]["control_points"], 40);
     EXPECT_EQ(report["model"]["outside"], 0);
-    expect("solve cage.obj --vertices 1500 --model " + model + " -o weights.npy -q");
+    expect("solve cage.obj --vertices 600 --model " + model + " -o weights.npy -q");
   }
 }
 
@@ -55,21 +53,9 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   const auto is_seen = [](int x, int y) {
     return (x - 25) * (x - 25) + (y - 35) * (y - 35) < 300 || (x == 55 && y == 3);
   };
-  const auto write = [&](const std::string& name, int format) {
-    const int channels = format == PNG_FORMAT_RGBA ? 4 : 3;
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = image.height = kSize;
-    image.format = static_cast<png_uint_32>(format);
-    std::vector<png_byte> bytes(kSize * kSize * channels, 0);
-    for (int pixel = 0; pixel < kSize * kSize; ++pixel) {
-      const int x = pixel % kSize, y = kSize - 1 - pixel / kSize;
-      if (channels == 4 && is_seen(x, y)) bytes[4 * pixel + 3] = 1;
-    }
-    EXPECT_NE(png_image_write_to_file(&image, name.c_str(), 0, bytes.data(), 0, nullptr), 0);
-    return name;
-  };
-  expect("cage " + write("disc.png", PNG_FORMAT_RGBA) + " -q -o cage.obj", 0, "");
+  draw::write_png("disc.png", kSize, kSize,
+                  [&](int x, int y) { return is_seen(x, kSize - 1 - y) ? 1 : 0; });
+  expect("cage disc.png -q -o cage.obj", 0, "");
   std::string corners;
   for (int x = 0; x < kSize; ++x) {
     for (int y = 0; y < kSize; ++y) {
@@ -83,24 +69,14 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   EXPECT_TRUE(report["fine"]);
   EXPECT_EQ(report["model"]["outside"], 0);
   EXPECT_LT(report["cage"]["measure"], 0.7 * kSize * kSize);
-  expect("cage " + write("full.png", PNG_FORMAT_RGB) + " -o none.obj", 2,
-         "full.png: no pixel is transparent");
+  draw::write_png("full.png", kSize, kSize, [](int, int) { return 255; });
+  expect("cage full.png -o none.obj", 2, "full.png: no pixel is transparent");
   expect("cage " + file("no.png", "text") + " -o none.obj", 2, "no.png: ");
 }
 
 TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
-  constexpr png_uint_32 kSize = 1500;
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = image.height = kSize;
-  image.format = PNG_FORMAT_GA;
-  std::vector<png_byte> bytes(kSize * kSize * 2, 0);
-  for (std::size_t y = 0; y < kSize; ++y) {
-    for (std::size_t x = y % 2; x < kSize; x += 2) bytes[2 * (y * kSize + x) + 1] = 255;
-  }
-  const std::string noise = "noise.png";
-  ASSERT_NE(png_image_write_to_file(&image, noise.c_str(), 0, bytes.data(), 0, nullptr), 0);
-  expect("cage " + noise + " -o none.obj", 2,
+  draw::write_png("noise.png", 1500, 1500, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
+  expect("cage noise.png -o none.obj", 2,
          "noise.png: the silhouette has more than 4,000,000 pixel edges");
 }
 
@@ -160,7 +136,7 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {
     const auto model = name + "_model.obj";
     // Options may precede the model.
-    expect("run --auto-cage --control-points 30 " + model + " --vertices 1500 -o out", 0,
+    expect("run --auto-cage --control-points 30 " + model + " --vertices 600 -o out", 0,
            "cage.obj");
     const auto report = nlohmann::json::parse(slurp("out/report.json"));
     double sum = 0;
@@ -175,11 +151,11 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
   }
   const std::string model = "2d/figure_model.obj";
   const auto symmetric = model + " -q --symmetric x -o ";
-  expect("run --auto-cage --vertices 1500 --force " + symmetric + "out", 0, "");
+  expect("run --auto-cage --vertices 600 --force " + symmetric + "out", 0, "");
   expect("cage " + symmetric + "cage.obj", 0, "");
   EXPECT_EQ(slurp("out/cage.obj"), slurp("cage.obj"));
   const auto into = [&](const std::string& folder) { return " -q -o " + folder; };
-  expect("run " + model + " --auto-cage --vertices 1500" + into("plain"), 0, "");
+  expect("run " + model + " --auto-cage --vertices 600" + into("plain"), 0, "");
   expect("run " + model + " --auto-cage --control-points two" + into("none"), 1,
          "--control-points");
   expect("run " + model + " --control-points 30" + into("none"), 1, "requires --auto-cage");

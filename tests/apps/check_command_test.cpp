@@ -135,20 +135,6 @@ TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   EXPECT_LT(taken.count(), 20);  // meshers take minutes
 }
 
-TEST_F(CheckCommand, RepairIsAdvisedWhereItHelps) {
-  const auto solve = [&](const std::string& content) {
-    return run("solve " + file("bad.obj", content) + " -o w.npy").errors;
-  };
-  const auto huge = solve("v 0 0\nv 1e31 0\nv 0 1e31\n");
-  EXPECT_NE(huge.find("use another unit of length"), std::string::npos) << huge;
-  EXPECT_EQ(huge.find("--repair"), std::string::npos) << huge;
-  const auto far = solve("v 1e12 1e12\nv 1000000000001 1e12\nv 1e12 1000000000001\n");
-  EXPECT_NE(far.find("move it to the origin"), std::string::npos) << far;
-  EXPECT_EQ(far.find("--repair"), std::string::npos) << far;
-  const auto unwelded = solve("v 0 0\nv 1 0\nv 1 1\nv 1 1\nv 0 1\n");
-  EXPECT_NE(unwelded.find("--repair"), std::string::npos) << unwelded;
-}
-
 // Smoothness trades locality for smaller jumps of gradients, and weaker creases of a pose.
 TEST_F(CheckCommand, SmoothnessShowsInJumpsAndCreases) {
   const std::string cage = "3d/limb_cage.obj";

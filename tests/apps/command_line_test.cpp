@@ -16,26 +16,13 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
 #include "support/command_line.h"
-#include "support/model_cages.h"
 
 namespace flbc::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-class CommandLine : public CommandLineTest {
- protected:
-  // Expects exit status and words in the one message, and that no file is left behind.
-  void expect_failure(const std::string& arguments, int status, const std::string& words) const {
-    SCOPED_TRACE(arguments);
-    const auto before = std::distance(fs::directory_iterator("."), fs::directory_iterator());
-    const auto result = run(arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_EQ(result.output, "");
-    EXPECT_EQ(std::distance(fs::directory_iterator("."), fs::directory_iterator()), before);
-  }
-};
+using CommandLine = CommandLineTest;
 
 class SolveSamples : public CommandLineTest, public ::testing::WithParamInterface<const char*> {
  protected:
@@ -99,7 +86,7 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   const std::string cage = "2d/letter_cage.obj";
   expect("solve " + cage + " -o w.npy --vertices 500 --method harmonic -q --save-domain d.obj");
   const std::string draw = "draw d.obj --weights w.npy -o p.png --cage ";
-  expect_failure(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
+  expect_refused(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
   // Of two kinds of weights, both functions and their difference.
   expect("solve " + cage + " --domain d.obj -q --method meanvalue -o m.npy");
   expect(draw + cage + " --compare m.npy");
@@ -107,21 +94,21 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   expect(draw + cage + " --compare w.npy");
   EXPECT_NE(slurp("p.png"), three);
   fs::remove("p.png");
-  expect_failure(draw + cage + " --all --compare m.npy", 1, "cannot be combined");
-  expect_failure(draw + "2d/ring_cage.obj", 2, "has weights for 24 control points, but");
+  expect_refused(draw + cage + " --all --compare m.npy", 1, "cannot be combined");
+  expect_refused(draw + "2d/ring_cage.obj", 2, "has weights for 24 control points, but");
 }
 
 TEST_F(CommandLine, ComparesFunctionsIn3D) {
   const std::string cage = "3d/torus_cage.obj";
-  const auto solve = "solve " + cage + " -q --vertices 500 --save-domain d.mesh";
+  const auto solve = "solve " + cage + " -q --vertices 300 --save-domain d.mesh";
   expect(solve + " --method harmonic -o w.npy");
   expect("solve " + cage + " --domain d.mesh -q --method meanvalue -o m.npy");
-  const auto draw = "draw --model d.mesh --cage " + cage + " --weights w.npy -o p.svg";
+  const auto draw = "draw --model d.mesh --cage " + cage + " --weights w.npy --width 300 -o p.svg";
   expect(draw + " --compare w.npy");
   const auto same = slurp("p.svg");
   expect(draw + " --compare m.npy");
   EXPECT_NE(slurp("p.svg"), same);
-  expect_failure("draw d.mesh --cage " + cage + " --weights w.npy -o q.svg --compare m.npy", 1,
+  expect_refused("draw d.mesh --cage " + cage + " --weights w.npy -o q.svg --compare m.npy", 1,
                  "--compare in 3D needs --model");
 }
 
@@ -161,7 +148,7 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
 TEST_F(CommandLine, TooFewVerticesBecomeMore) {
   expect("mesh 2d/letter_cage.obj --vertices 3 -o d.obj", 0, "instead of 3 (--vertices)");
   EXPECT_GT(io::read_domain<2>("d.obj").num_vertices(), 3);
-  expect_failure("mesh 2d/letter_cage.obj --vertices 2000000000 -o e.obj", 1, "too many");
+  expect_refused("mesh 2d/letter_cage.obj --vertices 2000000000 -o e.obj", 1, "too many");
 }
 
 TEST_F(CommandLine, ALostOutputIsAFailure) {
@@ -226,8 +213,8 @@ TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
   const auto command =
-      "ulimit -v 400000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
-      " run 3d/limb_cage.obj -o out --vertices 40000 --mesher tetgen -q >/dev/null 2>errors.txt";
+      "ulimit -v 120000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
+      " run 3d/limb_cage.obj -o out --vertices 8000 --mesher tetgen -q >/dev/null 2>errors.txt";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
   EXPECT_NE(slurp("errors.txt").find("out of memory"), std::string::npos);
   EXPECT_NE(slurp("out/report.json").find("\"failed\": \"out of memory\""), std::string::npos);
@@ -237,30 +224,30 @@ TEST_F(CommandLine, OutOfMemoryIsStatus5) {
 TEST_F(CommandLine, WrongUsageIsStatus1) {
   const std::string cage = "2d/letter_cage.obj";
   const std::string o = " -o w.npy";
-  expect_failure("", 1, "subcommand");
-  expect_failure("solve", 1, "CAGE");
-  expect_failure("solve " + cage, 1, "--output");
-  expect_failure("fly " + cage, 1, "fly");
-  expect_failure("slove " + cage, 1, "did you mean solve?");
-  expect_failure("solve " + cage, 1, "flbc solve: --output is required");
-  expect_failure("solve " + cage + o + " --vertices -5", 1, "--vertices");
-  expect_failure("solve " + cage + o + " --method magic", 1,
+  expect_refused("", 1, "subcommand");
+  expect_refused("solve", 1, "CAGE");
+  expect_refused("solve " + cage, 1, "--output");
+  expect_refused("fly " + cage, 1, "fly");
+  expect_refused("slove " + cage, 1, "did you mean solve?");
+  expect_refused("solve " + cage, 1, "flbc solve: --output is required");
+  expect_refused("solve " + cage + o + " --vertices -5", 1, "--vertices");
+  expect_refused("solve " + cage + o + " --method magic", 1,
                  "invalid value 'magic'; choose from auto|");
-  expect_failure("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
-  expect_failure("solve " + cage + o + " --tolerance nan", 1, "tolerance");
-  expect_failure("solve " + cage + o + " --threads -1", 1, "threads must be in");
-  expect_failure("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
-  expect_failure("solve " + cage + o + " --embed", 1, "--model");
-  expect_failure("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_failure("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv, .mat or .lbw");
-  expect_failure("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
-  expect_failure("solve cage.xyz" + o, 1, "cage.xyz");
+  expect_refused("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
+  expect_refused("solve " + cage + o + " --tolerance nan", 1, "tolerance");
+  expect_refused("solve " + cage + o + " --threads -1", 1, "threads must be in");
+  expect_refused("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
+  expect_refused("solve " + cage + o + " --embed", 1, "--model");
+  expect_refused("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
+  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv, .mat or .lbw");
+  expect_refused("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
+  expect_refused("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
-    expect_failure("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
+    expect_refused("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
   }
-  expect_failure("mesh " + cage + " -o d.obj --vertices 2000000000", 1, "too many; at most");
-  expect_failure("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
-  expect_failure("mesh '' -o d.obj", 1, "CAGE: the value is empty");
+  expect_refused("mesh " + cage + " -o d.obj --vertices 2000000000", 1, "too many; at most");
+  expect_refused("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
+  expect_refused("mesh '' -o d.obj", 1, "CAGE: the value is empty");
 }
 
 TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
@@ -272,22 +259,22 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
           "--precision single", "--max-iterations 9", "--distances exact", "--coarse-to-fine off",
           "--linear-solver direct", "--active off"}) {
       const auto name = option.substr(0, option.find(' '));
-      expect_failure(solve + "--method " + method + ' ' + option, 1,
+      expect_refused(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");
     }
   }
   for (const std::string method : {"gradient", "paper", "lbc2014"}) {
     for (const std::string option : {"--active", "--coarse-to-fine"}) {
-      expect_failure(solve + "--method " + method + ' ' + option + " off", 1,
+      expect_refused(solve + "--method " + method + ' ' + option + " off", 1,
                      option + ": the method " + method + " does not use it");
     }
   }
-  expect_failure(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
-  expect_failure(solve + "--outside nearest", 1, "--outside: no model is given");
-  expect_failure("run " + cage + " --method harmonic --tolerance 1 -q -o out", 1,
+  expect_refused(solve + "--recovery least-squares", 1, "--recovery: the method auto does not");
+  expect_refused(solve + "--outside nearest", 1, "--outside: no model is given");
+  expect_refused("run " + cage + " --method harmonic --tolerance 1 -q -o out", 1,
                  "--tolerance: the method harmonic");
   expect("mesh " + cage + " --vertices 300 -q -o d.obj");
-  expect_failure("solve " + cage + " --domain d.obj --mesher cgal -q -o w.npy", 1,
+  expect_refused("solve " + cage + " --domain d.obj --mesher cgal -q -o w.npy", 1,
                  "--mesher: --domain gives the mesh");
 }
 
@@ -296,10 +283,10 @@ TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {
   const auto cage = file("cage.obj", content);
   file("w.npy", "old");
   fs::create_hard_link("w.npy", "w.json");
-  expect_failure("mesh " + cage + " -o ./cage.obj", 1, "would replace this input file");
-  expect_failure("solve " + cage + " -o x.npy --save-domain " + cage, 1,
+  expect_refused("mesh " + cage + " -o ./cage.obj", 1, "would replace this input file");
+  expect_refused("solve " + cage + " -o x.npy --save-domain " + cage, 1,
                  "would replace this input file");
-  expect_failure("solve " + cage + " -o w.npy --report w.json", 1, "two results");
+  expect_refused("solve " + cage + " -o w.npy --report w.json", 1, "two results");
   EXPECT_EQ(slurp(cage), content);
   EXPECT_EQ(slurp("w.npy"), "old");
 }
@@ -311,18 +298,18 @@ TEST_F(CommandLine, ReportsAreValidWhateverTheFilesAreCalled) {
 }
 
 TEST_F(CommandLine, IoFailureIsStatus4) {
-  expect_failure("solve missing.obj -o w.npy", 4, "missing.obj");
-  expect_failure("solve 2d/letter_cage.obj -o no/folder/w.npy", 4, "w.npy");
-  expect_failure("solve 2d/letter_cage.obj -o w.npy --report no/r.json", 4, "r.json");
-  expect_failure("solve 2d/letter_cage.obj -o w.npy --domain no.obj", 4, "no.obj");
-  expect_failure("solve " + std::string(FLBC_MESHES_DIR) + "/2d -o w.npy", 1, "2d");
+  expect_refused("solve missing.obj -o w.npy", 4, "missing.obj");
+  expect_refused("solve 2d/letter_cage.obj -o no/folder/w.npy", 4, "w.npy");
+  expect_refused("solve 2d/letter_cage.obj -o w.npy --report no/r.json", 4, "r.json");
+  expect_refused("solve 2d/letter_cage.obj -o w.npy --domain no.obj", 4, "no.obj");
+  expect_refused("solve " + std::string(FLBC_MESHES_DIR) + "/2d -o w.npy", 1, "2d");
 }
 
 TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   const auto refused = [&](const std::string& content, const std::string& words) {
     const auto cage = file("bad.obj", content);
-    expect_failure("solve " + cage + " -o w.npy", 2, words);
-    expect_failure("solve " + cage + " -o w.npy", 2, "bad.obj");
+    expect_refused("solve " + cage + " -o w.npy", 2, words);
+    expect_refused("solve " + cage + " -o w.npy", 2, "bad.obj");
   };
   refused("", "without a vertex");
   refused("v 0 0 0\nv 1", "bad.obj:2");
@@ -340,22 +327,6 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
       "open");
-}
-
-TEST_F(CommandLine, RealDefectiveCagesAreStatus2) {
-  if (!has_model("defective/unwelded_cage.obj")) GTEST_SKIP() << "the real models are absent";
-  for (const std::string name :
-       {"unwelded_cage", "non_manifold_cage", "self_intersecting_cage",
-        "genus1_self_intersecting_cage", "inconsistent_orientation_cage"}) {
-    const auto cage = model_path("defective/" + name + ".obj");
-    expect_failure("solve " + cage + " -o w.npy", 2, name + ".obj: ");
-    expect_failure("mesh " + cage + " -o d.mesh", 2, name + ".obj: ");
-  }
-  const auto solve = "solve " + model_path("defective/half_outside_cage.obj") +
-                     " -o w.npy --vertices 500 --model " +
-                     model_path("defective/half_outside_model.obj");
-  expect_failure(solve, 2, "half_outside_model.obj: 209 of 386 vertices are outside the cage");
-  expect_failure(solve + " --embed", 2, "half_outside_model.obj");
 }
 
 // Lists of points are models, and functions are fields of a mesh.

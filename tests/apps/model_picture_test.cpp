@@ -131,10 +131,7 @@ class DrawModel : public testing::CommandLineTest {
     std::filesystem::remove("p.png");
   }
   void expect_failure(const std::string& arguments, int status, const std::string& words) const {
-    const auto result = run("draw " + arguments + " -o p.png");
-    EXPECT_EQ(result.status, status) << arguments;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
-    EXPECT_FALSE(std::filesystem::exists("p.png"));
+    expect_refused("draw " + arguments + " -o p.png", status, words);
   }
 };
 

@@ -30,7 +30,7 @@ class OutsideCommand : public CommandLineTest {
 };
 
 TEST_F(OutsideCommand, AHairHasOneAnswer) {
-  for (const std::string distance : {"0.000000001", "0.00000001", "0.0000001", "0.000001"}) {
+  for (const std::string distance : {"0.000000001", "0.000001"}) {
     SCOPED_TRACE(distance);
     const auto of = model(distance);
     EXPECT_NE(run("check " + square() + " --model " + of).output.find("none outside"),

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cages of several parts in one file: every command takes them, and each part is as if alone.
-#include <png.h>
-
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <type_traits>
@@ -12,6 +10,7 @@
 #include "flbc/io/weights_io.h"
 #include "support/code_cages.h"
 #include "support/command_line.h"
+#include "support/png_image.h"
 
 namespace flbc::testing {
 namespace {
@@ -34,7 +33,7 @@ class PartsCommand : public CommandLineTest {
  protected:
   static constexpr int kDim = Dimension::value;
   // Of the whole, of the small and of the large part, by area or volume.
-  static constexpr int kVertices = kDim == 2 ? 1000 : 1800;
+  static constexpr int kVertices = kDim == 2 ? 500 : 900;
   static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
   nlohmann::json report(const std::string& name) const {
@@ -199,26 +198,17 @@ TEST_F(PartsOfPicture, SilhouetteInPiecesRuns) {
     const double radius = std::hypot(x - cx, y - 45);
     return radius >= low && radius <= high;
   };
-  std::vector<png_byte> bytes(4 * kWidth * kHeight, 0);
-  for (int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
-    const int x = pixel % kWidth, y = pixel / kWidth;
+  const auto picture = draw::write_png("rings.png", kWidth, kHeight, [&](int x, int y) {
     const bool is_seen =
         within(x, y, 125, 0, 25) || within(x, y, 45, 28, 40) || within(x, y, 45, 0, 8);
-    bytes[4 * pixel + 3] = is_seen ? 255 : 0;
-  }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = kWidth;
-  image.height = kHeight;
-  image.format = PNG_FORMAT_RGBA;
-  const std::string picture = "rings.png";
-  ASSERT_NE(png_image_write_to_file(&image, picture.c_str(), 0, bytes.data(), 0, nullptr), 0);
+    return is_seen ? 255 : 0;
+  });
 
   const auto cage = expect("cage " + picture + " --offset 2 -o cage.obj");
   const auto check = nlohmann::json::parse(run("check cage.obj --json -").output);
   EXPECT_GE(check["cage"]["parts"], 2);
-  expect("solve cage.obj --vertices 2000 -o w.npy");
-  expect("run " + picture + " --auto-cage --vertices 2000 -o out");
+  expect("solve cage.obj --vertices 800 -o w.npy");
+  expect("run " + picture + " --auto-cage --vertices 800 -o out");
   const auto report = nlohmann::json::parse(slurp("out/report.json"));
   EXPECT_EQ(report["solve"]["parts"].size(), report["check"]["cage"]["parts"]);
   EXPECT_TRUE(report["check"]["fine"]);

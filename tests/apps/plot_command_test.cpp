@@ -14,7 +14,7 @@ class PlotCommand : public CommandLineTest {
   nlohmann::json solved(const std::string& name, const std::string& cage,
                         const std::string& options) const {
     const auto report = name + ".json";
-    expect("solve " + cage + " -q --vertices 800 -o w.npy --report " + report + " " + options);
+    expect("solve " + cage + " -q --vertices 400 -o w.npy --report " + report + " " + options);
     return nlohmann::json::parse(slurp(report));
   }
 };

@@ -75,7 +75,7 @@ class RunCommand : public CommandLineTest {
     const auto model = name + "_model.obj";
     const auto pose = name + "_cage_pose.obj";
     const auto result = run_into(
-        "out", cage + " " + model + " --pose " + pose + " -k 6 --tolerance 1e-4 --vertices 1500");
+        "out", cage + " " + model + " --pose " + pose + " -k 6 --tolerance 1e-4 --vertices 800");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{
@@ -89,7 +89,7 @@ class RunCommand : public CommandLineTest {
     const auto json = report("out");
     EXPECT_EQ(json["files"].get<Names>(), expected);
 
-    expect_same("solve " + cage + " --vertices 1500 --model " + model +
+    expect_same("solve " + cage + " --vertices 800 --model " + model +
                     " --tolerance 1e-4 --smoothness 0.003",
                 "w.npy", "out/weights.npy", " --save-domain " + domain);
     EXPECT_EQ(slurp(domain), slurp("out/" + domain));
@@ -146,7 +146,7 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
     const auto pose = name + "_cage_pose.obj";
     expect_run(
         "out",
-        name + "_cage.obj --vertices 1000 --method harmonic --non-negative project --pose " + pose,
+        name + "_cage.obj --vertices 500 --method harmonic --non-negative project --pose " + pose,
         0, "of which");
     const auto domain = "out/domain" + extension;
     EXPECT_EQ(names_in("out"),
@@ -166,7 +166,7 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   file("out/notes.txt", "mine");
   file("out/deformed_009.obj", "mine, too");
   const std::string common =
-      "2d/figure_cage.obj 2d/figure_model.obj --method harmonic --vertices 500 --reduction "
+      "2d/figure_cage.obj 2d/figure_model.obj --method harmonic --vertices 200 --reduction "
       "quadratic";
   expect_run("out", common + " --pose pose_%d.obj", 0, "3 poses; largest");
   auto names = names_in("out");
@@ -200,7 +200,7 @@ TEST_F(RunCommand, FilesOfOthersAreNotReplaced) {
   file("precious.txt", "mine");
   file("out/below.txt", "mine");
   const std::string common =
-      "2d/letter_cage.obj --method harmonic --vertices 500 --reduction quadratic";
+      "2d/letter_cage.obj --method harmonic --vertices 200 --reduction quadratic";
   for (const char* name : {"weights.npy", "model.glb", "report.json"}) {
     file(std::string("out/") + name, "mine");
     expect_run("out", common, 1,
@@ -233,7 +233,7 @@ TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
   EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
   EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
   EXPECT_EQ(report("out")["unfinished"], true);
-  expect("run 2d/letter_cage.obj -q -o out --method harmonic --vertices 500");
+  expect("run 2d/letter_cage.obj -q -o out --method harmonic --vertices 200");
   EXPECT_FALSE(report("out").contains("unfinished"));
 }
 
@@ -251,7 +251,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // A folder where a file should go.
   fs::create_directories("busy/model.glb/x");
   const std::string common =
-      "2d/letter_cage.obj 2d/letter_model.obj --method harmonic --vertices 500 "
+      "2d/letter_cage.obj 2d/letter_model.obj --method harmonic --vertices 200 "
       "--reduction quadratic";
   expect_run("busy", common + " --force", 4, "flbc: step export: ");
   EXPECT_EQ(names_in("busy"), (Names{"domain.obj", "weights.npy", "domain_weights.npy",
@@ -290,13 +290,13 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
   const auto model = io::read_polygons("3d/limb_model.obj");
   const auto splats = random_splats(io::to_points<3>(model, ""), 1);
   const auto splat_file = file("splats.ply", splats.text());
-  expect_run("out", splat_file + " --auto-cage --vertices 1500", 0, " --rest out/cage.obj");
+  expect_run("out", splat_file + " --auto-cage --vertices 800", 0, " --rest out/cage.obj");
   auto soup = io::read_polygons("out/cage.obj");
   Eigen::Matrix3d a;
   a << 0, -2, 0, 1, 0, 0.5, 0, 0, 1;
   for (auto& point : soup.points) point = a * point;
   io::write_model("pose.obj", {soup});
-  expect_run("posed", "out/cage.obj " + splat_file + " --vertices 1500 --pose pose.obj", 0,
+  expect_run("posed", "out/cage.obj " + splat_file + " --vertices 800 --pose pose.obj", 0,
              "deformed.ply");
   const auto moved = splats.parse(slurp("posed/deformed.ply"));
   for (Eigen::Index p = 0; p < moved.values.cols(); ++p) {
@@ -315,7 +315,7 @@ TEST_F(RunCommand, KeyframesOfTheArm) {
   if (!has_model("3d/arm_cageAnim.txt")) GTEST_SKIP() << "the real models are absent";
   expect_run("out",
              model_path("3d/arm_cage.obj") + " " + model_path("3d/arm.obj") +
-                 " --method harmonic --vertices 3000 --keyframes " +
+                 " --method harmonic --vertices 1000 --keyframes " +
                  model_path("3d/arm_cageAnim.txt"),
              0, "deformed_*.obj      3 poses; largest displacement 32");
   EXPECT_EQ(names_in("out").count("deformed_002.obj"), 1U);

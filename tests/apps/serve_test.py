@@ -149,7 +149,7 @@ def test_signals_end_the_program():
 
 
 def test_a_second_signal_does_not_wait():
-    with Served("3d/limb_cage.obj", 30000) as served:
+    with Served("3d/limb_cage.obj", 10000) as served:
         body = b'{"refine": true}'
         busy = [served.connect(served.request("reshape", "POST", f"Content-Length: {len(body)}\r\n") + body)
                 for _ in range(20)]

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using fuzz::Reader;
 using fuzz::Reading;
 
-constexpr int kDamages = 10000;
+constexpr int kDamages = 3000;
 
 // The content with one to four damages: a byte changed, a piece removed or repeated, the end lost.
 std::string damaged(std::string content, std::mt19937& random) {

@@ -73,6 +73,16 @@ class CommandLineTest : public ::testing::Test {
     return result;
   }
 
+  // Expects also that no file is left behind.
+  static void expect_refused(const std::string& arguments, int status, const std::string& words) {
+    const auto count_files = [] {
+      return std::distance(std::filesystem::directory_iterator("."), {});
+    };
+    const auto before = count_files();
+    expect(arguments, status, words);
+    EXPECT_EQ(count_files(), before) << arguments;
+  }
+
   // Harmonic coordinates of a sample at its model (w.npy) and on a mesh (v.npy, domain_file).
   static void solve(const std::string& name, const std::string& domain_file) {
     const auto command = "solve " + name + "_cage.obj --method harmonic -q -o ";

@@ -37,4 +37,21 @@ inline Image decode_png(const std::string& bytes) {
   return image;
 }
 
+//! Writes a black picture. \param alpha_of  opacity of the pixel (x, y), from 0 to 255, y downwards
+//! \return its name
+template <class Alpha>
+std::string write_png(const std::string& name, int width, int height, const Alpha& alpha_of) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_GA;
+  std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image), 0);
+  for (int y = 0, k = 1; y < height; ++y) {
+    for (int x = 0; x < width; ++x, k += 2) bytes[k] = static_cast<png_byte>(alpha_of(x, y));
+  }
+  EXPECT_NE(png_image_write_to_file(&image, name.c_str(), 0, bytes.data(), 0, nullptr), 0);
+  return name;
+}
+
 }  // namespace flbc::draw
