@@ -16,16 +16,16 @@ namespace flbc::testing {
 //! Data of the solver. The points are taken as they are, without scaling.
 template <int Dim>
 struct Lbc2014Input {
-  PointList<Dim> control_points;    //!< Dim x n
-  DomainMesh<Dim> mesh;             //!< V vertices, F cells
-  Eigen::MatrixXd phi;              //!< n x F
-  Eigen::MatrixXd initial_weights;  //!< n x V; boundary columns are kept
-  std::vector<Index> interior;      //!< vertices whose weights are sought, ascending
-  Eigen::VectorXd cell_metric;      //!< weight of |Z - grad w|^2 per cell, F
-  Eigen::VectorXd vertex_metric;    //!< weight of |W - w|^2 per vertex, V; empty: no W
-  double penalty = 1;               //!< mu > 0
-  double relaxation = 1;            //!< in (0, 2)
-  double smoothness = 0;            //!< epsilon >= 0, a length
+  PointList<Dim> control_points;     //!< Dim x n
+  DomainMesh<Dim> mesh;              //!< V vertices, F cells
+  Eigen::MatrixXd phi;               //!< n x F
+  Eigen::MatrixXd initial_weights;   //!< n x V; boundary columns are kept
+  std::vector<Index> interior;       //!< vertices whose weights are sought, ascending
+  Eigen::VectorXd cell_metric;       //!< weight of |Z - grad w|^2 per cell, F
+  Eigen::VectorXd vertex_metric;     //!< weight of |W - w|^2 per vertex, V; empty: no W
+  double penalty = 1;                //!< mu > 0
+  double relaxation = 1;             //!< in (0, 2)
+  double smoothness = 0;             //!< epsilon >= 0, a length
   Eigen::MatrixXd initial_z_dual{};  //!< scaled dual of Z, n x Dim F (a block per cell)
 };
 

@@ -47,8 +47,8 @@ bool active_set(const Sizes& sizes, const SolverOptions& options);
 //! Whether a certificate is wanted, which needs the duals of all pairs.
 bool proves(const SolverOptions& options);
 
-//! The gap that ends a run. By default, methods with an estimated error have one if the tolerance is
-//! not set. \param on_active_set  then there is none by default
+//! The gap that ends a run. By default, methods with an estimated error have one if the tolerance
+//! is not set. \param on_active_set  then there is none by default
 GapTarget gap_target(const SolverOptions& options, bool on_active_set);
 
 //! Whether an active set is small enough to be faster. \param density  of its pairs
