@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 if not all(map(shutil.which, ("blockMesh", "decomposePar", "moveDynamicMesh", "mpirun"))):
-    print("OpenFOAM or mpirun is not installed")
+    print("skipped: OpenFOAM or mpirun is missing")
     sys.exit(77)
 
 import numpy as np
