@@ -30,22 +30,29 @@ struct Settings {
   bool paper_residuals = false;  //!< measures r_p and r_d of the 2014 solver
 };
 
-//! The ADMM on problem (2) of the paper, which keeps weights and gradients as unknowns and solves a
-//! global linear system in each iteration, as over-relaxed Douglas-Rachford splitting. It minimizes
-//! sum A (phi |z| + epsilon / 2 |z|^2) over w with z = grad w, and u = w, u >= 0 if the metric has
-//! vertex weights.
-//! tests/support/textbook_lbc2014.h has the same iteration and iterates, with W, Z, Y, M, H, and
-//! all duals. Put
+//! The ADMM on problem (2) of the paper, as over-relaxed Douglas-Rachford splitting. It minimizes
+//! sum A (phi |z| + epsilon / 2 |z|^2) over weights with Z = G W + E and U = W, U >= 0 if the metric
+//! has vertex weights. (The paper writes W for U, and Y M + H for the weights W.) An iteration, with
+//! scaled duals D, and the loop of compact_kernel.h that performs each line:
 //!
-//!     y = grad W - P,  q = W + S        (y = z + its scaled dual, q = u + its scaled dual)
+//!     Z-update   Z = shrink(G W + E - D_Z)                              z_step
+//!     W-update   U = max(0, W - D_U)                                    w_step
+//!     duals      D_Z += Z - (G W + E),  D_U += U - W, relaxed           z_step, w_step
+//!     Y-update   right-hand side, from Z, U, and their duals            z_step (-G^T), w_step (k S)
+//!                solve (G^T m G + k) delta = right-hand side            solve_slice
+//!                W = projection of (W + delta) on { sum w = 1, sum w c = x }   y_step
 //!
-//! where W is on vertices like w, with the same values on the boundary. Then, with a = 2 w - W,
+//! The loops fuse lines and keep two combinations of the variables:
+//! P = G W' - (Z + D_Z) and S = U + D_U - W', where W' follows W by W' += alpha (W - W') and has the
+//! same values on the boundary. Below, W is this W' and w the weights. With a = 2 w - W,
 //!
 //!     z_step:  P += alpha (theta v + (1 - theta) clip(v) - P), v = P + grad a,
 //!              clip to radius phi A / (rho m), theta = epsilon / (rho + epsilon)
 //!     w_step:  S += alpha (max(0, S - a) - S)
 //!     solve:   (sum m grad^T grad + k) delta = k S - Div m P
 //!     y_step:  W += alpha (w - W), w = W + delta, rows projected on { sum w = 1, sum w c = x }
+//!
+//! tests/support/textbook_lbc2014.h has the same iterates, with W, Z, Y, M, H, and all duals.
 //!
 //! The projection replaces the null-space parametrization W = Y M + H of (2): the system matrix
 //! acts on columns and M on rows. So Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, where
