@@ -168,13 +168,13 @@ template <class Scalar, class Step>
 }
 
 template <class Scalar>
-struct Slice {
+struct RowSlice {
   Scalar* rows;
   std::size_t stride, begin, end;
 };
 
 template <bool Forward, int Width, class Scalar>
-void solve_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<Scalar>& slice) {
+void solve_panel(const Panels<Scalar>& panels, const Panel& panel, const RowSlice<Scalar>& slice) {
   const Scalar* entries = panels.entries + panel.entries;
   const std::int32_t* below = panels.below + panel.below;
   for_pieces<Scalar>(slice.begin, slice.end, [&](auto piece, std::size_t i) {
@@ -193,7 +193,7 @@ void solve_panel(const Panels<Scalar>& panels, const Panel& panel, const Slice<S
 // The steps for every width, so the values of a panel stay in registers.
 template <class Scalar>
 struct Steps {
-  void (*of_width[kMaxWidth])(const Panels<Scalar>&, const Panel&, const Slice<Scalar>&);
+  void (*of_width[kMaxWidth])(const Panels<Scalar>&, const Panel&, const RowSlice<Scalar>&);
 };
 
 template <bool Forward, class Scalar, int... Widths>
@@ -206,7 +206,7 @@ void solve(const Panels<Scalar>& panels, Scalar* rows, std::size_t stride, std::
            std::size_t end) {
   static constexpr auto kSteps =
       steps<Forward, Scalar>(std::make_integer_sequence<int, kMaxWidth>());
-  const Slice<Scalar> slice{rows, stride, begin, end};
+  const RowSlice<Scalar> slice{rows, stride, begin, end};
   for (std::size_t p = 0; p < panels.num_panels; ++p) {
     const Panel& panel = panels.panels[Forward ? p : panels.num_panels - 1 - p];
     kSteps.of_width[panel.width - 1](panels, panel, slice);

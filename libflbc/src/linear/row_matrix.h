@@ -17,9 +17,9 @@ namespace flbc {
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
 
 //! The row of one thread: sums by column.
-class RowSum {
+class SparseRow {
  public:
-  explicit RowSum(Index num_columns) : mark_(num_columns, -1), sum_(num_columns) {}
+  explicit SparseRow(Index num_columns) : mark_(num_columns, -1), sum_(num_columns) {}
 
   //! \param row  a new one \param columns  output for its columns, or null to count
   void begin(Index row, Index* columns) {
@@ -60,7 +60,7 @@ RowMatrix assemble_rows(Index num_rows, Index num_columns, const Emit& emit) {
   // Calls use(row, sums, columns) for all rows; without `writes`, columns are only counted.
   const auto sum_up = [&](bool writes, const auto& use) {
     parallel_for(num_rows, [&](Index begin, Index end) {
-      RowSum sum(num_columns);
+      SparseRow sum(num_columns);
       for (Index row = begin; row < end; ++row) {
         Index* columns = writes ? matrix.innerIndexPtr() + starts[row] : nullptr;
         sum.begin(row, columns);
@@ -69,10 +69,10 @@ RowMatrix assemble_rows(Index num_rows, Index num_columns, const Emit& emit) {
       }
     });
   };
-  sum_up(false, [&](Index row, const RowSum& sum, Index*) { starts[row + 1] = sum.count(); });
+  sum_up(false, [&](Index row, const SparseRow& sum, Index*) { starts[row + 1] = sum.count(); });
   std::partial_sum(starts, starts + num_rows + 1, starts);
   matrix.resizeNonZeros(starts[num_rows]);
-  sum_up(true, [&](Index row, const RowSum& sum, Index* columns) {
+  sum_up(true, [&](Index row, const SparseRow& sum, Index* columns) {
     std::sort(columns, columns + sum.count());
     double* values = matrix.valuePtr() + starts[row];
     for (Index k = 0; k < sum.count(); ++k) values[k] = sum.sum_at(columns[k]);

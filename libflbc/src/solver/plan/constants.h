@@ -86,10 +86,10 @@ constexpr Index kHalfCells = 10000;
 constexpr double kHalfSmoothness = 0.1;
 //! Half precision ends at this estimated error or after this number of iterations. Rounding duals
 //! in each iteration makes weights fluctuate, which the estimate cannot distinguish from progress.
-constexpr double kTremblingError = 3e-6;
-constexpr int kTremblingIterations = 300;
-constexpr bool trembles(int iterations, double error) {
-  return iterations >= kTremblingIterations || error < kTremblingError;
+constexpr double kHalfEndsAtError = 3e-6;
+constexpr int kHalfIterations = 300;
+constexpr bool ends_half_precision(int iterations, double error) {
+  return iterations >= kHalfIterations || error < kHalfEndsAtError;
 }
 
 // ---- linear systems -----------------------------------------------------------------------------

@@ -56,7 +56,8 @@ int ActiveSet<Scalar, Dim>::adapt(const Milestone& at) {
     to_make = grow(at);
     since_ = at.made;
   }
-  if (splitting_->stores_half() && plan::trembles(at.made, at.error)) splitting_->store_in_single();
+  if (splitting_->stores_half() && plan::ends_half_precision(at.made, at.error))
+    splitting_->store_in_single();
   return to_make;
 }
 

@@ -52,8 +52,8 @@ GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double p
     }
     std::copy_n(periods[p].values.data(), n_, period_values_.data() + p * stride_);
   }
-  sweep_ = make_sweep(problem.mesh, problem.topology, omp_get_max_threads());
-  for (const auto& part : sweep_.parts) {
+  cell_pass_ = make_cell_pass(problem.mesh, problem.topology, omp_get_max_threads());
+  for (const auto& part : cell_pass_.parts) {
     slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
   }
   cell_change_.resize(cells);
@@ -117,7 +117,7 @@ void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) 
   });
 }
 
-// A sweep takes the G-step of one iteration and the duals of the next one together. With periods, a
+// A pass takes the G-step of one iteration and the duals of the next one together. With periods, a
 // sum over all cells is needed in between.
 template <class Scalar, int Dim>
 Change GradientAdmm<Scalar, Dim>::iterate(int count) {
@@ -133,7 +133,7 @@ Change GradientAdmm<Scalar, Dim>::iterate(int count) {
     return change;
   }
   xyz_steps(arrays);
-  for (int k = 1; k < count; ++k) sweep(arrays, k == count - 1);
+  for (int k = 1; k < count; ++k) pass(arrays, k == count - 1);
   Change change = g_step(arrays);
   change.dual = noted_change();
   return change;
@@ -156,18 +156,18 @@ Change GradientAdmm<Scalar, Dim>::g_step(const Arrays<Scalar, Dim>& arrays) {
 }
 
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::sweep(const Arrays<Scalar, Dim>& arrays, bool note) {
-  const auto num_parts = static_cast<Index>(sweep_.parts.size());
+void GradientAdmm<Scalar, Dim>::pass(const Arrays<Scalar, Dim>& arrays, bool note) {
+  const auto num_parts = static_cast<Index>(cell_pass_.parts.size());
   parallel_for(
       num_parts,
       [&](Index p) {
         const FlushDenormals scope;
-        (note ? kernel_.sweep_and_note : kernel_.sweep)(arrays, sweep_.parts[p].path(),
-                                                        slots_[p].data());
+        (note ? kernel_.pass_and_note : kernel_.pass)(arrays, cell_pass_.parts[p].path(),
+                                                      slots_[p].data());
       },
       2);
-  parallel_blocks(static_cast<Index>(sweep_.seams.size()), [&](Index begin, Index end) {
-    kernel_.listed_xy_step(arrays, sweep_.seams.data() + begin, end - begin, note);
+  parallel_blocks(static_cast<Index>(cell_pass_.seams.size()), [&](Index begin, Index end) {
+    kernel_.listed_xy_step(arrays, cell_pass_.seams.data() + begin, end - begin, note);
   });
 }
 

@@ -9,9 +9,9 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/recovery.h"
 #include "solver/methods/gradient/boundary_periods.h"
+#include "solver/methods/gradient/cell_pass.h"
 #include "solver/methods/gradient/constraint_data.h"
 #include "solver/methods/gradient/gradient_kernel.h"
-#include "solver/methods/gradient/sweep.h"
 
 namespace flbc::gradient {
 
@@ -76,7 +76,7 @@ class GradientAdmm {
 
  private:
   void xyz_steps(const Arrays<Scalar, Dim>& arrays);
-  void sweep(const Arrays<Scalar, Dim>& arrays, bool note);
+  void pass(const Arrays<Scalar, Dim>& arrays, bool note);
   Change g_step(const Arrays<Scalar, Dim>& arrays);
   double update_periods();
   double noted_change() const;
@@ -102,8 +102,8 @@ class GradientAdmm {
   ConstraintData<Scalar, Dim> data_;
   std::vector<Scalar> period_fields_;
   AlignedArray<double> period_values_;
-  // for sweeps
-  Sweep sweep_;
+  // for passes
+  CellPass cell_pass_;
   std::vector<AlignedArray<Scalar>> slots_;  // per part
   std::vector<double> cell_change_;
   std::vector<double> facet_change_;

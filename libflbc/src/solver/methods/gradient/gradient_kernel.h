@@ -64,7 +64,7 @@ struct Change {
   }
 };
 
-//! Location of the extrapolated gradient of a cell during a sweep: slot `place` of the sweep or, if
+//! Location of the extrapolated gradient of a cell during a pass: slot `place` of the pass or, if
 //! negative, cell ~place of the whole array.
 using Place = std::int32_t;
 
@@ -83,8 +83,8 @@ struct Visit {
   std::int32_t num_closings;
 };
 
-//! The path of a sweep through its part of the mesh (sweep.h).
-struct SweepPath {
+//! The path of a pass through its part of the mesh (cell_pass.h).
+struct PassPath {
   const Visit* visits;
   std::size_t num_visits;
   const Closing* closings;  // in the order of the visits
@@ -109,10 +109,10 @@ struct Kernel {
 
   //! G-step, and the next iteration's Z-, X- and Y-step. `slots` stores extrapolated gradients,
   //! num_slots x Dim.
-  void (*sweep)(State, const SweepPath& path, Scalar* slots);
+  void (*pass)(State, const PassPath& path, Scalar* slots);
 
   //! The same, keeping all extrapolated gradients in their array and recording changes of duals.
-  void (*sweep_and_note)(State, const SweepPath& path, Scalar* unused);
+  void (*pass_and_note)(State, const PassPath& path, Scalar* unused);
 };
 
 }  // namespace flbc::gradient

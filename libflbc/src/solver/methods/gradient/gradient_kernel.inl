@@ -95,7 +95,7 @@ template <class Scalar, int Dim>
 constexpr std::size_t kVisitsAhead = 4;
 
 template <bool note, class Scalar, int Dim>
-void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slots) {
+void pass(const Arrays<Scalar, Dim>& arrays, const PassPath& path, Scalar* slots) {
   const auto extrapolated = [&](Place place) {
     return place >= 0 ? slots + std::size_t(place) * Dim * arrays.stride
                       : extrapolated_of(arrays, ~place);
@@ -122,9 +122,9 @@ void sweep(const Arrays<Scalar, Dim>& arrays, const SweepPath& path, Scalar* slo
 }
 
 template <class Scalar, int Dim>
-constexpr Kernel<Scalar, Dim> kKernel{xy_step<Scalar, Dim>,      listed_xy_step<Scalar, Dim>,
-                                      z_step<Scalar, Dim>,       g_step<Scalar, Dim>,
-                                      sweep<false, Scalar, Dim>, sweep<true, Scalar, Dim>};
+constexpr Kernel<Scalar, Dim> kKernel{xy_step<Scalar, Dim>,     listed_xy_step<Scalar, Dim>,
+                                      z_step<Scalar, Dim>,      g_step<Scalar, Dim>,
+                                      pass<false, Scalar, Dim>, pass<true, Scalar, Dim>};
 
 }  // namespace
 }  // namespace flbc::gradient::FLBC_ISA

@@ -109,7 +109,7 @@ RowSums correct(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int3
 template <class Scalar, int Dim>
 RowSums w_step(const Arrays<Scalar, Dim>& arrays, std::int32_t begin, std::int32_t end) {
   return over_rows(begin, end, [&](std::size_t row) {
-    RowSum<Scalar> none;
+    LaneSum<Scalar> none;
     const Scalar* a = arrays.extrapolated + row * arrays.stride;
     for_packs<kWideLanes>(
         0, arrays.stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {

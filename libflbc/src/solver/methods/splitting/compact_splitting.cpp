@@ -358,7 +358,7 @@ int CompactSplitting<Scalar, Dim>::adapt(const Milestone& at) {
                     : rule_.after_look(at.made, penalty_, at.step.primal / at.step.dual));
     pass(arrays(), nullptr, loops_->w_step);
   }
-  if (stores_half() && plan::trembles(at.made, at.error)) store_in_single();
+  if (stores_half() && plan::ends_half_precision(at.made, at.error)) store_in_single();
   return rule_.to_make(at.made);
 }
 

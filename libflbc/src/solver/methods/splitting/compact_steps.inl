@@ -95,7 +95,7 @@ template <class Scalar, int Dim, int Interior, int Lanes>
 template <class Scalar, int Dim, bool Measured, int Lanes>
 [[gnu::always_inline]] inline void w_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row,
                                              std::size_t i, PackN<Scalar, Lanes> a,
-                                             PackN<Scalar, Lanes> w, RowSum<Scalar>& violation) {
+                                             PackN<Scalar, Lanes> w, LaneSum<Scalar>& violation) {
   using Numbers = PackN<Scalar, Lanes>;
   Scalar* residual = arrays.residual + row * arrays.stride + i;
   if (arrays.vertex_dual == nullptr) {
@@ -123,7 +123,7 @@ template <class Scalar, int Dim, class Candidate, class Use>
                                                const Candidate& candidate, const Use& use) {
   const std::size_t stride = arrays.stride;
   Scalar* solution = arrays.residual + row * stride;
-  RowSum<Scalar> projection[Dim + 1];
+  LaneSum<Scalar> projection[Dim + 1];
   for_packs<kWideLanes>(
       0, stride, [&](auto lanes, std::size_t i) __attribute__((always_inline)) {
         const PackN<Scalar, lanes()> r = candidate(lanes, i) + load_pack<lanes()>(solution + i);
@@ -156,8 +156,8 @@ inline RowSums y_step_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
     const auto W = load_pack<lanes()>(relaxed + i);
     return W + Scalar(0.5) * arrays.relaxation * (load_pack<lanes()>(extrapolated + i) - W);
   };
-  RowSum<Scalar> change;
-  RowSum<Scalar> violation;
+  LaneSum<Scalar> change;
+  LaneSum<Scalar> violation;
   project_row(
       arrays, row, next, [&](auto lanes, std::size_t i, auto w) __attribute__((always_inline)) {
         using Numbers = PackN<Scalar, lanes()>;
@@ -178,7 +178,7 @@ template <class Scalar, int Dim>
 inline RowSums correct_at(const Arrays<Scalar, Dim>& arrays, std::size_t row) {
   Scalar* weights = arrays.extrapolated + row * arrays.stride;
   Scalar* solution = arrays.residual + row * arrays.stride;
-  RowSum<Scalar> change;
+  LaneSum<Scalar> change;
   project_row(
       arrays, row,
       [&](auto lanes, std::size_t i)

@@ -97,7 +97,7 @@ inline Scalar sum_of(PackN<Scalar, Lanes> pack) {
 
 // Sums over a row, from wide packs and the remainder.
 template <class Scalar>
-struct RowSum {
+struct LaneSum {
   PackN<Scalar, kWideLanes> wide{};
   PackN<Scalar, 8> rest{};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/methods/gradient/sweep.h"
+#include "solver/methods/gradient/cell_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@ namespace flbc::gradient {
 namespace {
 
 template <int Dim>
-class SweepBuilder {
+class PassBuilder {
  public:
-  SweepBuilder(const MeshTopology<Dim>& topology, const std::vector<Index>& order, int num_parts)
+  PassBuilder(const MeshTopology<Dim>& topology, const std::vector<Index>& order, int num_parts)
       : topology_(topology), order_(order), part_(order.size()), state_(order.size()) {
     const std::size_t num_cells = order.size();
     for (int p = 0; p < num_parts; ++p) {
@@ -24,17 +24,17 @@ class SweepBuilder {
     first_.push_back(num_cells);
   }
 
-  Sweep build() {
-    Sweep sweep;
-    for (std::size_t p = 0; p + 1 < first_.size(); ++p) sweep.parts.push_back(build_part(p));
+  CellPass build() {
+    CellPass pass;
+    for (std::size_t p = 0; p + 1 < first_.size(); ++p) pass.parts.push_back(build_part(p));
     for (Index f = 0; f < topology_.num_facets(); ++f) {
-      if (is_seam(f)) sweep.seams.push_back(f);
+      if (is_seam(f)) pass.seams.push_back(f);
     }
-    return sweep;
+    return pass;
   }
 
  private:
-  // State of a cell during the sweep.
+  // State of a cell during the pass.
   struct State {
     Place place = 0;
     std::int8_t open_facets = 0;  // that still need its extrapolated gradient
@@ -53,8 +53,8 @@ class SweepBuilder {
     return false;
   }
 
-  SweepPart build_part(std::size_t p) {
-    SweepPart part;
+  PassPart build_part(std::size_t p) {
+    PassPart part;
     // Reuses the most recently released slot, which is still in the cache.
     std::vector<Place> free;
     const auto take = [&] {
@@ -106,10 +106,10 @@ std::vector<Index> order_in_space(const DomainMesh<Dim>& mesh) {
 
 // Whether more cells wait for neighbors than in any order with locality.
 template <int Dim>
-bool is_scattered(const Sweep& sweep) {
-  const auto num_seams = static_cast<double>(sweep.seams.size());
-  const double at_seams = 2 * num_seams / static_cast<double>(sweep.parts.size());
-  return std::any_of(sweep.parts.begin(), sweep.parts.end(), [&](const SweepPart& part) {
+bool is_scattered(const CellPass& pass) {
+  const auto num_seams = static_cast<double>(pass.seams.size());
+  const double at_seams = 2 * num_seams / static_cast<double>(pass.parts.size());
+  return std::any_of(pass.parts.begin(), pass.parts.end(), [&](const PassPart& part) {
     const double surface = std::pow(static_cast<double>(part.visits.size()), (Dim - 1.0) / Dim);
     return part.num_slots + at_seams > 12 * surface;
   });
@@ -119,20 +119,21 @@ bool is_scattered(const Sweep& sweep) {
 
 // Meshes from flbc, and many others, are already ordered; their own order streams memory best.
 template <int Dim>
-Sweep make_sweep(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology, int num_parts) {
+CellPass make_cell_pass(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                        int num_parts) {
   constexpr int kSmallestPart = 512;
   num_parts = std::clamp(mesh.num_cells() / kSmallestPart, 1, num_parts);
   std::vector<Index> order(mesh.num_cells());
   std::iota(order.begin(), order.end(), 0);
-  auto sweep = SweepBuilder<Dim>(topology, order, num_parts).build();
-  if (is_scattered<Dim>(sweep)) {
+  auto pass = PassBuilder<Dim>(topology, order, num_parts).build();
+  if (is_scattered<Dim>(pass)) {
     order = order_in_space(mesh);
-    sweep = SweepBuilder<Dim>(topology, order, num_parts).build();
+    pass = PassBuilder<Dim>(topology, order, num_parts).build();
   }
-  return sweep;
+  return pass;
 }
 
-template Sweep make_sweep(const DomainMesh<2>&, const MeshTopology<2>&, int);
-template Sweep make_sweep(const DomainMesh<3>&, const MeshTopology<3>&, int);
+template CellPass make_cell_pass(const DomainMesh<2>&, const MeshTopology<2>&, int);
+template CellPass make_cell_pass(const DomainMesh<3>&, const MeshTopology<3>&, int);
 
 }  // namespace flbc::gradient

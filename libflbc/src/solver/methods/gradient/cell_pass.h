@@ -12,25 +12,26 @@
 namespace flbc::gradient {
 
 //! The cells and facets of one thread.
-struct SweepPart {
+struct PassPart {
   std::vector<Visit> visits;
   std::vector<Closing> closings;  //!< in the order of the visits
   Index num_slots = 0;            //!< maximum number of extrapolated gradients needed at a time
 
-  SweepPath path() const { return {visits.data(), visits.size(), closings.data()}; }
+  PassPath path() const { return {visits.data(), visits.size(), closings.data()}; }
 };
 
 //! The dual step of a facet needs only the extrapolated gradients of its two cells. It runs as soon
-//! as both are available, while the data are in the cache. The sweep keeps the extrapolated
+//! as both are available, while the data are in the cache. The pass keeps the extrapolated
 //! gradients of cells with pending neighbors. If cells follow a space-filling curve, there are few
 //! of them, and they stay in the cache. Facets between parts are processed at the end.
-struct Sweep {
-  std::vector<SweepPart> parts;
+struct CellPass {
+  std::vector<PassPart> parts;
   std::vector<Index> seams;  //!< facets between parts
 };
 
 //! \param num_parts  requested number; fewer for small meshes
 template <int Dim>
-Sweep make_sweep(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology, int num_parts);
+CellPass make_cell_pass(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                        int num_parts);
 
 }  // namespace flbc::gradient
