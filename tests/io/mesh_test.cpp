@@ -314,7 +314,6 @@ TEST_F(MeshFile, MalformedMedit) {
        {head + "Vertices\n2000000000\n0 0 0 1\n", ":4: ", "2000000000 vertices are declared, but"},
        {head + "Vertices\n3\n0 0 0 100000\n1 0 0 100000\n", ":6: ", "after 2 of 3 vertices"},
        {head + "Vertices\n2\n0 0 0 1\n1 0 zero 1\n", ":6: ", "expected a number, found \"zero\""},
-       {head + "Vertices\n2\n0 0 0 1\n1 0 nan 1\n", ":6: ", "expected a finite number"},
        {head + points + "Tetrahedra\n1000000000\n1 2 3 4 1\n", ":10: ", "tetrahedra are declared"},
        {head + points + "Tetrahedra\n1\n1 2 3 5 1\n", ":11: ", "numbered 1 to 4"},
        {head + points + "Tetrahedra\n1\n0 1 2 3 1\n", ":11: ", "the index 0 is out of range"},
@@ -363,7 +362,6 @@ TEST_F(MeshFile, MalformedTetgenNodes) {
        {"2 3 0 0\n5 0 0 0\n6 1 0 0\n", ":2: ", "expected node 0, found 5"},
        {"2 3 0 0\n1 0 0 0\n1 1 0 0\n", ":3: ", "expected node 2, found 1"},
        {"2 3 0 0\n0 0 0 0\n1 1 0\n", ":3: ", "expected a number, found the end of the line"},
-       {"2 3 0 0\n0 0 0 0\n1 1 0 inf\n", ":3: ", "expected a finite number"},
        {"1 3 0 0\n0 0 0 0\n1 1 0 0\n", ":3: ", "expected the end of the file"}});
 }
 
@@ -416,7 +414,6 @@ TEST_F(MeshFile, MalformedGmsh) {
        {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a Gmsh file"},
        {"$MeshFormat\n", ":1: ", "the file ends before its version"},
        {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: ", "version \"4\" is not supported"},
-       {"$MeshFormat\n1.0 0 8\n$EndMeshFormat\n", ":2: ", "version \"1.0\" is not supported"},
        {std::string("$MeshFormat\n2.2 1 8\n\x01\0\0\n", 24), ":2: ", "binary"},
        {"$MeshFormat\n2.2 0 8\n", ":2: ", "the file ends before \"$EndMeshFormat\""},
        {format, ":3: ", "no nodes"},
@@ -427,13 +424,11 @@ TEST_F(MeshFile, MalformedGmsh) {
        {format + "$Nodes\n2000000000\n1 0 0 0\n", ":5: ", "too short"},
        {format + "$Nodes\n3\n1 0 0 0000000\n2 0 0 0000000\n", ":7: ", "after 2 of 3 nodes"},
        {format + "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", ":7: ", "node 1 occurs twice"},
-       {format + "$Nodes\n1\n1 0 0 nan\n$EndNodes\n", ":6: ", "expected a finite number"},
        {format + "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", ":7: ", "expected \"$EndNodes\""},
        {format + nodes + nodes, ":11: ", "a second section $Nodes"},
        {elements + "1\n1 4 2 1 1 7 9 3 6\n$EndElements\n", ":13: ", "node 6, which does not exist"},
        {elements + "1\n1 4 2 1 1 7 9 3\n$EndElements\n", ":13: ", "expected an integer, found"},
        {elements + "1\n1 5 0 7 9 3 5 7 9 3 5\n$EndElements\n", ":13: ", "type 5 are not supported"},
-       {elements + "1\n1 11 0 7 9 3 5 7 9 3 5\n$EndElements\n", ":13: ", "type 11"},
        {elements + "1\n1 4 99999 1 1 7 9 3 5\n$EndElements\n", ":13: ", "99999 tags are declared"},
        {elements + "900000000\n1 4 0 7 9 3 5\n$EndElements\n", ":12: ", "too short"},
        {elements + "1\n1 2 0 7 9 3\n$EndElements\n", ":14: ", "no tetrahedra"},
