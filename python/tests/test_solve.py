@@ -16,7 +16,7 @@ import pytest
 from conftest import MESHES
 
 
-@pytest.mark.parametrize("name, vertices", [("2d/figure", 3000), ("3d/limb", 2000)])
+@pytest.mark.parametrize("name, vertices", [("2d/figure", 800), ("3d/limb", 800)])
 @pytest.mark.parametrize(
     "options", [{}, {"active_set": "on"}, {"smoothness": 0.01}, {"method": "gradient"}]
 )
