@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/cell_locator.h"
 #include "coordinates/mean_count.h"
+#include "flbc/cell_locator.h"
 #include "flbc/harmonic.h"
 #include "flbc/interpolate.h"
 #include "flbc/recovery.h"
