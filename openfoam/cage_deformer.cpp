@@ -109,7 +109,7 @@ class CageDeformer::MotionIn : public Motion {
            const Foam::dictionary& dict, const std::vector<TimedPose>& poses)
       : evaluator_(std::move(cage),
                    io::read_domain<Dim>(in_case(mesh, dict.get<Foam::fileName>("domain"))),
-                   io::read_sparse_weights(in_case(mesh, dict.get<Foam::fileName>("weights"))),
+                   io::read_weights(in_case(mesh, dict.get<Foam::fileName>("weights"))),
                    OutsidePoints::kNearest, Foam::Pstream::parRun() ? 1 : 0) {
     for (const auto& pose : poses) {
       const auto file = in_case(mesh, pose.file);

@@ -55,7 +55,7 @@ void check_model(CheckReport<Dim>& report) {
 }
 
 template <int Dim>
-void check_weight_file(CheckReport<Dim>& report, const WeightMatrix& weights) {
+void check_weight_file(CheckReport<Dim>& report, const SparseWeights& weights) {
   // Said here as well, because here the files have names.
   const auto check_sizes_with = [&](const std::string& points_file, Eigen::Index num_points) {
     check_sizes(weights, report.cage.size(), num_points,
@@ -72,11 +72,11 @@ void check_weight_file(CheckReport<Dim>& report, const WeightMatrix& weights) {
   }
 }
 
-void check_pose(CheckReport<2>&, const WeightMatrix&, const std::string& pose) {
+void check_pose(CheckReport<2>&, const SparseWeights&, const std::string& pose) {
   throw OptionError(pose + ": --pose looks for creases of a surface, and the cage is 2D");
 }
 
-void check_pose(CheckReport<3>& report, const WeightMatrix& weights, const std::string& pose) {
+void check_pose(CheckReport<3>& report, const SparseWeights& weights, const std::string& pose) {
   const auto posed = load_control_points<3>(pose);
   require_control_points(pose, posed.cols(), report.cage.size(), report.cage_file);
   const auto elements = load_model_elements<3>(report.model_file);

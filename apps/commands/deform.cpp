@@ -163,7 +163,7 @@ template <int Dim>
 SparseWeights load_weights(const PointList<Dim>& bound, const PointList<Dim>& rest,
                            const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
   const auto& file = arguments.domain.empty() ? arguments.file.model : arguments.domain;
-  auto weights = io::read_sparse_weights(arguments.weights);
+  auto weights = io::read_weights(arguments.weights);
   const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
     check_sizes(weights, control_points.cols(), bound.cols(), {arguments.weights, name, file});
   };

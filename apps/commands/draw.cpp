@@ -67,8 +67,8 @@ std::string stem_of(const std::string& path) {
 }
 
 // Weights of --compare, for the same vertices as those drawn.
-WeightMatrix load_compared(Eigen::Index control_points, Eigen::Index points,
-                           const DrawArguments& arguments) {
+SparseWeights load_compared(Eigen::Index control_points, Eigen::Index points,
+                            const DrawArguments& arguments) {
   auto others = io::read_weights(arguments.compared);
   check_sizes(others, control_points, points,
               {arguments.compared, arguments.cage,
@@ -80,34 +80,36 @@ std::array<std::string, 2> names_of_compared(const DrawArguments& arguments) {
   return {stem_of(arguments.weights), stem_of(arguments.compared)};
 }
 
-std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const WeightMatrix& weights,
+std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const SparseWeights& weights,
                     const DrawArguments& arguments) {
   if (!arguments.shown_model.empty()) throw OptionError("--show-model is for cages in 3D");
   if (!arguments.compared.empty()) {
     const auto others = load_compared(cage.size(), domain.num_vertices(), arguments);
     const Index i = arguments.control_point;
-    return draw::draw_comparison(cage, domain, weights.row(i), others.row(i),
-                                 names_of_compared(arguments), i, arguments.options);
+    return draw::draw_comparison(cage, domain, weights.of_control_point(i),
+                                 others.of_control_point(i), names_of_compared(arguments), i,
+                                 arguments.options);
   }
   if (arguments.all) {
-    return draw::draw_all(cage, domain, weights, all_of(cage.size()), arguments.options);
+    return draw::draw_all(cage, domain, weights.dense(), all_of(cage.size()), arguments.options);
   }
-  return draw::draw_weights(cage, domain, weights.row(arguments.control_point),
+  return draw::draw_weights(cage, domain, weights.of_control_point(arguments.control_point),
                             arguments.control_point, arguments.options);
 }
 
-std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const WeightMatrix& weights,
+std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const SparseWeights& weights,
                     const DrawArguments& arguments) {
   if (!arguments.compared.empty()) throw OptionError("--compare in 3D needs --model");
   if (arguments.all) {
-    return draw::draw_slice_sheet(cage, domain, weights, arguments.slices, arguments.options);
+    return draw::draw_slice_sheet(cage, domain, weights.dense(), arguments.slices,
+                                  arguments.options);
   }
   Cage<3> model;
   if (!arguments.shown_model.empty()) {
     const auto shown = load_shown_model<3>(arguments.shown_model);
     model = {shown.points, gltf::triangles_of_points(shown.surface)};
   }
-  return draw::draw_slices(cage, domain, weights.row(arguments.control_point),
+  return draw::draw_slices(cage, domain, weights.of_control_point(arguments.control_point),
                            arguments.control_point, arguments.slices, arguments.options,
                            model.facets.cols() > 0 ? &model : nullptr);
 }
@@ -116,7 +118,7 @@ std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const Weig
 template <int Dim>
 struct PosedModel {
   view::ShownModel<Dim> model;
-  WeightMatrix weights;
+  SparseWeights weights;
   PointList<Dim> pose{};   // of the cage; empty without one
   PointList<Dim> moved{};  // the model's points in the pose
 };
@@ -127,12 +129,11 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   PosedModel<Dim> posed{load_shown_model<Dim>(arguments.model),
                         io::read_weights(arguments.weights)};
   check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
-  const SparseWeights sparse(posed.weights);
-  check_reproduction<Dim>(sparse, cage.points, posed.model.points, files);
+  check_reproduction<Dim>(posed.weights, cage.points, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
   posed.pose = load_control_points<Dim>(arguments.pose);
   require_control_points(arguments.pose, posed.pose.cols(), cage.size(), arguments.cage);
-  posed.moved = deform<Dim>(sparse, posed.pose);
+  posed.moved = deform<Dim>(posed.weights, posed.pose);
   return posed;
 }
 
@@ -149,7 +150,7 @@ std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments
   }
   return draw::draw_deformation(
       cage.facets, triangles, {cage.points, posed.model.points}, {posed.pose, posed.moved},
-      has_squares ? Eigen::VectorXd() : Eigen::VectorXd(posed.weights.row(arguments.control_point)),
+      has_squares ? Eigen::VectorXd() : posed.weights.of_control_point(arguments.control_point),
       arguments.control_point, arguments.options);
 }
 
@@ -158,7 +159,7 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
   const auto color = !arguments.color.empty() ? arguments.color : has_moved ? kPlain : kWeight;
   if (color == kPlain) return {};
   if (color == kDisplacement) return {displacements<3>(posed.model.points, posed.moved)};
-  return {posed.weights.row(arguments.control_point), arguments.control_point};
+  return {posed.weights.of_control_point(arguments.control_point), arguments.control_point};
 }
 
 std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
@@ -168,13 +169,14 @@ std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments
                                load_shown_cage<3>(arguments.cage).edges};
   std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
   if (arguments.all) {
-    return draw::draw_model_sheet(model, places[0], posed.weights, view, arguments.options);
+    return draw::draw_model_sheet(model, places[0], posed.weights.dense(), view, arguments.options);
   }
   if (!arguments.compared.empty()) {
     const auto others = load_compared(cage.size(), posed.model.points.cols(), arguments);
     const Index i = arguments.control_point;
-    return draw::draw_model_comparison(model, places[0], posed.weights.row(i), others.row(i),
-                                       names_of_compared(arguments), i, view, arguments.options);
+    return draw::draw_model_comparison(model, places[0], posed.weights.of_control_point(i),
+                                       others.of_control_point(i), names_of_compared(arguments), i,
+                                       view, arguments.options);
   }
   if (posed.moved.cols() > 0) places.push_back({posed.pose, posed.moved});
   return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);

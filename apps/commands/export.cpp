@@ -143,7 +143,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const MovableModel<Dim> model(same);
   const auto& points = model.points();
   const auto surface = model.surface();
-  const auto weights = io::read_sparse_weights(arguments.weights);
+  const auto weights = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(weights, rest.cols(), points.cols(), files);
   check_reproduction(weights, rest, points, files);

@@ -27,7 +27,7 @@ void print_box(const Eigen::MatrixXd& points) {
 }
 
 void print_weights(const std::string& path) {
-  const auto weights = read_weight_file(path);
+  const WeightMatrix weights = read_weight_file(path).dense();
   std::cout << path << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";
   if (weights.size() == 0) return;

@@ -69,7 +69,7 @@ void save_domain(const std::string& path, const CageSolver<Dim>& solver) {
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
       fields.push_back({"w_" + std::to_string(i), weights.row(i)});
     }
-    const auto gradients = vertex_gradients(solver.domain(), weights);
+    const auto gradients = vertex_gradients(solver.domain(), solver.domain_weights()).dense();
     for (Eigen::Index r = 0; r < gradients.rows(); ++r) {
       fields.push_back({"dw_" + std::to_string(r / Dim) + "_d" + "xyz"[r % Dim], gradients.row(r)});
     }

@@ -72,11 +72,10 @@ template <int Dim>
 SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
                            const PointList<Dim>& points) {
   if (io::holds(arguments.weights, {io::Content::kTriplets})) {
-    return SparseWeights(io::read_weight_triplets(arguments.weights,
-                                                  static_cast<Index>(control_points.cols()),
-                                                  static_cast<Index>(points.cols())));
+    return io::read_weight_triplets(arguments.weights, static_cast<Index>(control_points.cols()),
+                                    static_cast<Index>(points.cols()));
   }
-  auto weights = io::read_sparse_weights(arguments.weights);
+  auto weights = io::read_weights(arguments.weights);
   check_sizes(weights, control_points.cols(), points.cols(),
               {arguments.weights, arguments.cage, arguments.points});
   return weights;
@@ -107,8 +106,8 @@ SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedP
   auto options = arguments.options;
   options.progress = [&](double done) { bar.show(stage, done); };
   if (method == kPoisson) {
-    return SparseWeights(reduce_by_poisson<Dim>(control_points, model.points, model.edges,
-                                                weights.dense(), poses, options));
+    return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
+                                  options);
   }
   return sparsify<Dim>(control_points, model.points, weights, options);
 }

@@ -43,13 +43,13 @@ void check_arguments(const TransferArguments& arguments) {
 // New weights, and how they came about.
 template <int Dim>
 struct Transferred {
-  WeightMatrix weights;
+  SparseWeights weights;
   PointList<Dim> points;  // where they put the vertices
   std::string facts;
 };
 
 template <int Dim>
-Transferred<Dim> from_domain(const Cage<Dim>& cage, const WeightMatrix& weights,
+Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights,
                              const TransferArguments& arguments) {
   const auto domain = io::read_domain<Dim>(arguments.domain);
   check_sizes(weights, cage.size(), domain.num_vertices(),
@@ -62,7 +62,7 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const WeightMatrix& weights,
 }
 
 template <int Dim>
-Transferred<Dim> from_model(const Cage<Dim>& cage, const WeightMatrix& weights,
+Transferred<Dim> from_model(const Cage<Dim>& cage, const SparseWeights& weights,
                             const TransferArguments& arguments) {
   const auto from = load_model_elements<Dim>(arguments.from);
   check_sizes(weights, cage.size(), from.points.cols(),
@@ -90,9 +90,9 @@ void transfer(const Cage<Dim>& cage, const TransferArguments& arguments) {
   }
   if (arguments.quiet) return;
   const auto quality = measure_quality(cage.points, result.points, result.weights);
-  std::cerr << arguments.output << ": " << result.weights.cols() << " vertices; minimum weight "
-            << quality.min_weight << ", reproduction error " << quality.max_reproduction_error
-            << result.facts << '\n';
+  std::cerr << arguments.output << ": " << result.weights.num_points()
+            << " vertices; minimum weight " << quality.min_weight << ", reproduction error "
+            << quality.max_reproduction_error << result.facts << '\n';
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
 
 // How far the page moves points elsewhere than the weights given would, if they were reduced.
 template <int Dim>
-std::string describe_reduction(const view::PageContent<Dim>& content, const WeightMatrix& given) {
+std::string describe_reduction(const view::PageContent<Dim>& content, const SparseWeights& given) {
   const auto before = count_influences(given).max;
   const auto after = count_influences(content.weights).max;
   if (before == after) return "at most " + std::to_string(after) + " influences per vertex";
@@ -131,7 +131,7 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   const auto given = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(given, content.cage.points.cols(), content.points.cols(), files);
-  check_reproduction<Dim>(SparseWeights(given), content.cage.points, content.points, files);
+  check_reproduction<Dim>(given, content.cage.points, content.points, files);
   // The page moves larger models on the graphics card, which takes 8 influences per vertex.
   constexpr Eigen::Index kManyVertices = 100'000;
   const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;

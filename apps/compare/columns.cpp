@@ -62,7 +62,7 @@ void make_domain(Comparison<Dim>& all) {
 }
 
 template <int Dim>
-WeightMatrix weights_of_mesh(const Comparison<Dim>& all, const SolverOptions& options) {
+SparseWeights weights_of_mesh(const Comparison<Dim>& all, const SolverOptions& options) {
   if (is_pointwise(options.method)) {
     return pointwise_coordinates(all.cage, all.domain.points, options.method);
   }
@@ -77,11 +77,11 @@ WeightMatrix weights_of_mesh(const Comparison<Dim>& all, const SolverOptions& op
 
 template <int Dim>
 SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& column) {
-  if (all.arguments.model.empty()) return SparseWeights(column.of_mesh);
+  if (all.arguments.model.empty()) return column.of_mesh;
   if (is_pointwise(column.options.method)) {
     return pointwise_coordinates(all.cage, all.placement, column.options);
   }
-  return weights_at(all.cage, all.domain, SparseWeights(column.of_mesh), all.placement);
+  return weights_at(all.cage, all.domain, column.of_mesh, all.placement);
 }
 
 // \return seconds for the vertices of the mesh
@@ -89,11 +89,11 @@ template <int Dim>
 double solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto n = all.cage.size();
   const auto start = std::chrono::steady_clock::now();
-  const auto of_mesh = green_coordinates(all.cage, all.domain.points);
+  const WeightMatrix of_mesh = green_coordinates(all.cage, all.domain.points);
   const double seconds = seconds_since(start);
-  column.of_mesh = of_mesh.topRows(n);
+  column.of_mesh = WeightMatrix(of_mesh.topRows(n));
   column.moved = by_green_coordinates(all.cage, all.points());
-  column.rows = SparseWeights(column.moved.weights.dense().topRows(n));
+  column.rows = SparseWeights(WeightMatrix(column.moved.weights.dense().topRows(n)));
   return seconds;
 }
 

@@ -36,10 +36,10 @@ struct Column {
   std::string name;   //!< also in names of files
   std::string title;  //!< in pictures
   SolverOptions options{};
-  std::string failure{};      //!< if there are no results
-  Eigen::MatrixXd of_mesh{};  //!< weights of the control points, n x V
-  SparseWeights rows{};       //!< the same of the shape's points
-  MovedBy<Dim> moved{};       //!< how they move
+  std::string failure{};    //!< if there are no results
+  SparseWeights of_mesh{};  //!< of the vertices of the mesh
+  SparseWeights rows{};     //!< the same of the shape's points
+  MovedBy<Dim> moved{};     //!< how they move
   nlohmann::ordered_json facts{};
 
   std::string weights_file() const { return "weights_" + name + ".npy"; }

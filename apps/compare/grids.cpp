@@ -33,7 +33,7 @@ std::string grid(const Comparison<2>& all, bool posed) {
     } else {
       panels.push_back({column->title,
                         {all.cage.points, all.domain.points},
-                        column->of_mesh.row(all.control_point)});
+                        column->of_mesh.of_control_point(all.control_point)});
     }
   }
   return draw::draw_panels(all.cage.facets, posed ? triangles : all.domain.cells, panels,
@@ -47,7 +47,7 @@ std::string grid(const Comparison<3>& all, bool posed) {
   for (const auto* column : all.succeeded()) {
     draw::ModelPanel panel{column->title,
                            {all.cage.points, all.points()},
-                           column->rows.dense().row(all.control_point)};
+                           column->rows.of_control_point(all.control_point)};
     if (posed) {
       panel.place = {all.pose, posed_points(all, *column)};
       panel.values = displacements<3>(all.points(), panel.place.points);

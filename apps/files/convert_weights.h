@@ -26,8 +26,8 @@ constexpr std::initializer_list<io::Content> kWeightFiles = {io::Content::kWeigh
 //! By the extension.
 bool is_weight_file(const std::string& path);
 
-//! Weights in any format. \return n x #points \throws IoError, InputError
-WeightMatrix read_weight_file(const std::string& path);
+//! Weights in any format. \throws IoError, InputError
+SparseWeights read_weight_file(const std::string& path);
 
 //! Reads weights and writes them in another format; what is left unsaid or dropped is told unless
 //! `quiet`. \throws IoError; InputError, also if the weights do not fit cage or points

@@ -102,7 +102,7 @@ bool is_point_file(const std::string& path) {
 
 template <int Dim>
 PointList<Dim> load_points(const std::string& path) {
-  const auto numbers = io::read_weights(path);  // a row per point, as for weights
+  const WeightMatrix numbers = io::read_weights(path).dense();  // a row per point, as for weights
   if (numbers.rows() != Dim || numbers.cols() == 0) {
     throw InputError(path + ": holds " + std::to_string(numbers.cols()) + " rows of " +
                      std::to_string(numbers.rows()) + " numbers; points need " +

@@ -230,7 +230,7 @@ AnyModel load_any_model(const MovedFile& file) {
 }
 
 Index count_vertices(const std::string& path) {
-  if (is_point_file(path)) return static_cast<Index>(io::read_weights(path).cols());
+  if (is_point_file(path)) return io::read_weights(path).num_points();
   if (is_model_file(path)) return static_cast<Index>(io::read_polygons(path).points.size());
   require_mesh_readable(path);
   return std::visit([](const auto& any) { return static_cast<Index>(any.points().cols()); },

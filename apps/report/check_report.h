@@ -61,11 +61,11 @@ CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file);
 //! \throws InputError if the sizes do not belong together, or the mesh does not belong to the cage
 template <int Dim>
 void check_weights_of(CheckReport<Dim>& report, const DomainMesh<Dim>& domain,
-                      const WeightMatrix& weights);
+                      const SparseWeights& weights);
 
 //! The same for points anywhere, which tells less.
 template <int Dim>
 void check_weights_of(CheckReport<Dim>& report, const PointList<Dim>& points,
-                      const WeightMatrix& weights);
+                      const SparseWeights& weights);
 
 }  // namespace flbc::app

@@ -50,7 +50,6 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"smoothness", *options.smoothness},
           {"distances", name_of(options.distances)},
           {"linear_solver", name_of(options.linear_solver)},
-          {"recovery", name_of(options.gradient.recovery)},
           {"precision", name_of(options.precision)},
           {"tolerance", *options.tolerance},
           {"gap", *options.gap},

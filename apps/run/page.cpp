@@ -42,8 +42,8 @@ void write_page(Run<Dim>& run) {
   content.points = shape.points;
   content.surface = shape.surface;
   content.up = up_axis(run.arguments.up, shape.points);
-  content.weights =
-      view::limit_influences<Dim>(run.cage.points, shape.points, run.sparse, view::kMostInfluences);
+  content.weights = view::limit_influences<Dim>(run.cage.points, shape.points, run.reduced,
+                                                view::kMostInfluences);
   content.poses = shown_poses(run.poses(), times_of(run));
   const auto page = view::make_page(content);
   run.report["page"] = {{"file", kPage}, {"bytes", page.size()}};

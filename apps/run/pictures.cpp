@@ -15,7 +15,10 @@ namespace {
 template <int Dim>
 Index choose_control_point(const Run<Dim>& run) {
   if (run.arguments.control_point >= 0) return run.arguments.control_point;
-  const Eigen::VectorXd shares = run.dense.rowwise().sum();
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(run.cage.size());
+  for (Index p = 0; p < run.weights().num_points(); ++p) {
+    run.weights().visit(p, [&](Index i, double weight) { shares[i] += weight; });
+  }
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(shares.size());
   for (const auto& pose : run.poses()) {
     const PointList<Dim> steps = pose.points - run.cage.points;
@@ -34,15 +37,16 @@ draw::WeightPictureOptions options_of(const Run<Dim>& run) {
 }
 
 std::string draw_function(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(run.cage, run.solver.domain(), run.domain_weights().row(control_point),
+  return draw::draw_weights(run.cage, run.solver.domain(),
+                            run.solver.domain_weights().of_control_point(control_point),
                             control_point, options_of(run));
 }
 
 std::string draw_function(const Run<3>& run, Index control_point) {
   const Cage<3> model{run.shape().points, gltf::triangles_of_points(run.shape().surface)};
-  return draw::draw_slices(run.cage, run.solver.domain(), run.domain_weights().row(control_point),
-                           control_point, 3, options_of(run),
-                           model.facets.cols() > 0 ? &model : nullptr);
+  return draw::draw_slices(
+      run.cage, run.solver.domain(), run.solver.domain_weights().of_control_point(control_point),
+      control_point, 3, options_of(run), model.facets.cols() > 0 ? &model : nullptr);
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
@@ -52,16 +56,16 @@ draw::ObliqueView usual_view(const Run<3>& run) {
 
 // The shape at rest by the sparse weights.
 std::string draw_rest(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(run.cage,
-                            {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
-                            run.sparse.row(control_point), control_point, options_of(run));
+  return draw::draw_weights(
+      run.cage, {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
+      run.reduced.of_control_point(control_point), control_point, options_of(run));
 }
 
 std::string draw_rest(const Run<3>& run, Index control_point) {
   return draw::draw_model({gltf::triangles_of_points(run.shape().surface), shown_cage(run).edges},
                           {{run.cage.points, run.shape().points}},
-                          {run.sparse.row(control_point), control_point}, usual_view(run),
-                          options_of(run));
+                          {run.reduced.of_control_point(control_point), control_point},
+                          usual_view(run), options_of(run));
 }
 
 template <int Dim>
@@ -78,7 +82,7 @@ std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   const auto& domain = run.solver.domain();
   const bool is_surface = shape.surface.triangles.cols() > 0;
   const auto& points = is_surface ? shape.points : domain.points;
-  const auto& weights = is_surface ? run.sparse : run.domain_weights();
+  const auto& weights = is_surface ? run.reduced : run.solver.domain_weights();
   return draw::draw_deformation(
       run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
       {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)}, {}, control_point,
@@ -90,12 +94,13 @@ std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
 std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
   const auto& shape = run.shape();
   if (shape.surface.triangles.cols() == 0) {
-    const auto& weights = run.domain_weights();
+    const auto& weights = run.solver.domain_weights();
     const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
-    return draw::draw_slices({pose.points, run.cage.facets}, moved, weights.row(control_point),
-                             control_point, 3, options_of(run));
+    return draw::draw_slices({pose.points, run.cage.facets}, moved,
+                             weights.of_control_point(control_point), control_point, 3,
+                             options_of(run));
   }
-  const PointList<3> points = deform<3>(SparseWeights(run.sparse), pose.points);
+  const PointList<3> points = deform<3>(run.reduced, pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
                           {{run.cage.points, shape.points}, {pose.points, points}}, {},
                           usual_view(run), options_of(run));

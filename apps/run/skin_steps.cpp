@@ -34,17 +34,17 @@ std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
 }
 
 template <int Dim>
-WeightMatrix reduce(const Run<Dim>& run, const std::string& method,
-                    const std::vector<PointList<Dim>>& poses) {
+SparseWeights reduce(const Run<Dim>& run, const std::string& method,
+                     const std::vector<PointList<Dim>>& poses) {
   const std::string stage = "reducing influences";
   ProgressBar bar(run.arguments.quiet, stage);
   SparsifyOptions options{run.arguments.max_influences};
   options.progress = [&](double done) { bar.show(stage, done); };
   const auto& shape = run.shape();
   if (method == kQuadratic) {
-    return sparsify<Dim>(run.cage.points, shape.points, run.dense, options);
+    return sparsify<Dim>(run.cage.points, shape.points, run.weights(), options);
   }
-  return reduce_by_poisson<Dim>(run.cage.points, shape.points, shape.edges, run.dense, poses,
+  return reduce_by_poisson<Dim>(run.cage.points, shape.points, shape.edges, run.weights(), poses,
                                 options);
 }
 
@@ -118,8 +118,8 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   options.cage_edges = view::as_facets(shown_cage(run).edges);
-  const auto skin = gltf::export_skin(run.cage.points, shape.points, SparseWeights(run.sparse),
-                                      shape.surface, options, animation);
+  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.reduced, shape.surface,
+                                      options, animation);
   run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {
@@ -145,14 +145,14 @@ void reduce_influences(Run<Dim>& run) {
   const auto& model = run.arguments.settings.model;
   const auto& shape = run.shape();
   const auto file = model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model;
-  const auto method =
-      reduction_for(run.arguments.reduction, file, shape.edges, run.dense.rows(), run.dense.cols());
-  run.sparse = naming(file, [&] { return reduce(run, method, poses); });
+  const auto method = reduction_for(run.arguments.reduction, file, shape.edges, run.cage.size(),
+                                    shape.points.cols());
+  run.reduced = naming(file, [&] { return reduce(run, method, poses); });
   std::vector<std::string> pose_files;
   for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
 
-  const SparseWeights before(run.dense);
-  const SparseWeights after(run.sparse);
+  const auto& before = run.weights();
+  const auto& after = run.reduced;
   const auto errors = [&] {
     const ProgressBar bar(run.arguments.quiet, "measuring the error of fewer influences");
     return errors_json<Dim>(

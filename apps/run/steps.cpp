@@ -58,13 +58,11 @@ template <int Dim>
 void compute_weights(Run<Dim>& run) {
   auto& solver = run.solver;
   solver.solve(run.arguments.quiet);
-  run.dense = solver.rows().dense();
-  if (run.has_model()) run.of_mesh = solver.domain_weights().dense();
-  const auto delivered = measure_quality(run.cage.points, run.shape().points, run.dense);
+  const auto delivered = measure_quality(run.cage.points, run.shape().points, run.weights());
   run.report["solve"] = solver.json(delivered);
   if (run.has_model()) {
     run.folder.add(kDomainWeights, "a row per vertex of the domain",
-                   [&](const auto& path) { io::write_weights(path, run.of_mesh); });
+                   [&](const auto& path) { io::write_weights(path, solver.domain_weights()); });
   }
   const auto& report = solver.report();
   Facts facts;
@@ -80,7 +78,7 @@ void compute_weights(Run<Dim>& run) {
     facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
   run.folder.add(kWeights, facts.text(),
-                 [&](const std::string& path) { io::write_weights(path, run.dense); });
+                 [&](const std::string& path) { io::write_weights(path, run.weights()); });
 }
 
 template <int Dim>
@@ -89,7 +87,7 @@ void check_weights_of_mesh(Run<Dim>& run) {
   auto check = check_cage(run.cage, run.arguments.settings.cage);
   check.domain_file = run.report["mesh"]["file"];
   check.weights_file = run.has_model() ? kDomainWeights : kWeights;
-  check_weights_of(check, run.solver.domain(), run.domain_weights());
+  check_weights_of(check, run.solver.domain(), run.solver.domain_weights());
   run.report["check"] = check_json(check);
 }
 
@@ -119,7 +117,7 @@ void deform_splats(Run<Dim>& run) {
 
 template <int Dim>
 void deform_shape(Run<Dim>& run) {
-  const SparseWeights weights(run.sparse);
+  const auto& weights = run.reduced;
   const auto& shape = run.shape();
   run.displacement = measure_displacement(weights, shape.points, run.poses());
   auto& report = run.report["deform"] = nlohmann::ordered_json::array();

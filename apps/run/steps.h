@@ -25,17 +25,15 @@ struct Run {
   RunFolder& folder;
   nlohmann::ordered_json report{};
 
-  WeightMatrix of_mesh{};       //!< n x V, if the shape is a model
-  WeightMatrix dense{};         //!< n x P, of the shape's points
-  WeightMatrix sparse{};        //!< n x P, of at most so many influences
+  SparseWeights reduced{};      //!< of the shape's points, at most so many influences of each
   Displacement displacement{};  //!< in the poses
   Placement<Dim> splats{};      //!< of the splats, if there are any
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }
   bool has_model() const { return !arguments.settings.model.empty(); }
-  //! n x V, at the vertices of the mesh.
-  const WeightMatrix& domain_weights() const { return has_model() ? of_mesh : dense; }
+  //! Of the shape's points, with all influences.
+  const SparseWeights& weights() const { return solver.rows(); }
 };
 
 //! cage.obj, if the cage has been made.

@@ -50,7 +50,7 @@ const PointList<Dim>& Reshaping<Dim>::points() const {
 }
 
 template <int Dim>
-WeightMatrix Reshaping<Dim>::weights() const {
+SparseWeights Reshaping<Dim>::weights() const {
   const auto& mesh = solver_.mesh();
   const auto& of_mesh = solver_.solution().weights;
   const auto most = view::kMostInfluences;

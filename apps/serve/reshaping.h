@@ -23,7 +23,7 @@ class Reshaping {
             const SolverOptions& options, const CoarseMesher<Dim>& mesher);
 
   //! Weights at the points shown, of few influences, for the present shape.
-  WeightMatrix weights() const;
+  SparseWeights weights() const;
   //! The points shown.
   const PointList<Dim>& points() const;
   //! The present shape.

@@ -36,7 +36,6 @@ Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, Solv
                       std::to_string(Dim) + "D");
   }
   if (penalty) options.penalty = published_penalty(cage, domain, options.method, *penalty);
-  options.sparse = true;
   return solve(cage, domain, options, mesher, observer);
 }
 

@@ -29,7 +29,7 @@ class DomainJacobians {
   //! (Dim Dim) x P, as jacobians(). \param pose  Dim x n
   Eigen::MatrixXd at(const PointList<Dim>& pose) const {
     if (places_.empty()) return {};
-    return interpolate<Dim>(domain_, jacobians(gradients_, pose), places_);
+    return interpolate<Dim>(domain_, jacobians(gradients_, pose), places_).dense();
   }
 
  private:

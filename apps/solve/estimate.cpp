@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "flbc/solver.h"
+
 namespace flbc::app {
 namespace {
 
@@ -19,11 +21,6 @@ double active_share(double control_points) {
   return std::fmin(0.5, 0.15 * std::pow(110 / control_points, 0.65));
 }
 
-bool uses_active_set(int dim, double control_points, double pairs, const SolverOptions& options) {
-  if (options.active_set != ActiveSet::kAuto) return options.active_set == ActiveSet::kOn;
-  return dim == 3 && control_points >= 80 && pairs >= 400000 && !options.certify;
-}
-
 // "0.25", "1.3", "120".
 std::string rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -37,7 +34,7 @@ std::string rounded(double value) {
 Estimate estimate_solve(int dim, Index control_points, Index vertices,
                         const SolverOptions& options) {
   const double pairs = static_cast<double>(control_points) * vertices;
-  if (uses_active_set(dim, control_points, pairs, options)) {
+  if (tries_active_set(dim, control_points, vertices, options)) {
     const double active = active_share(control_points) * pairs;
     return {kSecondsPerActivePair * active, kBase + kBytesPerActivePair * active};
   }

@@ -33,7 +33,6 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
       throw OptionError(option + ": " + reason + "; leave out this option");
   };
   const Method method = settings.options.method;
-  const bool gradients = method == Method::kGradient || method == Method::kPaper;
   const std::string name = std::string("the method ") + name_of(method);
   if (!is_local(method)) {
     for (const char* option : {"--phi", "--smoothness", "--distances", "--linear-solver",
@@ -46,7 +45,6 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
     refuse("--active", name + " does not use it");
     refuse("--coarse-to-fine", name + " does not use it");
   }
-  if (!gradients) refuse("--recovery", name + " does not use it");
   if (is_meshless(settings)) {
     for (const char* option : {"--domain", "--vertices", "--embed", "--mesher", "--mesh-timeout"}) {
       refuse(option, name + " needs no mesh for the weights of a model");
@@ -97,8 +95,6 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--linear-solver", options.linear_solver,
              "solver of global linear systems (default: auto). none: avoid them, for gradient and "
              "paper");
-  add_choice(command, "--recovery", options.gradient.recovery,
-             "method that computes weights from gradients (default: auto)");
   add_choice(command, "--precision", options.precision,
              "floating-point precision of the iteration (default: auto)");
   command.add_option(

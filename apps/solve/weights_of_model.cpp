@@ -13,36 +13,20 @@ namespace {
 // Weights reproduce their model up to rounding and the tolerance of a solve.
 constexpr double kReproduction = 1e-6;
 
-struct Sizes {
-  Eigen::Index control_points;
-  Eigen::Index points;
-};
-
-void check_sizes(const Sizes& weights, Eigen::Index num_control_points, Eigen::Index num_points,
-                 const WeightFiles& files) {
-  if (weights.points != num_points) {
-    throw InputError(files.weights + ": has weights of " + std::to_string(weights.points) +
-                     " points, but " + files.model + " has " + std::to_string(num_points) +
-                     " vertices");
-  }
-  if (weights.control_points != num_control_points) {
-    throw InputError(files.weights + ": has weights for " + std::to_string(weights.control_points) +
-                     " control points, but " + files.cage + " has " +
-                     std::to_string(num_control_points));
-  }
-}
-
 }  // namespace
-
-void check_sizes(const WeightMatrix& weights, Eigen::Index num_control_points,
-                 Eigen::Index num_points, const WeightFiles& files) {
-  check_sizes(Sizes{weights.rows(), weights.cols()}, num_control_points, num_points, files);
-}
 
 void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
                  Eigen::Index num_points, const WeightFiles& files) {
-  check_sizes(Sizes{weights.num_control_points(), weights.num_points()}, num_control_points,
-              num_points, files);
+  if (weights.num_points() != num_points) {
+    throw InputError(files.weights + ": has weights of " + std::to_string(weights.num_points()) +
+                     " points, but " + files.model + " has " + std::to_string(num_points) +
+                     " vertices");
+  }
+  if (weights.num_control_points() != num_control_points) {
+    throw InputError(files.weights + ": has weights for " +
+                     std::to_string(weights.num_control_points()) + " control points, but " +
+                     files.cage + " has " + std::to_string(num_control_points));
+  }
 }
 
 template <int Dim>

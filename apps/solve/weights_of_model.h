@@ -18,8 +18,6 @@ struct WeightFiles {
 
 //! \throws InputError naming both files if there are not as many rows as control points, or not as
 //! many columns as points
-void check_sizes(const WeightMatrix& weights, Eigen::Index num_control_points,
-                 Eigen::Index num_points, const WeightFiles& files);
 void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
                  Eigen::Index num_points, const WeightFiles& files);
 

@@ -47,9 +47,10 @@ void check(const PageContent<Dim>& content) {
     throw InputError("the cage has " + std::to_string(n) +
                      " control points, but a page can show 65535 at most");
   }
-  if (content.weights.rows() != n || content.weights.cols() != num_points) {
-    throw InputError("there are weights of " + std::to_string(content.weights.rows()) +
-                     " control points and " + std::to_string(content.weights.cols()) +
+  const auto& weights = content.weights;
+  if (weights.num_control_points() != n || weights.num_points() != num_points) {
+    throw InputError("there are weights of " + std::to_string(weights.num_control_points()) +
+                     " control points and " + std::to_string(weights.num_points()) +
                      " vertices, not of " + std::to_string(n) + " and " +
                      std::to_string(num_points));
   }
@@ -174,7 +175,7 @@ Json pack_points(const PageContent<Dim>& content, const SparseWeights& weights) 
 
 template <int Dim>
 Json to_json(const PageContent<Dim>& content) {
-  const SparseWeights weights(content.weights);
+  const auto& weights = content.weights;
   Json json{{"dim", Dim},
             {"title", content.title},
             {"up", content.up},
@@ -216,23 +217,30 @@ std::string to_script(const Json& json) {
 }  // namespace
 
 template <int Dim>
-WeightMatrix limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                              const WeightMatrix& weights, Index most) {
+SparseWeights limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                               const SparseWeights& weights, Index most) {
   if (most < Dim + 1 || most > kMostInfluences) {
     throw OptionError("a page holds from " + std::to_string(Dim + 1) + " to " +
                       std::to_string(kMostInfluences) + " influences per vertex, not " +
                       std::to_string(most));
   }
-  std::vector<Eigen::Index> crowded;
-  for (Eigen::Index p = 0; p < weights.cols(); ++p) {
-    if ((weights.col(p).array() != 0).count() > most) crowded.push_back(p);
+  const auto& starts = weights.starts();
+  std::vector<Index> crowded;
+  std::vector<Index> number(weights.num_points(), -1);  // among them
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    if (starts[p + 1] - starts[p] <= most) continue;
+    number[p] = static_cast<Index>(crowded.size());
+    crowded.push_back(p);
   }
-  WeightMatrix result = weights;
-  if (crowded.empty()) return result;
+  if (crowded.empty()) return weights;
+  const Index n = weights.num_control_points();
   const PointList<Dim> places = points(Eigen::all, crowded);
-  const WeightMatrix given = weights(Eigen::all, crowded);
-  result(Eigen::all, crowded) = sparsify<Dim>(control_points, places, given, {most});
-  return result;
+  const auto given = SparseWeights::of(n, static_cast<Index>(crowded.size()),
+                                       [&](Index k) { return weights.at(crowded[k]); });
+  const auto few = sparsify<Dim>(control_points, places, given, {most});
+  return SparseWeights::of(n, weights.num_points(), [&](Index p) {
+    return number[p] < 0 ? weights.at(p) : few.at(number[p]);
+  });
 }
 
 template <int Dim>
@@ -256,12 +264,11 @@ std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<In
 }
 
 template <int Dim>
-std::string make_update(const PointList<Dim>& rest, const WeightMatrix& weights,
+std::string make_update(const PointList<Dim>& rest, const SparseWeights& weights,
                         const Vector<Dim>& center) {
-  const SparseWeights sparse(weights);
   return Json{{"rest", pack<double>(rest.reshaped())},
-              {"offsets", pack_offsets<Dim>(sparse, rest, center)},
-              {"weights", pack_weights(sparse)}}
+              {"offsets", pack_offsets<Dim>(weights, rest, center)},
+              {"weights", pack_weights(weights)}}
       .dump();
 }
 
@@ -278,10 +285,10 @@ std::string make_page(const PageContent<Dim>& content) {
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
                                                            const FacetList<Dim>&);                 \
-  template std::string make_update(const PointList<Dim>&, const WeightMatrix&,                     \
+  template std::string make_update(const PointList<Dim>&, const SparseWeights&,                    \
                                    const Vector<Dim>&);                                            \
-  template WeightMatrix limit_influences(const PointList<Dim>&, const PointList<Dim>&,             \
-                                         const WeightMatrix&, Index);                              \
+  template SparseWeights limit_influences(const PointList<Dim>&, const PointList<Dim>&,            \
+                                          const SparseWeights&, Index);                            \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 #include "gltf/surface.h"
 
 namespace flbc::view {
@@ -17,13 +17,13 @@ constexpr Index kMostInfluences = 16;
 
 //! Reduces the points that have more than `most` influences by sparsify(); all others keep their
 //! weights as they are, negative ones too.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  n x P
+//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points
 //! \param most  Dim + 1 .. kMostInfluences
-//! \return n x P
+//! \return weights of P points
 //! \throws OptionError if `most` is out of range; InputError as sparsify()
 template <int Dim>
-WeightMatrix limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                              const WeightMatrix& weights, Index most);
+SparseWeights limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                               const SparseWeights& weights, Index most);
 
 //! A cage as it is shown.
 template <int Dim>
@@ -60,7 +60,7 @@ struct PageContent {
   ShownCage<Dim> cage{};
   PointList<Dim> points{};   //!< Dim x P, of the model
   gltf::Surface surface{};   //!< of these points; without triangles points are shown
-  WeightMatrix weights{};    //!< n x P, at most kMostInfluences in every column
+  SparseWeights weights{};   //!< of P points, at most kMostInfluences of each
   bool is_relative = false;  //!< the points rest where they are, even if the weights put the
                              //!< resting cage elsewhere
   std::vector<ShownPose<Dim>> poses{};
@@ -89,10 +89,10 @@ Vector<Dim> page_center(const PointList<Dim>& rest) {
 }
 
 //! What a served page takes in place of its weights when the resting cage has changed, as JSON.
-//! \param rest  Dim x n \param weights  n x P, at most kMostInfluences in every column
+//! \param rest  Dim x n \param weights  of P points, at most kMostInfluences of each
 //! \param center  page_center() of the cage that the page was made with
 template <int Dim>
-std::string make_update(const PointList<Dim>& rest, const WeightMatrix& weights,
+std::string make_update(const PointList<Dim>& rest, const SparseWeights& weights,
                         const Vector<Dim>& center);
 
 //! The page, which needs no other file and no network.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments.h"
+#include "flbc/sparsify_error.h"
 #include "problems.h"
 
 namespace flbc::bench {
@@ -44,7 +45,7 @@ Row with_and_without(const Setting<Dim>& setting) {
                  .add("iterations_with", with.report.iterations)
                  .add("iterations_without", without.report.iterations)
                  .add("squared_distance", squared_error(problem, with.weights, without.weights))
-                 .add("largest_difference", (with.weights - without.weights).cwiseAbs().maxCoeff())
+                 .add("largest_difference", weight_error(with.weights, without.weights).max)
                  .add("min_weight_without", without.report.quality.min_weight)
                  .add("relative_gap_with", with.report.certificate.relative_gap)
                  .add("relative_gap_without", without.report.certificate.relative_gap);

@@ -48,7 +48,6 @@ Row measure(const Context& context, const Case& chosen, ActiveSet active,
   options.threads = context.threads;
   options.tolerance = chosen.tolerance;
   options.active_set = active;
-  options.sparse = true;
   const auto solution =
       fastest(chosen.repetitions, [&] { return solve(cage, mesh, options, coarse_mesher<3>()); });
   const auto& report = solution.report;
@@ -59,7 +58,7 @@ Row measure(const Context& context, const Case& chosen, ActiveSet active,
                  .add(prefix + "seconds", seconds_of(report))
                  .add(prefix + "mebibytes", peak_mebibytes());
   if (all) {
-    io::write_weights(weights, solution.sparse_weights);
+    io::write_weights(weights, solution.weights);
     return row;
   }
   row.add("density", report.active_set.density)
@@ -68,8 +67,7 @@ Row measure(const Context& context, const Case& chosen, ActiveSet active,
       .add("vertices", mesh.num_vertices())
       .add("tolerance", chosen.tolerance);
   if (chosen.on_all_pairs) {
-    row.add("difference",
-            mean_squared_difference(solution.sparse_weights, io::read_sparse_weights(weights)));
+    row.add("difference", mean_squared_difference(solution.weights, io::read_weights(weights)));
   }
   return row;
 }

@@ -158,7 +158,7 @@ Reference reference(const Setting<Dim>& setting) {
       context.out + "/references/" + setting.name + "-" + hash + (context.quick ? "-quick" : "");
   // The gap is written last: with it, everything is there.
   if (std::filesystem::exists(stem + "-gap.npy")) {
-    return {io::read_weights(stem + ".npy"), io::read_weights(stem + "-gap.npy")(0)};
+    return {io::read_weights(stem + ".npy"), io::read_weights(stem + "-gap.npy").at(0)[0]};
   }
   auto solution = solve(problem, optimum_options(context, NonNegative::kConstraint));
   const double gap = solution.report.certificate.relative_gap;

@@ -127,8 +127,8 @@ bool add_rows(ResultTable& table, const Model& model, Index vertices, const Body
 
 //! An optimum of problem (1) of the paper on a mesh, non-negativity included.
 struct Reference {
-  WeightMatrix weights;  //!< n x V
-  double relative_gap;   //!< certified
+  SparseWeights weights;
+  double relative_gap;  //!< certified
 };
 
 //! How optima are computed, also those of table 1.

@@ -26,7 +26,7 @@ PointList<3> random_pose(const Cage<3>& cage) {
 }
 
 // Adds the creases of the model that belongs to the cage, posed.
-void add_creases(Row& row, const Setting<3>& setting, const WeightMatrix& weights) {
+void add_creases(Row& row, const Setting<3>& setting, const SparseWeights& weights) {
   const auto& problem = setting.problem;
   auto file = cage_path(setting.context, setting.model);
   const UnitScale<3> scale(read_cage<3>(file));
@@ -39,7 +39,7 @@ void add_creases(Row& row, const Setting<3>& setting, const WeightMatrix& weight
       .add("crease_high", creases.high)
       .add("crease_largest", creases.largest);
 }
-void add_creases(Row&, const Setting<2>&, const WeightMatrix&) {
+void add_creases(Row&, const Setting<2>&, const SparseWeights&) {
 }
 
 template <int Dim>

@@ -89,13 +89,12 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   const auto domain = make_interior(input, options);
   report.mesh_seconds = watch.lap();
   auto solver_options = options.solver;
-  solver_options.sparse = true;
   make_smooth(solver_options);
   const auto solution =
       flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher));
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
-  auto evaluation = evaluate(input, domain, solution.sparse_weights, options.outside);
+  auto evaluation = evaluate(input, domain, solution.weights, options.outside);
   report.outside = evaluation.outside;
   report.evaluate_seconds = watch.lap();
   binding.weights = std::move(evaluation.weights);
@@ -113,10 +112,10 @@ namespace {
 
 template <int Dim>
 Eigen::VectorXd reproducing_in(const PointList<Dim>& cage, const PointList<Dim>& point,
-                               WeightMatrix weights, std::size_t most) {
-  project_non_negative(cage, point, weights);
+                               const WeightMatrix& given, std::size_t most) {
+  auto weights = project_non_negative(cage, point, given);
   if (most > 0) weights = flbc::sparsify<Dim>(cage, point, weights, {static_cast<Index>(most)});
-  return weights;
+  return weights.at(0);
 }
 
 }  // namespace

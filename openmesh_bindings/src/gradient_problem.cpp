@@ -13,6 +13,7 @@
 #include "flbc/harmonic.h"
 #include "flbc/openmesh/gradients.h"
 #include "linear/dense.h"
+#include "solver/plan/constants.h"
 
 namespace flbc::openmesh {
 namespace {
@@ -94,14 +95,14 @@ void set_up_periods(GradientProblem<Dim>& problem) {
   std::vector<Index> component;
   const Index count = number_components(problem.base, component);
   if (count == 1) return;
-  const auto harmonic = harmonic_coordinates(problem.base);
-  Eigen::MatrixXd indicator = Eigen::MatrixXd::Zero(harmonic.rows(), count - 1);
+  const SparseWeights harmonic = harmonic_coordinates(problem.base);
+  Eigen::MatrixXd indicator = Eigen::MatrixXd::Zero(harmonic.num_control_points(), count - 1);
   for (std::size_t i = 0; i < component.size(); ++i) {
     if (component[i] > 0) indicator(static_cast<Eigen::Index>(i), component[i] - 1) = 1;
   }
-  problem.periods.resize(
-      static_cast<std::size_t>(count - 1),
-      {PointList<Dim>(Dim, mesh.num_cells()), Eigen::RowVectorXd::Zero(harmonic.rows())});
+  problem.periods.resize(static_cast<std::size_t>(count - 1),
+                         {PointList<Dim>(Dim, mesh.num_cells()),
+                          Eigen::RowVectorXd::Zero(harmonic.num_control_points())});
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     const auto gradients = internal::gradients_on_cell(mesh, s, harmonic);
     const Eigen::MatrixXd fields = signed_measure(mesh, s) * gradients * indicator;
@@ -137,10 +138,9 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   set_up_barycentric_conditions(problem);
   set_up_periods(problem);
   // The same choice as for Method::kGradient; docs/explanation/method/gradient_admm.md.
-  constexpr double kFactor = Dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
   const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
-  problem.penalty =
-      kFactor * std::pow(bounding_box_diagonal(cage.points), 2) * std::pow(length, Dim - 1);
+  problem.penalty = plan::gradient_penalty(Dim) * std::pow(bounding_box_diagonal(cage.points), 2) *
+                    std::pow(length, Dim - 1);
   return problem;
 }
 

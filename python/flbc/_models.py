@@ -11,7 +11,7 @@ from . import _core
 from ._errors import InputError, OptionError
 from ._shapes import Cage, as_cage, as_points, as_polygons, edges_of
 from ._solve import SolverOptions, checked, evaluate, mesh, solve, with_options
-from ._weights import as_poses, as_weights, corners_of, deform, measure, sparsify
+from ._weights import as_poses, as_weights, corners_of, deform, from_core, measure, sparsify
 
 if TYPE_CHECKING:
     import os
@@ -231,7 +231,6 @@ def bind(
         If an option is out of range.
     """
     given = checked(options, "bind")
-    given["sparse"] = True
     if given.get("method") == "bbw":
         raise OptionError(
             "method 'bbw': a binding needs weights that reproduce the model, which bounded "
@@ -246,7 +245,8 @@ def bind(
     polygons = as_polygons(faces, "faces", len(points))
     given["smoothness"] = _core.smoothness_of_bind(given)
     solution = solve(cage, mesh(cage, mesh_vertices) if domain is None else domain, **given)
-    weights, placed, which = evaluate(solution, points, outside)
+    parts, placed, which = evaluate(solution, points, outside)
+    weights = from_core(parts)
     if max_influences:
         flat = None if len(polygons[1]) == 1 else faces
         weights = sparsify(weights, cage, placed, max_influences, faces=flat)

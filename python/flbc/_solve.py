@@ -5,12 +5,10 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar
 
-import numpy as np
-
 from . import _core
 from ._errors import NotConverged, TooFewVertices
 from ._shapes import DomainMesh, as_cage, as_mesh, as_points, frozen, mesh_from
-from ._weights import as_weights, from_core
+from ._weights import dense_of, from_core
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -33,7 +31,6 @@ class SolverOptions(TypedDict, total=False):
     gap: Optional[float]
     max_iterations: int
     certify: bool
-    sparse: bool
     threads: int
     non_negative: str
     phi: str
@@ -44,12 +41,8 @@ class SolverOptions(TypedDict, total=False):
     active_set: str
     coarse_to_fine: str
     coarsest: Optional[int]
-    coarse_factor: Optional[float]
-    coarse_looseness: float
     penalty: Optional[float]
     relaxation: Optional[float]
-    check_interval: int
-    recovery: str
 
 
 OPTIONS = """\
@@ -66,8 +59,6 @@ OPTIONS = """\
     max_iterations : int, default 20000
     certify : bool, default False
         Whether to bound the distance of the weights from the optimum.
-    sparse : bool, default False
-        Whether weights are a sparse matrix, for many control points.
     threads : int, default 0
         Number of threads; 0 for all cores.
     non_negative : str, default "auto"
@@ -90,18 +81,10 @@ OPTIONS = """\
         Whether to start from coarser meshes: "on", "off".
     coarsest : int, optional
         Minimum number of vertices of a coarser mesh.
-    coarse_factor : float, optional
-        Ratio of vertices between these meshes, at least 2.
-    coarse_looseness : float, default 4
-        Tolerance on these meshes, relative to the final one.
     penalty : float, optional
         Penalty parameter, in units of the cage size.
     relaxation : float, optional
         Over-relaxation factor in (0, 2).
-    check_interval : int, default 10
-        Iterations between two calls of the callback.
-    recovery : str, default "auto"
-        How the gradient methods recover weights: "breadth-first", "least-squares".
 """
 
 
@@ -135,9 +118,10 @@ class Solution:
 
     Attributes
     ----------
-    weights : ndarray, shape (V, n), float64, read-only; or scipy.sparse.csr_matrix
-        Row v has the weight of every control point at vertex v. Nothing was copied from the
-        solver.
+    weights : ndarray, shape (V, n), float64, read-only
+        Row v has the weight of every control point at vertex v. Made on first use.
+    sparse_weights : scipy.sparse.csr_matrix, shape (V, n)
+        The same without zeros, for many control points. Nothing is copied from the solver.
     cage : Cage
     mesh : DomainMesh
     converged : bool
@@ -148,16 +132,24 @@ class Solution:
     certificate : Certificate or None
     """
 
-    __slots__ = ("weights", "cage", "mesh", "report")
-    weights: Weights
+    __slots__ = ("cage", "mesh", "report", "_parts", "_dense")
     cage: Cage
     mesh: DomainMesh
     report: Dict[str, Any]
 
-    def __init__(
-        self, weights: Weights, cage: Cage, mesh: DomainMesh, report: Dict[str, Any]
-    ) -> None:
-        self.weights, self.cage, self.mesh, self.report = weights, cage, mesh, report
+    def __init__(self, parts: Any, cage: Cage, mesh: DomainMesh, report: Dict[str, Any]) -> None:
+        self._parts, self.cage, self.mesh, self.report = parts, cage, mesh, report
+        self._dense: Optional[Floats] = None
+
+    @property
+    def weights(self) -> Floats:
+        if self._dense is None:
+            self._dense = frozen(dense_of(self._parts))
+        return self._dense
+
+    @property
+    def sparse_weights(self) -> Weights:
+        return from_core(self._parts)
 
     @property
     def converged(self) -> bool:
@@ -170,7 +162,7 @@ class Solution:
         names = "certified_objective", "lower_bound", "relative_gap"
         return Certificate(*(self.report[name] for name in names))
 
-    def at(self, points: ArrayLike, outside: str = "fail") -> Weights:
+    def at(self, points: ArrayLike, outside: str = "fail") -> Floats:
         """Evaluates the coordinates at points.
 
         Parameters
@@ -183,31 +175,29 @@ class Solution:
 
         Returns
         -------
-        ndarray, shape (P, n); or scipy.sparse.csr_matrix if the weights are sparse
+        ndarray, shape (P, n)
 
         Raises
         ------
         InputError
             If points are outside and `outside` is "fail".
         """
-        return evaluate(self, as_points(points, "points", self.cage.dim), outside)[0]
+        return dense_of(evaluate(self, as_points(points, "points", self.cage.dim), outside)[0])
 
     def __repr__(self) -> str:
-        shape = "x".join(str(size) for size in self.weights.shape)
+        shape = f"{len(self.mesh)}x{len(self.cage)}"
         return f"<flbc.Solution: {shape} weights, {self.report['status']}>"
 
     def __reduce__(self) -> Any:
-        return Solution, (self.weights, self.cage, self.mesh, self.report)
+        return Solution, (self._parts, self.cage, self.mesh, self.report)
 
 
 def evaluate(solution: Solution, points: Floats, outside: str) -> Any:
-    """Weights at points, the points that they reproduce, and which points are outside."""
+    """Parts of sparse weights at points, the points they reproduce, and which are outside."""
     cage, mesh = solution.cage, solution.mesh
-    weights = as_weights(solution.weights, "weights", len(mesh), len(cage))
-    found = _core.weights_at(
-        cage.points, cage.facets, mesh.points, mesh.cells, weights, points, outside
+    return _core.weights_at(
+        cage.points, cage.facets, mesh.points, mesh.cells, solution._parts, points, outside
     )
-    return (from_core(found[0]),) + found[1:]
 
 
 def mesh(
@@ -257,10 +247,8 @@ def mesh(
 
 
 def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
-    weights, report = from_core(found[0]), found[1]
-    if isinstance(weights, np.ndarray):
-        frozen(weights)
-    solution = Solution(weights, cage, domain, report)
+    parts, report = found
+    solution = Solution(parts, cage, domain, report)
     if warn and report["status"] == "iteration limit":
         warnings.warn(
             f"not converged within {report['iterations']} iterations; increase max_iterations or "
@@ -290,7 +278,7 @@ def solve(
     mesh : DomainMesh or tuple of arrays, optional
         Domain mesh of the cage with V vertices. Default: ``flbc.mesh(cage)``.
     callback : callable, optional
-        Called as ``callback(progress)`` every `check_interval` iterations with a `Progress`.
+        Called as ``callback(progress)`` every ten iterations with a `Progress`.
         Return False to stop with the weights so far. An exception ends the solve and reaches
         the caller.
 
@@ -365,17 +353,10 @@ class Solver:
     def __init__(
         self, cage: CageLike, mesh: Optional[MeshLike] = None, **options: Unpack[SolverOptions]
     ) -> None:
-        given = self._checked(options)
+        given = checked(options, "Solver")
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
         self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
-
-    @staticmethod
-    def _checked(options: Any) -> Dict[str, Any]:
-        given = checked(options, "Solver")
-        if given.get("sparse"):
-            raise TypeError("a Solver has dense weights; leave out sparse")
-        return given
 
     def solve(
         self, *, iterations: int = 0, seconds: float = 0, callback: Callback = None
@@ -435,7 +416,7 @@ class Solver:
 
     def set_options(self, **options: Unpack[SolverOptions]) -> None:
         """Changes options of the following solves; `phi` cannot change."""
-        self._core.set_options({**self._core.options(), **self._checked(options)})
+        self._core.set_options({**self._core.options(), **checked(options, "Solver")})
 
     def restart(self) -> None:
         """Makes the next solve start over."""

@@ -53,13 +53,21 @@ def as_weights(weights: Any, name: str, num_points: int, num_control_points: int
 
 
 def from_core(found: Any) -> Weights:
-    """Weights as users get them."""
+    """Weights as users get them: an array, or a sparse matrix."""
     if not isinstance(found, tuple):
         return found
     from scipy.sparse import csr_matrix  # not needed for dense weights
 
     values, columns, starts, count = found
     return csr_matrix((values, columns, starts), shape=(len(starts) - 1, count))
+
+
+def dense_of(found: Any) -> Floats:
+    """The array of the parts of a sparse matrix."""
+    values, columns, starts, count = found
+    dense = np.zeros((len(starts) - 1, count))
+    dense[np.repeat(np.arange(len(dense)), np.diff(starts)), columns] = values
+    return dense
 
 
 def sparsify(

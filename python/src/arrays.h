@@ -83,24 +83,14 @@ inline Polygons polygons_of(const std::vector<std::vector<Index>>& lists) {
           Polygons::second_type(static_cast<py::ssize_t>(starts.size()), starts.data())};
 }
 
-// Names the capsules that own dense weights.
-constexpr const char* kWeights = "flbc.WeightMatrix";
-
 //! An array with a row per column of a matrix, which it owns.
 template <class Matrix>
 py::array as_array(Matrix matrix) {
   auto kept = std::make_unique<Matrix>(std::move(matrix));
   const auto* data = kept->data();
   const std::vector<py::ssize_t> shape{kept->cols(), kept->rows()};
-  constexpr const char* kName = std::is_same_v<Matrix, WeightMatrix> ? kWeights : nullptr;
-  py::capsule owner(kept.release(), kName, [](PyObject* capsule) {
-    delete static_cast<Matrix*>(PyCapsule_GetPointer(capsule, kName));
-  });
+  py::capsule owner(kept.release(), [](void* p) { delete static_cast<Matrix*>(p); });
   return py::array_t<typename Matrix::Scalar>(shape, data, owner);
-}
-
-inline py::object as_python(WeightMatrix weights) {
-  return as_array(std::move(weights));
 }
 
 //! The arrays of scipy.sparse.csr_matrix, and the number of columns.
@@ -119,32 +109,18 @@ inline py::object as_python(SparseWeights weights) {
       sparse.num_control_points());
 }
 
-//! The matrix of which an array from as_array() shows all, or null.
-inline const WeightMatrix* matrix_behind(const Doubles& array) {
-  py::object base = array.base();
-  while (base && py::isinstance<py::array>(base)) base = base.cast<py::array>().base();
-  if (!base || PyCapsule_IsValid(base.ptr(), kWeights) == 0) return nullptr;
-  const auto* matrix = static_cast<const WeightMatrix*>(PyCapsule_GetPointer(base.ptr(), kWeights));
-  const bool is_whole = matrix->data() == array.data() && matrix->rows() == array.shape(1) &&
-                        matrix->cols() == array.shape(0);
-  return is_whole ? matrix : nullptr;
-}
-
-//! Calls `action` with dense weights, without a copy if they came from the library, or with sparse
-//! ones. \param weights  an array, or a tuple as from as_python()
-template <class Action>
-auto with_weights(const py::object& weights, const Action& action) {
+//! \param weights  an array, or a tuple as from as_python()
+inline SparseWeights weights_of(const py::object& weights) {
   if (!py::isinstance<py::tuple>(weights)) {
     const auto array = weights.cast<Doubles>();
-    if (const auto* kept = matrix_behind(array)) return action(*kept);
-    return action(
-        WeightMatrix(Eigen::Map<const WeightMatrix>(array.data(), array.shape(1), array.shape(0))));
+    return WeightMatrix(
+        Eigen::Map<const WeightMatrix>(array.data(), array.shape(1), array.shape(0)));
   }
   using Values = std::tuple<Doubles, Indices, py::array_t<std::int64_t, py::array::c_style>, Index>;
   const auto [values, columns, starts, count] = weights.cast<Values>();
-  return action(SparseWeights(count, {starts.data(), starts.data() + starts.size()},
-                              {columns.data(), columns.data() + columns.size()},
-                              {values.data(), values.data() + values.size()}));
+  return SparseWeights(count, {starts.data(), starts.data() + starts.size()},
+                       {columns.data(), columns.data() + columns.size()},
+                       {values.data(), values.data() + values.size()});
 }
 
 template <int Dim>

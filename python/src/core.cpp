@@ -170,15 +170,6 @@ py::tuple normalized_mesh(const Doubles& vertices, const Indices& cells) {
 
 // ---------------------------------------------------------------------------------------- weights
 
-// For functions that take dense weights only.
-WeightMatrix as_dense(const SparseWeights& weights) {
-  return weights.dense();
-}
-template <class Dense>
-const Dense& as_dense(const Dense& weights) {
-  return weights;
-}
-
 // Weights at points, the points that they reproduce, and the points outside.
 py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
                      const Indices& cells, const py::object& weights, const Doubles& places,
@@ -189,13 +180,12 @@ py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles
     const auto cage = cage_of<kDim>(points, facets);
     const auto mesh = mesh_of<kDim>(vertices, cells);
     const auto all = points_of<kDim>(places);
+    const auto known = weights_of(weights);
     Placement<kDim> placement;
-    auto found = with_weights(weights, [&](const auto& known) -> py::object {
-      return as_python(without_gil([&] {
-        placement = place_points(cage, mesh, all, policy);
-        return flbc::weights_at(cage, mesh, known, placement);
-      }));
-    });
+    const auto found = as_python(without_gil([&] {
+      placement = place_points(cage, mesh, all, policy);
+      return flbc::weights_at(cage, mesh, known, placement);
+    }));
     std::vector<Index> outside;
     for (const auto& point : placement.outside) outside.push_back(point.point);
     return py::make_tuple(found, as_array(std::move(placement.points)), outside);
@@ -208,23 +198,21 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
   SparsifyOptions options;
   options.max_influences = max_influences;
   options.threshold = threshold;
+  const auto given = weights_of(weights);
   return by_dimension(control_points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = points_of<kDim>(control_points);
     const auto all = points_of<kDim>(points);
     const auto moved = poses_of<kDim>(poses);
     const auto lists = polygons ? lists_of(*polygons) : std::vector<std::vector<Index>>();
-    return with_weights(weights, [&](const auto& given) -> py::object {
-      return as_python(without_gil([&] {
-        validate<kDim>(options);
-        const auto edges = edges_of_polygons(all, lists);
-        if (!suits_poisson(edges, cage.cols(), all.cols())) {
-          return SparseWeights(flbc::sparsify<kDim>(cage, all, given, options));
-        }
-        return SparseWeights(
-            reduce_by_poisson<kDim>(cage, all, edges, as_dense(given), moved, options));
-      }));
-    });
+    return as_python(without_gil([&] {
+      validate<kDim>(options);
+      const auto edges = edges_of_polygons(all, lists);
+      if (!suits_poisson(edges, cage.cols(), all.cols())) {
+        return flbc::sparsify<kDim>(cage, all, given, options);
+      }
+      return reduce_by_poisson<kDim>(cage, all, edges, given, moved, options);
+    }));
   });
 }
 
@@ -237,12 +225,10 @@ py::tuple transfer(const Doubles& control_points, const Doubles& points, const I
         points_of<kDim>(points),
         Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.shape(0))};
     const auto to = points_of<kDim>(places);
+    const auto given = weights_of(weights);
     Eigen::VectorXd distances;
-    auto found = with_weights(weights, [&](const auto& given) -> py::object {
-      return as_python(without_gil([&] {
-        return transfer_weights<kDim>(cage, model, as_dense(given), to, limit, &distances);
-      }));
-    });
+    const auto found = as_array(without_gil(
+        [&] { return transfer_weights<kDim>(cage, model, given, to, limit, &distances).dense(); }));
     return py::make_tuple(found, py::array_t<double>(distances.size(), distances.data()));
   });
 }
@@ -297,13 +283,11 @@ py::dict measure(const Doubles& points, const Indices& facets, const Doubles& pl
     DomainMesh<kDim> mesh;
     mesh.points = points_of<kDim>(places);
     if (cells) mesh = mesh_of<kDim>(places, *cells);
-    return with_weights(weights, [&](const auto& given) {
-      return as_python(without_gil([&] {
-        validate(cage);
-        const auto& dense = as_dense(given);
-        return cells ? check_weights(cage, mesh, dense) : check_weights(cage, mesh.points, dense);
-      }));
-    });
+    const auto given = weights_of(weights);
+    return as_python(without_gil([&] {
+      validate(cage);
+      return cells ? check_weights(cage, mesh, given) : check_weights(cage, mesh.points, given);
+    }));
   });
 }
 

@@ -103,25 +103,19 @@ void write_mesh(const std::string& path, const Doubles& vertices, const Indices&
 }
 
 py::object read_weights(const std::string& path) {
-  if (io::extension_of(path) == "mtx") {
-    return as_python(without_gil([&] { return io::read_sparse_weights(path); }));
-  }
-  return as_python(without_gil([&] {
+  auto weights = without_gil([&] {
     return holds(path, io::Content::kTriplets) ? io::read_weight_triplets(path)
                                                : io::read_weights(path);
-  }));
+  });
+  if (io::extension_of(path) == "mtx") return as_python(std::move(weights));
+  return as_array(without_gil([&] { return weights.dense(); }));
 }
 
 void write_weights(const std::string& path, const py::object& weights) {
-  with_weights(weights, [&](const auto& given) {
-    without_gil([&] {
-      if (!holds(path, io::Content::kTriplets)) return io::write_weights(path, given);
-      if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-        io::write_weight_triplets(path, given.dense());
-      } else {
-        io::write_weight_triplets(path, given);
-      }
-    });
+  const auto given = weights_of(weights);
+  without_gil([&] {
+    holds(path, io::Content::kTriplets) ? io::write_weight_triplets(path, given)
+                                        : io::write_weights(path, given);
   });
 }
 
@@ -158,14 +152,13 @@ void export_skin(const std::string& path, const Doubles& cage_points, const Indi
     options.cage_edges = view::as_facets(edges_of(cage));
     const gltf::Animation<kDim> animation{times, poses_of<kDim>(poses)};
     const auto places = points_of<kDim>(points);
-    with_weights(weights, [&](const auto& given) {
-      without_gil([&] {
-        const auto surface = surface_of<kDim>(points, polygons);
-        options.edges = edges_of_polygons(places, lists_of(polygons));
-        const auto skin = gltf::export_skin<kDim>(cage.points, places, SparseWeights(given),
-                                                  surface, options, animation);
-        io::write_file(path, [&](std::ostream& out) { out << skin.content; });
-      });
+    const auto given = weights_of(weights);
+    without_gil([&] {
+      const auto surface = surface_of<kDim>(points, polygons);
+      options.edges = edges_of_polygons(places, lists_of(polygons));
+      const auto skin =
+          gltf::export_skin<kDim>(cage.points, places, given, surface, options, animation);
+      io::write_file(path, [&](std::ostream& out) { out << skin.content; });
     });
   });
 }
@@ -190,20 +183,12 @@ std::string make_page(const Doubles& cage_points, const Indices& facets, const D
       content.poses.push_back(
           {"pose " + std::to_string(k + 1), static_cast<double>(k + 1), moved[k]});
     }
-    return with_weights(weights, [&](const auto& given) {
-      return without_gil([&] {
-        content.surface = surface_of<kDim>(points, polygons);
-        const auto limit = [&](const WeightMatrix& dense) {
-          content.weights = view::limit_influences<kDim>(cage.points, content.points, dense,
-                                                         view::kMostInfluences);
-        };
-        if constexpr (std::is_same_v<std::decay_t<decltype(given)>, SparseWeights>) {
-          limit(given.dense());
-        } else {
-          limit(given);
-        }
-        return view::make_page(content);
-      });
+    const auto given = weights_of(weights);
+    return without_gil([&] {
+      content.surface = surface_of<kDim>(points, polygons);
+      content.weights =
+          view::limit_influences<kDim>(cage.points, content.points, given, view::kMostInfluences);
+      return view::make_page(content);
     });
   });
 }

@@ -82,7 +82,6 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("gap", gap),
       FLBC_FIELD("max_iterations", max_iterations),
       FLBC_FIELD("certify", certify),
-      FLBC_FIELD("sparse", sparse),
       FLBC_FIELD("threads", threads),
       FLBC_FIELD("non_negative", non_negative),
       FLBC_FIELD("phi", phi),
@@ -93,12 +92,8 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("active_set", active_set),
       FLBC_FIELD("coarse_to_fine", coarse_to_fine),
       FLBC_FIELD("coarsest", coarse_levels.coarsest),
-      FLBC_FIELD("coarse_factor", coarse_levels.factor),
-      FLBC_FIELD("coarse_looseness", coarse_levels.looseness),
       FLBC_FIELD("penalty", penalty),
       FLBC_FIELD("relaxation", relaxation),
-      FLBC_FIELD("check_interval", check_interval),
-      FLBC_FIELD("recovery", gradient.recovery),
   };
   return table;
 }

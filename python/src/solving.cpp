@@ -158,9 +158,8 @@ SolverOptions options_here(const py::dict& keywords) {
   return options;
 }
 
-py::tuple solved(Solution solution, bool sparse) {
-  auto report = as_dict(solution.report);
-  if (sparse) return py::make_tuple(as_python(std::move(solution.sparse_weights)), report);
+py::tuple solved(Solution solution) {
+  const auto report = as_dict(solution.report);
   return py::make_tuple(as_python(std::move(solution.weights)), report);
 }
 
@@ -174,7 +173,7 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
     const auto observer = observer_of(callback);
     auto solution = without_gil(
         [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); });
-    return solved(std::move(solution), options.sparse);
+    return solved(std::move(solution));
   });
 }
 
@@ -203,7 +202,7 @@ class AnySolver {
     return use([&](auto& solver) {
       const auto observer = observer_of(callback);
       // A copy, because the Solver needs its weights for the next move.
-      return solved(without_gil([&] { return Solution(action(solver, observer)); }), false);
+      return solved(without_gil([&] { return Solution(action(solver, observer)); }));
     });
   }
 

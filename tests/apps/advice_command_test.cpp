@@ -188,9 +188,6 @@ const char* const kSolver = R"(
 1 flbc solve square.obj $V --method harmonic --phi square -o x.npy
 flbc solve square.obj $V --method harmonic -o x.npy
 # ; leave out this option
-1 flbc solve square.obj $V --recovery least-squares -o x.npy
-flbc solve square.obj $V -o x.npy
-# ; leave out this option
 1 flbc solve square.obj $V --outside nearest -o x.npy
 flbc solve square.obj $V -o x.npy
 # ; leave out this option

@@ -181,7 +181,7 @@ template <int Dim>
 void expect_measures(const Json& json, const std::string& cage_file, const PointList<Dim>& points,
                      const std::string& weights_file) {
   const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
-  const auto quality = measure_quality(cage.points, points, io::read_weights(weights_file));
+  const auto quality = measure_quality(cage.points, points, io::read_weights(weights_file).dense());
   EXPECT_EQ(json["weights"]["min_weight"].get<double>(), quality.min_weight);
   EXPECT_EQ(json["weights"]["mean_influences"].get<double>(), quality.mean_influences);
   EXPECT_NEAR(json["weights"]["max_reproduction_error"].get<double>(),
@@ -240,7 +240,7 @@ TEST_F(CheckCommand, DefaultResultsAreFine) {
 // An extremum that no solve leaves.
 TEST_F(CheckCommand, DeepExtremaAreNotFine) {
   ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
-  auto weights = io::read_weights("v.npy");
+  auto weights = io::read_weights("v.npy").dense();
   Eigen::Index inside = 0;  // on the cage, one of two weights is 0.5 at least
   ASSERT_LT(weights.colwise().maxCoeff().minCoeff(&inside), 0.5);
   weights(3, inside) += 2;
@@ -252,7 +252,7 @@ TEST_F(CheckCommand, DeepExtremaAreNotFine) {
 TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
   ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
   const std::string on_mesh = "2d/ring_cage.obj --domain d.obj --weights x.npy";
-  const auto sound = io::read_weights("v.npy");
+  const auto sound = io::read_weights("v.npy").dense();
 
   auto weights = sound;
   const auto last = static_cast<Index>(weights.cols() - 1);  // inside
@@ -269,7 +269,7 @@ TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
                {"at point 7 at ("});
 
   // At another model point than its own, a row reproduces another point.
-  weights = io::read_weights("w.npy");
+  weights = io::read_weights("w.npy").dense();
   weights.col(0).swap(weights.col(1));
   io::write_weights("x.npy", weights);
   expect_check("2d/ring_cage.obj --model 2d/ring_model.obj --weights x.npy", 2,

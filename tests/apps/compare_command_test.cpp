@@ -97,7 +97,7 @@ TEST_F(CompareCommand, GreenCoordinatesAndBiharmonicWeightsDeformModels) {
          " -q --vertices 500 --method bbw --model 2d/figure_model.obj -o bbw.npy");
   for (const std::string& way : {" --method green", " --relative --weights bbw.npy"}) {
     expect(deform + way);
-    EXPECT_LT(io::read_weights("lengths.csv").maxCoeff(), 1e-10) << way;
+    EXPECT_LT(io::read_weights("lengths.csv").dense().maxCoeff(), 1e-10) << way;
   }
   expect(deform + " --weights bbw.npy", 2, "--relative");
   expect(deform, 1, "--method green");
@@ -113,8 +113,8 @@ TEST_F(CompareCommand, SolvesWithoutAMeshAsOnTheVerticesThemselves) {
            " --save-domain domain.obj -o mesh.npy");
     expect("solve 2d/figure_cage.obj -q --method " + method +
            " --model domain.obj -o model.npy --report model.json");
-    const auto on_mesh = io::read_weights("mesh.npy");
-    const auto at_model = io::read_weights("model.npy");
+    const auto on_mesh = io::read_weights("mesh.npy").dense();
+    const auto at_model = io::read_weights("model.npy").dense();
     EXPECT_LT((on_mesh - at_model).cwiseAbs().maxCoeff(), 1e-9) << method;
     EXPECT_EQ(nlohmann::json::parse(slurp("model.json"))["vertices"], 0);
   }

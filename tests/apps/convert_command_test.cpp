@@ -27,7 +27,7 @@ class ConvertCommand : public CommandLineTest {
 
   WeightMatrix read(const std::string& name) const {
     const bool are_triplets = name.substr(name.size() - 3) == "txt";
-    return are_triplets ? io::read_weight_triplets(name) : io::read_weights(name);
+    return are_triplets ? io::read_weight_triplets(name).dense() : io::read_weights(name).dense();
   }
 
   // Five points and three control points, without weights of the last of either.

@@ -53,10 +53,10 @@ class DeformCommand : public CommandLineTest {
 
     expect_deform(command + pose + " -o o.obj --displacement d.npy", 0, "largest displacement");
     const auto moved = points_of<Dim>("o.obj");
-    const auto weights = io::read_weights("w.npy");
+    const auto weights = io::read_weights("w.npy").dense();
     EXPECT_LT((moved - points_of<Dim>(pose) * weights).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_EQ(without_vertices("o.obj"), without_vertices(model));
-    const auto lengths = io::read_weights("d.npy");
+    const auto lengths = io::read_weights("d.npy").dense();
     ASSERT_EQ(lengths.rows(), 1);
     EXPECT_LT((lengths.row(0) - (moved - rest).colwise().norm()).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_GT(lengths.maxCoeff(), 0.1);
@@ -77,7 +77,7 @@ class DeformCommand : public CommandLineTest {
     const auto domain = io::read_domain<Dim>(domain_file);
     const auto moved_domain = io::read_domain<Dim>(output);
     EXPECT_EQ(moved_domain.num_cells(), domain.num_cells());
-    const auto expected_domain = deform(io::read_weights("v.npy"), points_of<Dim>(pose));
+    const auto expected_domain = deform(io::read_weights("v.npy").dense(), points_of<Dim>(pose));
     EXPECT_LT((moved_domain.points - expected_domain).cwiseAbs().maxCoeff(), 1e-13);
   }
 };
@@ -129,7 +129,7 @@ TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
       "solve 3d/limb_cage.obj --method harmonic -q -o m.npy --domain d.mesh --model model.obj "
       "--gradients g.npy "
       "--save-domain d.vtu");
-  const auto gradients = io::read_weights("g.npy");
+  const auto gradients = io::read_weights("g.npy").dense();
   ASSERT_EQ(gradients.cols(), num_vertices);
   const auto pose = points_of<3>("affine.obj");
   for (Index v = 0; v < num_vertices; ++v) {
@@ -257,7 +257,7 @@ TEST_F(DeformCommand, Sequences) {
     expected.row(0).array() += k;
     EXPECT_EQ(points_of<3>(output), expected);
   }
-  const auto lengths = io::read_weights("d.npy");
+  const auto lengths = io::read_weights("d.npy").dense();
   ASSERT_EQ(lengths.rows(), 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(lengths.row(k).sum(), 4 * (k + 1));
 
@@ -311,7 +311,7 @@ TEST_F(DeformCommand, EnormousDisplacements) {
   expect_deform(model + " --weights " + linear_weights(model_points()) + " --rest " + rest +
                     " --displacement d.npy --keyframes " + keys + " -o o_%d.obj",
                 0, "largest displacement 1e+200");
-  EXPECT_NEAR(io::read_weights("d.npy").maxCoeff(), 1e200, 1e186);
+  EXPECT_NEAR(io::read_weights("d.npy").dense().maxCoeff(), 1e200, 1e186);
   std::filesystem::remove("o_0.obj");
   std::filesystem::remove("o_1.obj");
 

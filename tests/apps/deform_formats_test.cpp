@@ -195,7 +195,7 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
       EXPECT_LE(seen[k].second, seen[k - 1].second + kLevel);
     }
     EXPECT_LT(seen.back().second, seen.front().second - 0.3);
-    const auto lengths = io::read_weights("d.npy");
+    const auto lengths = io::read_weights("d.npy").dense();
     EXPECT_LT((lengths.row(1) - 0.5 * points.colwise().norm()).cwiseAbs().maxCoeff(), 1e-15);
   }
   const auto refused = deform(command + "o_%d.stl", 1).errors;
@@ -279,7 +279,7 @@ TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
     EXPECT_EQ(deform(command + "o.stl").errors, "");
     EXPECT_EQ(deform(command + "o.ply").errors, "");
     const auto moved = read_by_openmesh("o.ply", Options());
-    EXPECT_EQ(io::read_weights("w.npy").cols(), static_cast<Index>(moved.n_vertices()));
+    EXPECT_EQ(io::read_weights("w.npy").dense().cols(), static_cast<Index>(moved.n_vertices()));
   }
   // Where numbers are that small, other programs take them for equal.
   const auto odd = file("odd.stl",

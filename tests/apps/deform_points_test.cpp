@@ -99,7 +99,7 @@ class DeformPoints : public CommandLineTest {
 
 TEST_F(DeformPoints, MovesArrays) {
   expect(deform("p.npy", "q.npy"), 0, "70000 vertices, 1 pose");
-  EXPECT_LT((io::read_weights("q.npy") - moved(points_)).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((io::read_weights("q.npy").dense() - moved(points_)).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
@@ -194,7 +194,7 @@ TEST_F(DeformPoints, FailuresLeaveNoFile) {
     EXPECT_TRUE(name[0] != 'q' && name[0] != '.') << name;
   }
   expect(deform("out.npy", "q.npy") + "--outside nearest");
-  EXPECT_NEAR(io::read_weights("q.npy")(2, 69999), 4.0 / 3, 1e-12);
+  EXPECT_NEAR(io::read_weights("q.npy").dense()(2, 69999), 4.0 / 3, 1e-12);
 }
 
 }  // namespace

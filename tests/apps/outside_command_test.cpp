@@ -36,7 +36,7 @@ TEST_F(OutsideCommand, AHairHasOneAnswer) {
     EXPECT_NE(run("check " + square() + " --model " + of).output.find("none outside"),
               std::string::npos);
     expect(solve(""), 0, "2 vertices within");
-    EXPECT_GE(io::read_weights("w.npy").minCoeff(), 0);
+    EXPECT_GE(io::read_weights("w.npy").dense().minCoeff(), 0);
     EXPECT_EQ(report("report.json")["outside"]["on_cage"]["count"], 2);
     EXPECT_EQ(report("report.json")["outside"]["outside"]["count"], 0);
     expect("check " + square() + " --model " + of + " --weights w.npy");
@@ -60,7 +60,7 @@ TEST_F(OutsideCommand, EmbeddingTakesModelsAsTheyAre) {
                        "v 0.5 0.5 0\nv 0.3 -0.0000001 0\nv 0.5 0.5 0\nv 1 1 0\nv 0.25 0.75 0\n"
                        "v 0 0.4 0\nv 0.25 0.75000000000001 0\nf 1 2 5\nf 3 4 6\n");
   expect(solve("--embed --save-domain domain.obj"), 0, "1 vertices within");
-  const auto weights = io::read_weights("w.npy");
+  const auto weights = io::read_weights("w.npy").dense();
   ASSERT_EQ(weights.cols(), 7);
   EXPECT_EQ(weights.col(0), weights.col(2));
   EXPECT_EQ(weights.col(4), weights.col(6));
@@ -79,7 +79,7 @@ TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
   const auto of = model("0.25");
   expect(solve("--outside fail"), 2);
   expect(solve("--outside nearest"));
-  const auto nearest = io::read_weights("w.npy");
+  const auto nearest = io::read_weights("w.npy").dense();
   EXPECT_GE(nearest.minCoeff(), 0);
   EXPECT_NEAR(nearest(0, 1), 0.7, 1e-12);  // (0.3, 0) between control points 0 and 1
   EXPECT_NEAR(nearest(1, 1), 0.3, 1e-12);
@@ -87,7 +87,7 @@ TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
   EXPECT_NEAR(report("report.json")["outside"]["outside"]["distance"], 0.25, 1e-12);
   EXPECT_EQ(report("report.json")["options"]["outside"], "nearest");
   expect(solve("--outside extend"));
-  const auto extended = io::read_weights("w.npy");
+  const auto extended = io::read_weights("w.npy").dense();
   EXPECT_NEAR(extended.col(1).sum(), 1, 1e-12);
   EXPECT_NEAR(extended(1, 1) + extended(2, 1), 0.3, 1e-12);    // x
   EXPECT_NEAR(extended(2, 1) + extended(3, 1), -0.25, 1e-12);  // y

@@ -72,7 +72,7 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
                    " -o w.npy --report report.json",
                0, "2 parts, " + std::to_string(2 * n) + " control points");
   this->expect("check " + cage + " --domain " + this->domain() + " --weights w.npy", 0);
-  const auto weights = io::read_weights("w.npy");
+  const auto weights = io::read_weights("w.npy").dense();
   const auto report = this->report("report.json");
   ASSERT_EQ(report["parts"].size(), 2u);
   Index next = 2 * n;
@@ -83,7 +83,7 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
     this->expect(
         "solve " + alone + this->vertices(share) + "--certify -q -o alone.npy --report alone.json",
         0);
-    const auto expected = io::read_weights("alone.npy");
+    const auto expected = io::read_weights("alone.npy").dense();
     std::vector<Index> vertices;
     for (Index v = 0; v < expected.cols(); ++v) vertices.push_back(v < n ? k * n + v : next++);
     const WeightMatrix rows = weights(Eigen::all, vertices);
@@ -108,7 +108,7 @@ TYPED_TEST(PartsCommand, MeshFirstThenSolve) {
   this->expect("mesh " + cage + this->vertices() + "-o " + this->domain(), 0);
   this->expect("solve " + cage + " --domain " + this->domain() + " -q -o a.npy", 0);
   this->expect("solve " + cage + this->vertices() + "-q -o b.npy", 0);
-  const auto a = io::read_weights("a.npy"), b = io::read_weights("b.npy");
+  const auto a = io::read_weights("a.npy").dense(), b = io::read_weights("b.npy").dense();
   ASSERT_EQ(a.cols(), b.cols());
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6);  // files have 15 to 17 digits
 }
@@ -158,7 +158,7 @@ TYPED_TEST(PartsCommand, EmbedsEachVertexInItsPart) {
   const auto cage = this->both(), of = this->model();
   this->expect("solve " + cage + this->vertices() + "--model " + of + " --embed -o w.npy", 0);
   this->expect("check " + cage + " --model " + of + " --weights w.npy", 0);
-  const auto weights = io::read_weights("w.npy");
+  const auto weights = io::read_weights("w.npy").dense();
   constexpr int n = 1 << TypeParam::value;
   EXPECT_EQ(weights.topRightCorner(n, n).cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
@@ -177,7 +177,7 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
       std::to_string(n / 2) + " of " + std::to_string(2 * n) + " vertices are outside the cage");
   for (const std::string policy : {"nearest", "extend"}) {
     this->expect(solve(policy), 0, "vertices outside the cage");
-    const auto weights = io::read_weights("w.npy");
+    const auto weights = io::read_weights("w.npy").dense();
     EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
     EXPECT_LT((weights.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
   }

@@ -48,8 +48,8 @@ template <int Dim>
 void expect_sparse(const std::string& cage_file, const PointList<Dim>& points,
                    const std::string& before_file, const std::string& after_file, int most,
                    const Json& report) {
-  const auto before = io::read_weights(before_file);
-  const auto after = io::read_weights(after_file);
+  const auto before = io::read_weights(before_file).dense();
+  const auto after = io::read_weights(after_file).dense();
   const auto quality = measure_quality<Dim>(read_points<Dim>(cage_file), points, after);
   EXPECT_GE(quality.min_weight, 0);
   EXPECT_LE(quality.max_partition_error, 1e-13);
@@ -140,12 +140,12 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
       "-o ";
   expect(arguments + "without.npy");
   expect(arguments + "with.npy --pose pose.obj --report r.json");
-  const auto before = io::read_weights("v.npy");
+  const auto before = io::read_weights("v.npy").dense();
   const auto points = io::to_points<2>(pose, "pose.obj");
   const auto domain = io::read_domain<2>("ring.vtu");
   const auto error = [&](const std::string& name) {
     return edge_error<2>(domain.points, edges_of_cells(domain), {points}, before,
-                         io::read_weights(name));
+                         io::read_weights(name).dense());
   };
   EXPECT_LT(error("with.npy").rms, 0.9 * error("without.npy").rms);
   const auto poses = Json::parse(slurp("r.json"))["error"]["edge"]["poses"];
@@ -173,13 +173,13 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
 TEST_F(SparsifyCommand, TripletsAndThresholds) {
   const auto arguments = square();
   expect("sparsify " + arguments + " -k 3 -q -o s.dmat");
-  const auto sparse = io::read_weights("s.dmat");
+  const auto sparse = io::read_weights("s.dmat").dense();
   EXPECT_LE((sparse.array() != 0).colwise().count().maxCoeff(), 3);
   const PointList<2> points = read_points<2>("cage.obj") * sparse;
   EXPECT_LE((points - read_points<2>("model.obj")).norm(), 1e-13);
   // Nothing is below the threshold: the weights stay.
   expect("sparsify " + arguments + " --threshold 0.1 -q -o t.npy");
-  const auto same = io::read_weights("t.npy");
+  const auto same = io::read_weights("t.npy").dense();
   EXPECT_EQ(same(3, 1), 0.375);
   EXPECT_EQ((same.array() != 0).count(), 8);
 }

@@ -41,12 +41,15 @@ TEST_F(TransferCommand, OtherVersionsGetWeightsFromMeshOrModel) {
     expect_transfer("d.npy --domain " + domain + rest + model, 0, "minimum weight");
     EXPECT_EQ(slurp("t.npy"), slurp("w.npy"));
     expect_transfer("w.npy --from " + model + rest + model, 0, "away from");
-    EXPECT_LT((io::read_weights("t.npy") - io::read_weights("w.npy")).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((io::read_weights("t.npy").dense() - io::read_weights("w.npy").dense())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-9);
     const auto more = finer(model);
     for (const auto& from : {"w.npy --from " + model, "d.npy --domain " + domain}) {
       expect_transfer(from + rest + more, 0, "t.npy");
       expect("check " + cage + " --model " + more + " --weights t.npy");
-      EXPECT_GE(io::read_weights("t.npy").minCoeff(), 0);
+      EXPECT_GE(io::read_weights("t.npy").dense().minCoeff(), 0);
     }
   }
 }

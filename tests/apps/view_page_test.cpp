@@ -84,16 +84,17 @@ PageContent<Dim> cube_content() {
     for (int k = 0; k < Dim; ++k) content.cage.points(k, i) = corner[k] + (i >> k & 1);
   }
   content.points = PointList<Dim>::Zero(Dim, 5);
-  content.weights.resize(n, 5);
+  WeightMatrix weights(n, 5);
   for (Index p = 0; p < 5; ++p) {
     const Vector<Dim> place = Vector<Dim>::LinSpaced(0.1 + 0.15 * p, 0.8 - 0.1 * p);
     for (Index i = 0; i < n; ++i) {
       double weight = 1;
       for (int k = 0; k < Dim; ++k) weight *= (i >> k & 1) != 0 ? place[k] : 1 - place[k];
-      content.weights(i, p) = weight;
+      weights(i, p) = weight;
     }
     content.points.col(p) = corner + place;
   }
+  content.weights = weights;
   content.surface.triangles.resize(3, 2);
   content.surface.triangles << 0, 1, 1, 2, 2, 4;
   content.surface.sources = {0, 1, 2, 3, 4};
@@ -108,7 +109,8 @@ TEST_IN_2D_AND_3D(ViewPage, HoldsWhatItWasGiven) {
   const auto page = make_page(given);
   const auto content = content_of(page);
   EXPECT_EQ(content["title"], given.title);
-  EXPECT_EQ(weights_in(content, n), given.weights.template cast<float>().template cast<double>());
+  EXPECT_EQ(weights_in(content, n),
+            given.weights.dense().template cast<float>().template cast<double>());
 
   const auto cage = numbers_from<double>(content["cage"]["points"]);
   EXPECT_EQ((Eigen::Map<const PointList<Dim>>(cage.data(), Dim, n)), given.cage.points);
@@ -138,7 +140,7 @@ TEST_IN_2D_AND_3D(ViewPage, IsOneFileWithoutNetwork) {
 
 TEST_IN_2D_AND_3D(ViewPage, RefusesWhatDoesNotFit) {
   auto content = cube_content<Dim>();
-  content.weights = content.weights.leftCols(3).eval();
+  content.weights = WeightMatrix(content.weights.dense().leftCols(3));
   EXPECT_THROW(make_page(content), InputError);
   content = cube_content<Dim>();
   content.poses[0].points = content.cage.points.leftCols(2);
@@ -150,17 +152,19 @@ TEST_IN_2D_AND_3D(ViewPage, RefusesWhatDoesNotFit) {
 
 TEST_IN_2D_AND_3D(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
   auto content = cube_content<Dim>();
-  WeightMatrix weights = content.weights;
+  WeightMatrix weights = content.weights.dense();
   weights.col(1).setZero();
   weights(0, 1) = 1.5;  // as others deliver them: few, but one of them negative
   weights(1, 1) = -0.5;
-  const auto few = limit_influences<Dim>(content.cage.points, content.points, weights, Dim + 1);
+  const auto few =
+      limit_influences<Dim>(content.cage.points, content.points, weights, Dim + 1).dense();
   EXPECT_EQ(few.col(1), weights.col(1));
   for (const Index p : {0, 2, 3, 4}) {
     EXPECT_LE((few.col(p).array() != 0).count(), Dim + 1);
     EXPECT_LT((content.cage.points * few.col(p) - content.points.col(p)).norm(), 1e-8);
   }
-  EXPECT_EQ((limit_influences<Dim>(content.cage.points, content.points, weights, 8)), weights);
+  EXPECT_EQ((limit_influences<Dim>(content.cage.points, content.points, weights, 8).dense()),
+            weights);
   for (const Index most : {Dim, 17}) {
     EXPECT_THROW((limit_influences<Dim>(content.cage.points, content.points, weights, most)),
                  OptionError);
@@ -206,7 +210,7 @@ TEST_F(ViewCommand, WritesAPageOfASample) {
     EXPECT_EQ(content["poses"].size(), 1u);
     EXPECT_EQ(content["poses"][0]["time"], 1);
     EXPECT_EQ(content["cage"]["text"], testing::slurp(name + "_cage.obj"));
-    const auto given = io::read_weights("w.npy");
+    const auto given = io::read_weights("w.npy").dense();
     const auto shown = weights_in(content, static_cast<Index>(given.rows()));
     EXPECT_EQ(shown.cols(), given.cols());
     EXPECT_LE((shown.array() != 0).colwise().count().maxCoeff(), 4);

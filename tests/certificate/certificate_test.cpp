@@ -73,8 +73,7 @@ WeightMatrix feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     if (problem.boundary.boundary_index[v] >= 0) weights.col(v) = boundary.col(v);
   }
-  project_non_negative(problem.cage.points, problem.mesh.points, weights, interior);
-  return weights;
+  return project_non_negative(problem.cage.points, problem.mesh.points, weights, interior).dense();
 }
 
 TEST_IN_2D_AND_3D(CertificateTest, LinearProgramFindsTheBestVertex) {

@@ -113,9 +113,9 @@ TEST(BiharmonicTest, DoNotDependOnThreadsAndRefuseProjection) {
   SolverOptions options;
   options.method = Method::kBiharmonic;
   options.threads = 1;
-  const auto one = solve(sample.cage, sample.mesh, options).weights;
+  const auto one = solve(sample.cage, sample.mesh, options).weights.dense();
   options.threads = 3;
-  EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, one);
+  EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights.dense(), one);
   options.non_negative = NonNegative::kProject;
   EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
 }

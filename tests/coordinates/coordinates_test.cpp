@@ -35,7 +35,7 @@ TEST_IN_2D_AND_3D(CoordinatesTest, InterpolationKeepsLinearFunctionsAndTheConstr
       EXPECT_EQ(places[p].cell, p / 2);
       EXPECT_NEAR(places[p].coordinates.sum(), 1, 1e-12);
     }
-    const auto rows = interpolate(problem.mesh, weights, places);
+    const auto rows = interpolate(problem.mesh, weights, places).dense();
     const auto quality = measure_quality(problem.cage.points, points, rows);
     EXPECT_LT(quality.max_partition_error, 1e-12);
     EXPECT_LT(quality.max_reproduction_error, 1e-12);
@@ -46,7 +46,7 @@ TEST_IN_2D_AND_3D(CoordinatesTest, VerticesAreFoundAndGiveTheirOwnWeights) {
   const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   const WeightMatrix weights = WeightMatrix::Random(5, sample.mesh.num_vertices());
   const auto rows =
-      interpolate(sample.mesh, weights, locate_points(sample.mesh, sample.mesh.points));
+      interpolate(sample.mesh, weights, locate_points(sample.mesh, sample.mesh.points)).dense();
   EXPECT_LT((rows - weights).cwiseAbs().maxCoeff(), 1e-12);
 }
 

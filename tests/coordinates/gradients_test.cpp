@@ -42,9 +42,10 @@ TEST_IN_2D_AND_3D(GradientsTest, AffinePosesGiveTheirLinearPart) {
       }
     };
     for (const auto kind : {GradientKind::kCell, GradientKind::kSmooth}) {
-      expect_linear_part(jacobians(gradients_at(problem.mesh, weights, places, kind), pose));
       expect_linear_part(
-          jacobians(gradients_at(problem.mesh, SparseWeights(weights), places, kind), pose));
+          jacobians(gradients_at(problem.mesh, weights, places, kind).dense(), pose));
+      expect_linear_part(jacobians(
+          gradients_at(problem.mesh, SparseWeights(weights), places, kind).dense(), pose));
     }
   }
 }
@@ -54,13 +55,13 @@ TEST_IN_2D_AND_3D(GradientsTest, DifferencesInACell) {
   const WeightMatrix weights = WeightMatrix::Random(5, sample.mesh.num_vertices());
   const PointList<Dim> points = centroids<Dim>(sample.mesh.points, sample.mesh.cells);
   const auto places = locate_points(sample.mesh, points);
-  const auto gradients = gradients_at(sample.mesh, weights, places, GradientKind::kCell);
-  const auto before = interpolate(sample.mesh, weights, places);
+  const auto gradients = gradients_at(sample.mesh, weights, places, GradientKind::kCell).dense();
+  const auto before = interpolate(sample.mesh, weights, places).dense();
   constexpr double kStep = 1e-6;
   for (int d = 0; d < Dim; ++d) {
     PointList<Dim> moved = points;
     moved.row(d).array() += kStep;
-    const auto after = interpolate(sample.mesh, weights, locate_points(sample.mesh, moved));
+    const auto after = interpolate(sample.mesh, weights, locate_points(sample.mesh, moved)).dense();
     const WeightMatrix differences = (after - before) / kStep;
     for (Index p = 0; p < points.cols(); ++p) {
       for (Index i = 0; i < 5; ++i) {
@@ -73,10 +74,12 @@ TEST_IN_2D_AND_3D(GradientsTest, DifferencesInACell) {
 TEST_IN_2D_AND_3D(GradientsTest, AtVerticesTheyAreMeansOfCells) {
   const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
   const WeightMatrix weights = WeightMatrix::Random(3, sample.mesh.num_vertices());
-  const auto of_cells = gradients_at(
-      sample.mesh, weights,
-      locate_points(sample.mesh, centroids<Dim>(sample.mesh.points, sample.mesh.cells)),
-      GradientKind::kCell);
+  const auto of_cells =
+      gradients_at(
+          sample.mesh, weights,
+          locate_points(sample.mesh, centroids<Dim>(sample.mesh.points, sample.mesh.cells)),
+          GradientKind::kCell)
+          .dense();
   WeightMatrix sums = WeightMatrix::Zero(3 * Dim, sample.mesh.num_vertices());
   Eigen::VectorXd measures = Eigen::VectorXd::Zero(sample.mesh.num_vertices());
   for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
@@ -87,7 +90,7 @@ TEST_IN_2D_AND_3D(GradientsTest, AtVerticesTheyAreMeansOfCells) {
     }
   }
   const WeightMatrix means = sums * measures.cwiseInverse().asDiagonal();
-  EXPECT_LT((vertex_gradients(sample.mesh, weights) - means).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((vertex_gradients(sample.mesh, weights).dense() - means).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(Gradients, PointsOutsideHaveThoseOfTheNearestPointOfTheCage) {
@@ -99,7 +102,7 @@ TEST(Gradients, PointsOutsideHaveThoseOfTheNearestPointOfTheCage) {
   const auto places = places_in_mesh(sample.cage, sample.mesh, placement);
   ASSERT_EQ(placement.places[1].cell, -1);
   for (const auto& place : places) ASSERT_GE(place.cell, 0);
-  const auto found = interpolate(sample.mesh, sample.mesh.points, places);
+  const auto found = interpolate(sample.mesh, sample.mesh.points, places).dense();
   EXPECT_LT((found.col(1) - placement.points.col(1)).norm(), 1e-9);
 }
 

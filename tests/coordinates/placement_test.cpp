@@ -46,7 +46,8 @@ struct PlacementTest {
   }
   WeightMatrix weights_at_points(const PointList<Dim>& points, OutsidePoints policy) const {
     return weights_at(sample.cage, sample.mesh, weights,
-                      place_points(sample.cage, sample.mesh, points, policy));
+                      place_points(sample.cage, sample.mesh, points, policy))
+        .dense();
   }
   void expect_sums_are_one(const WeightMatrix& rows) const {
     EXPECT_LT((rows.colwise().sum().array() - 1).abs().maxCoeff(), 1e-13);
@@ -69,7 +70,7 @@ TEST_IN_2D_AND_3D(PlacementTest, AHairOutsideIsOnTheCageForEverybody) {
     if (part >= 1e-11) {
       EXPECT_EQ(static_cast<Eigen::Index>(placement.on_cage.size()), points.cols());
     }
-    const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement);
+    const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement).dense();
     EXPECT_GE(weights.minCoeff(), 0);
     t.expect_sums_are_one(weights);
     const PointList<Dim> places = cage.points * weights;
@@ -77,7 +78,7 @@ TEST_IN_2D_AND_3D(PlacementTest, AHairOutsideIsOnTheCageForEverybody) {
     EXPECT_LT((places - placement.points).cwiseAbs().maxCoeff(), 1e-12 * t.size);
     const SparsifyOptions few{Dim + 1};
     for (const auto& some : {points, placement.points}) {
-      const auto sparse = sparsify<Dim>(cage.points, some, weights, few);
+      const auto sparse = sparsify<Dim>(cage.points, some, weights, few).dense();
       EXPECT_GE(sparse.minCoeff(), 0);
     }
   }
@@ -138,7 +139,7 @@ TEST_IN_2D_AND_3D(PlacementTest, NearestIsTheNearestPointOfTheCage) {
   const auto& cage = t.sample.cage;
   const auto points = t.off_the_facets(0.2 * t.size);
   const auto placement = place_points(cage, t.sample.mesh, points, OutsidePoints::kNearest);
-  const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement);
+  const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement).dense();
   ASSERT_GT(placement.outside.size(), 0u);
   t.expect_sums_are_one(weights);
   const PointList<Dim> places = cage.points * weights;
@@ -211,33 +212,11 @@ TEST_IN_2D_AND_3D(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConve
     points.col(2 * k + 1) = place + kStep * size * along;
   }
   const auto extended = weights_at(cage, sample.mesh, weights,
-                                   place_points(cage, sample.mesh, points, OutsidePoints::kExtend));
+                                   place_points(cage, sample.mesh, points, OutsidePoints::kExtend))
+                            .dense();
   for (int k = 0; k < kPoints; ++k) {
     const double change = (extended.col(2 * k) - extended.col(2 * k + 1)).norm();
     EXPECT_LT(change, 20 * kStep) << k;
-  }
-}
-
-// Sparse weights give the same result for every policy.
-TEST_IN_2D_AND_3D(PlacementTest, SparseWeightsGiveTheSame) {
-  PlacementTest<Dim> t;
-  const auto& sample = t.sample;
-  WeightMatrix local = (t.weights.array() < 0.1).select(0, t.weights);
-  local.array().rowwise() /= local.colwise().sum().array().eval();
-  PointList<Dim> points(Dim, 0);
-  for (const double distance : {-1e-2, 1e-8, 0.1}) {  // inside, on the cage, outside
-    const auto more = t.off_the_facets(distance * t.size);
-    const auto before = points.cols();
-    points.conservativeResize(Dim, before + more.cols());
-    points.rightCols(more.cols()) = more;
-  }
-  for (const auto policy : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
-    const auto placement = place_points(sample.cage, sample.mesh, points, policy);
-    EXPECT_GT(placement.outside.size(), 0);
-    const auto dense = weights_at(sample.cage, sample.mesh, local, placement);
-    const auto sparse = weights_at(sample.cage, sample.mesh, SparseWeights(local), placement);
-    EXPECT_EQ(sparse.dense(), dense);
-    EXPECT_LT(sparse.values().size(), dense.size());
   }
 }
 

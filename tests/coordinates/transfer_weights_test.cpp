@@ -23,7 +23,7 @@ struct TransferTest {
   }
   WeightMatrix transfer(const PointList<Dim>& to, double limit,
                         Eigen::VectorXd* distances = nullptr) const {
-    return transfer_weights<Dim>(sample.cage.points, model, weights, to, limit, distances);
+    return transfer_weights<Dim>(sample.cage.points, model, weights, to, limit, distances).dense();
   }
   PointList<Dim> corners(Index element) const {
     return model.points(Eigen::all, model.corners.col(element));
@@ -105,15 +105,16 @@ TEST_IN_2D_AND_3D(TransferTest, SegmentsAndPointsAreElementsToo) {
   segments.corners.row(2) = segments.corners.row(1);
   const PointList<Dim> middle =
       (t.model.points.col(t.model.corners(0, 0)) + t.model.points.col(t.model.corners(1, 0))) / 2;
-  const auto at = transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1e-12);
+  const auto at =
+      transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1e-12).dense();
   const Eigen::VectorXd expected =
       (t.weights.col(t.model.corners(0, 0)) + t.weights.col(t.model.corners(1, 0))) / 2;
   EXPECT_LT((at.col(0) - expected).cwiseAbs().maxCoeff(), 1e-12);
   segments.corners(0, 0) = -1;
-  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1),
+  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1).dense(),
                InputError);
   segments.corners.resize(3, 0);
-  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1),
+  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1).dense(),
                InputError);
 }
 

@@ -13,23 +13,27 @@ namespace flbc::fuzz {
 namespace {
 
 // Matrices that are larger take time to write that is better spent on reading.
-constexpr Eigen::Index kSmall = 256;
+constexpr Index kSmall = 256;
+
+bool are_finite(const SparseWeights& weights) {
+  const auto& values = weights.values();
+  return std::all_of(values.begin(), values.end(), [](double w) { return std::isfinite(w); });
+}
 
 void read_weights(const std::string& path) {
   const auto weights = io::read_weights(path);
-  require(weights.allFinite(), "weights are finite");
-  if (std::max(weights.rows(), weights.cols()) > kSmall) return;
+  require(are_finite(weights), "weights are finite");
+  if (std::max(weights.num_control_points(), weights.num_points()) > kSmall) return;
   io::write_weights(path, weights);
   require(io::read_weights(path) == weights, "what is written is read back");
 }
 
 void read_triplets(const std::string& path) {
   const auto weights = io::read_weight_triplets(path);
-  require(weights.allFinite() && weights.size() > 0, "weights are finite");
-  if (weights.size() > kSmall) return;
-  const auto rows = static_cast<Index>(weights.rows()),
-             columns = static_cast<Index>(weights.cols());
-  require(io::read_weight_triplets(path, rows, columns) == weights, "both ways read the same");
+  const Index n = weights.num_control_points(), num_points = weights.num_points();
+  require(are_finite(weights) && n > 0 && num_points > 0, "weights are finite");
+  if (static_cast<Eigen::Index>(n) * num_points > kSmall) return;
+  require(io::read_weight_triplets(path, n, num_points) == weights, "both ways read the same");
   io::write_weight_triplets(path, weights);
   require(io::read_weight_triplets(path) == weights, "what is written is read back");
 }

@@ -22,14 +22,14 @@ std::string file(const std::string& content) {
 
 void expect_refusal(const std::string& content, const std::string& text) {
   const auto path = file(content);
-  expect_error<InputError>([&] { io::read_weight_triplets(path, 2, 3); }, {path, text});
+  expect_error<InputError>([&] { io::read_weight_triplets(path, 2, 3).dense(); }, {path, text});
 }
 
 TEST(Triplets, AreReadInAnyOrder) {
   WeightMatrix expected = WeightMatrix::Zero(2, 3);
   expected << 0.25, 0, 1, 0.75, 1, -2e-3;
   const auto path = file("# of another program\n1 2 -2e-3\n1 0 0.75\r\n\n0 0 0.25\n0 2 1\n1 1 1");
-  EXPECT_EQ(io::read_weight_triplets(path, 2, 3), expected);
+  EXPECT_EQ(io::read_weight_triplets(path, 2, 3).dense(), expected);
 }
 
 TEST(Triplets, DefectsAreNamed) {
@@ -42,7 +42,7 @@ TEST(Triplets, DefectsAreNamed) {
   expect_refusal("0 2 1\n", "weights for 1 control points, but there are 2");
   expect_refusal("1 0 1\n", "weights for 1 points, but there are 3");
   expect_refusal("", "weights for 0 control points");
-  EXPECT_THROW(io::read_weight_triplets("/absent/w.txt", 2, 3), IoError);
+  EXPECT_THROW(io::read_weight_triplets("/absent/w.txt", 2, 3).dense(), IoError);
 }
 
 WeightMatrix awkward_triplets() {
@@ -57,20 +57,20 @@ TEST(Triplets, AreReadBackBitByBit) {
   const auto weights = awkward_triplets();
   const auto path = file("");
   io::write_weight_triplets(path, weights);
-  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path, 5, 14), weights));
-  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path), weights));
+  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path, 5, 14).dense(), weights));
+  EXPECT_TRUE(bit_equal(io::read_weight_triplets(path).dense(), weights));
 }
 
 TEST(Triplets, TellTheirSizeByTheLargestNumbers) {
   const auto path = file("3 0 0.5\n0 6 0.25\n");
-  const auto weights = io::read_weight_triplets(path);
+  const auto weights = io::read_weight_triplets(path).dense();
   WeightMatrix expected = WeightMatrix::Zero(4, 7);
   expected(3, 0) = 0.5;
   expected(0, 6) = 0.25;
   EXPECT_EQ(weights, expected);
   const auto refuse = [&](const std::string& content, const std::string& text) {
     const auto name = file(content);
-    expect_error<InputError>([&] { io::read_weight_triplets(name); }, {name, text});
+    expect_error<InputError>([&] { io::read_weight_triplets(name).dense(); }, {name, text});
   };
   refuse("0 0 1\n0 2000000000 1\n",
          "the largest indices imply 1 control points and 2000000001 points, but there are only 2");

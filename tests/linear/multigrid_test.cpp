@@ -150,8 +150,8 @@ TEST_IN_2D_AND_3D(MultigridTest, LeavesTheOptimumWhereItIs) {
     options.linear_solver = LinearSolver::kMultigrid;
     const auto multigrid = solve(problem, options);
     EXPECT_EQ(multigrid.report.status, SolveStatus::kConverged);
-    const double squared = (direct.weights - multigrid.weights).squaredNorm() /
-                           static_cast<double>(direct.weights.size());
+    const double squared = (direct.weights.dense() - multigrid.weights.dense()).squaredNorm() /
+                           static_cast<double>(direct.weights.dense().size());
     EXPECT_LT(squared, 1e-8);
     EXPECT_LE(multigrid.report.certificate.lower_bound,
               direct.report.certificate.objective * (1 + 1e-12));

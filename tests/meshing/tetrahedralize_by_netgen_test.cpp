@@ -44,7 +44,7 @@ TEST(TetrahedralizeByNetgenTest, ThinWallsTakeFlatCellsAndWeightsAreCoordinates)
     EXPECT_TRUE(covers_edges(cage, mesh));
     EXPECT_LT(mesh.num_vertices(), 1500);
     const Solution solution = solve(cage, mesh);
-    const Quality quality = measure_quality(cage.points, mesh.points, solution.weights);
+    const Quality quality = measure_quality(cage.points, mesh.points, solution.weights.dense());
     EXPECT_LT(quality.max_partition_error, 1e-12);
     EXPECT_LT(quality.max_reproduction_error, 1e-9);
     EXPECT_GE(quality.min_weight, 0);

@@ -86,15 +86,16 @@ TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   auto valid = domain;
   normalize_and_validate(valid);
   const auto all =
-      interpolate(valid, solution.weights, locate_points<kDimension>(valid, this->rest_));
+      interpolate(valid, solution.weights.dense(), locate_points<kDimension>(valid, this->rest_))
+          .dense();
   const auto edges = edges_of_polygons(this->rest_, openmesh::polygons_of(this->model_));
   for (const auto reduction : {openmesh::Reduction::kPoisson, openmesh::Reduction::kQuadratic}) {
     this->options_.reduction = reduction;
     const auto report = openmesh::bind(this->model_, cage, domain, this->options_);
     const auto expected =
         reduction == openmesh::Reduction::kPoisson
-            ? reduce_by_poisson<kDimension>(cage.points, this->rest_, edges, all, {}, {5})
-            : sparsify<kDimension>(cage.points, this->rest_, all, {5});
+            ? reduce_by_poisson<kDimension>(cage.points, this->rest_, edges, all, {}, {5}).dense()
+            : sparsify<kDimension>(cage.points, this->rest_, all, {5}).dense();
     EXPECT_EQ(openmesh::get_weights(this->model_), expected);
     EXPECT_EQ(report.solve.iterations, solution.report.iterations);
     EXPECT_EQ(report.solve.vertices, domain.num_vertices());

@@ -27,7 +27,8 @@ struct Example {
       add(cell[0], cell[1], cell[2]);
     }
     const WeightMatrix few =
-        sparsify<Dim>(sample.cage.points, sample.mesh.points, harmonic_weights(sample), {4});
+        sparsify<Dim>(sample.cage.points, sample.mesh.points, harmonic_weights(sample), {4})
+            .dense();
     openmesh::set_influences(mesh, SparseWeights(few));
     openmesh::set_rest_cage(mesh, sample.cage.points);
   }

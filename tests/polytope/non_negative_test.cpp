@@ -121,7 +121,7 @@ TEST_IN_2D_AND_3D(NonNegativeTest, RowsAreFeasibleForAwkwardCagesPointsAndRows) 
     Numbers numbers(7);
     const auto points = awkward_points<Dim>(control_points, numbers, 120);
     auto weights = awkward_rows(control_points.cols(), points.cols(), numbers);
-    project_non_negative<Dim>(control_points, points, weights);
+    weights = project_non_negative<Dim>(control_points, points, weights).dense();
     expect_feasible<Dim>(control_points, points, weights);
   }
 }
@@ -142,7 +142,7 @@ TEST_IN_2D_AND_3D(NonNegativeTest, NoFeasibleRowIsNearer) {
     const auto points = awkward_points<Dim>(control_points, numbers, 60);
     const auto rows = awkward_rows(control_points.cols(), points.cols(), numbers);
     auto weights = rows;
-    project_non_negative<Dim>(control_points, points, weights);
+    weights = project_non_negative<Dim>(control_points, points, weights).dense();
     expect_feasible<Dim>(control_points, points, weights);
     for (Eigen::Index k = 0; k < points.cols(); ++k) {
       const Eigen::VectorXd gradient = weights.col(k) - rows.col(k);
@@ -166,7 +166,7 @@ TEST_IN_2D_AND_3D(NonNegativeTest, MultipliersExistForManyControlPoints) {
   WeightMatrix rows = numbers.matrix(250, 50, -0.05, 0.05);
   for (int k = 0; k < 50; ++k) points.col(k) = control_points * numbers.convex(250);
   auto weights = rows;
-  project_non_negative<Dim>(control_points, points, weights);
+  weights = project_non_negative<Dim>(control_points, points, weights).dense();
   expect_feasible<Dim>(control_points, points, weights);
   for (int k = 0; k < 50; ++k) {
     std::vector<int> support;
@@ -197,13 +197,15 @@ TEST_IN_2D_AND_3D(NonNegativeTest, FeasibleColumnsAndColumnsNotAskedForStay) {
   weights(0, 1) = -5;
   weights(1, 2) = std::numeric_limits<double>::quiet_NaN();
   const WeightMatrix before = weights;
-  project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{0});
+  weights =
+      project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{0}).dense();
   EXPECT_TRUE(bit_equal(weights.rightCols(2), before.rightCols(2)));
   EXPECT_TRUE(
       bit_equal(weights.bottomRows(n - 1).leftCols(1), before.bottomRows(n - 1).leftCols(1)));
   EXPECT_FALSE(std::signbit(weights(0, 0)));
 
-  project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{1});
+  weights =
+      project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{1}).dense();
   EXPECT_TRUE(bit_equal(weights.col(2), before.col(2)));
   EXPECT_GE(weights.col(1).minCoeff(), 0);
 }
@@ -217,29 +219,33 @@ TEST_IN_2D_AND_3D(NonNegativeTest, PointsOutsideAreNamed) {
   points(0, 321) = -1;
   const WeightMatrix rows = WeightMatrix::Constant(control_points.cols(), 400, -1);
   auto weights = rows;
-  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
-                           {"point 123", "(10.25, 5", "by 0.25"});
+  expect_error<InputError>(
+      [&] { return project_non_negative<Dim>(control_points, points, weights); },
+      {"point 123", "(10.25, 5", "by 0.25"});
   weights = rows;
   const double inf = std::numeric_limits<double>::infinity();
   weights(2, 7) = inf;
-  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
-                           {"point 7", "(5, 5"});
+  expect_error<InputError>(
+      [&] { return project_non_negative<Dim>(control_points, points, weights); },
+      {"point 7", "(5, 5"});
   weights = rows;
   points(0, 123) = inf;
-  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
-                           {"point 123"});
   expect_error<InputError>(
-      [&] { project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{400}); },
+      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"point 123"});
+  expect_error<InputError>(
+      [&] {
+        return project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{400});
+      },
       {"400"});
   points.conservativeResize(Dim, 300);
-  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
-                           {"300", "400"});
+  expect_error<InputError>(
+      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"300", "400"});
   points(0, 123) = 10 + 2e-6 * size;
   weights.conservativeResize(control_points.cols(), 300);
-  expect_error<InputError>([&] { project_non_negative<Dim>(control_points, points, weights); },
-                           {"point 123"});
+  expect_error<InputError>(
+      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"point 123"});
   points(0, 123) = 10 + 0.5e-6 * size;
-  project_non_negative<Dim>(control_points, points, weights);
+  weights = project_non_negative<Dim>(control_points, points, weights).dense();
   EXPECT_LE((control_points * weights.col(123) - points.col(123)).norm(), 0.6e-6 * size);
 }
 
@@ -248,11 +254,8 @@ TEST_IN_2D_AND_3D(NonNegativeTest, ThreadsDoNotMatter) {
   const PointList<Dim> control_points = numbers.matrix(Dim, 30, -1, 1);
   const auto points = awkward_points<Dim>(control_points, numbers, 1000);
   const auto rows = awkward_rows(30, 1000, numbers);
-  expect_same_for_any_threads([&] {
-    auto weights = rows;
-    project_non_negative<Dim>(control_points, points, weights);
-    return weights;
-  });
+  expect_same_for_any_threads(
+      [&] { return project_non_negative<Dim>(control_points, points, rows).dense(); });
 }
 
 // The nearest point of a hull: h with (x - h) . (c - h) <= 0 for all c.

@@ -188,7 +188,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   SolveReport report;
   run<Dim>(iteration, state, {problem, options, {}, reporter}, report);
   iteration.describe(report);
-  return {iteration.weights().sparse.dense(), {}, std::move(report)};
+  return {iteration.weights().sparse, std::move(report)};
 }
 
 TEST_IN_2D_AND_3D(ActiveSetTest, GrowsToTheOptimumOfAllPairs) {
@@ -221,36 +221,10 @@ TEST_IN_2D_AND_3D(ActiveSetTest, SolveGivesTheSameOptimum) {
   EXPECT_LT(restricted.report.active_set.density, 1);
   EXPECT_LT(squared_error(problem, restricted.weights, all.weights), 1e-9);
   EXPECT_NEAR(restricted.report.objective, all.report.objective, 1e-5 * all.report.objective);
-  const auto judged = judge(problem.cage, problem.mesh, restricted.weights);
+  const auto judged = judge(problem.cage, problem.mesh, restricted.weights.dense());
   EXPECT_GE(judged.min_weight, 0);
   EXPECT_LT(judged.partition_error, 1e-13);
   EXPECT_LT(judged.reproduction_error, 1e-13);
-}
-
-// On an active set, where they never were a matrix, and on all pairs.
-TEST_IN_2D_AND_3D(ActiveSetTest, SparseSolutionIsTheSameWithoutZeros) {
-  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
-  for (const auto choice : {ActiveSet::kOn, ActiveSet::kOff}) {
-    SolverOptions options;
-    options.active_set = choice;
-    options.tolerance = 1e-6;
-    const auto dense = solve(sample.cage, sample.mesh, options);
-    options.sparse = true;
-    const auto sparse = solve(sample.cage, sample.mesh, options);
-    EXPECT_EQ(sparse.weights.size(), 0);
-    EXPECT_EQ(dense.sparse_weights.num_points(), 0);
-    EXPECT_EQ(sparse.sparse_weights.dense(), dense.weights);
-    EXPECT_EQ((sparse.sparse_weights.values().size()),
-              static_cast<std::size_t>((dense.weights.array() != 0).count()));
-    EXPECT_LT(sparse.sparse_weights.values().size(),
-              static_cast<std::size_t>(dense.weights.size()));
-    EXPECT_EQ(sparse.report.iterations, dense.report.iterations);
-    EXPECT_NEAR(sparse.report.objective, dense.report.objective, 1e-12 * dense.report.objective);
-    EXPECT_EQ(sparse.report.quality.min_weight, dense.report.quality.min_weight);
-    EXPECT_EQ(sparse.report.quality.mean_influences, dense.report.quality.mean_influences);
-    EXPECT_LT(sparse.report.quality.max_reproduction_error, 1e-13);
-    EXPECT_LT(sparse.report.quality.max_partition_error, 1e-13);
-  }
 }
 
 // A certificate needs the duals of all pairs.
@@ -287,14 +261,14 @@ TEST_IN_2D_AND_3D(ActiveSetTest, GrowsOnlyByPairs) {
 
 TEST_IN_2D_AND_3D(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   const auto problem = make_fine_problem<Dim>(Shape::kStar);
-  expect_same_for_any_threads([&] { return run_on_tight<float>(problem, 1e-6, true).weights; });
+  expect_same_for_any_threads([&] { return run_on_tight<float>(problem, 1e-6, true).weights.dense(); });
 }
 
 TEST_IN_2D_AND_3D(ActiveSetTest, LowerPrecisionsFollowDouble) {
   const auto problem = make_fine_problem<Dim>(Shape::kCorner);
-  const auto exact = run_on_tight<double>(problem, 1e-9, false).weights;
-  const auto single = run_on_tight<float>(problem, 1e-8, false).weights;
-  const auto half = run_on_tight<float>(problem, 1e-6, true).weights;
+  const auto exact = run_on_tight<double>(problem, 1e-9, false).weights.dense();
+  const auto single = run_on_tight<float>(problem, 1e-8, false).weights.dense();
+  const auto half = run_on_tight<float>(problem, 1e-6, true).weights.dense();
   // Tolerances are per control point, and may be missed by a factor of two.
   const double per_vertex = 2 * problem.num_control_points();
   EXPECT_LT(squared_error(problem, single, exact), 1e-8 * per_vertex);

@@ -56,7 +56,8 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExact
     const double largest = expected.cwiseAbs().maxCoeff();
     for (Index v = 0; v < meshes.fine.mesh.num_vertices(); ++v) {
       if (meshes.fine.boundary.boundary_index[v] >= 0) continue;
-      EXPECT_LT((start.weights(v) - expected.col(v)).cwiseAbs().maxCoeff(), 1e-12 * largest);
+      EXPECT_LT((start.weights(v) - expected.col(v)).cwiseAbs().maxCoeff(),
+                1e-12 * largest);
       const Eigen::VectorXd dual = start.vertex_dual_at(1)(v);  // twice at half the penalty
       EXPECT_LT((dual - 2 * expected.col(v)).cwiseAbs().maxCoeff(), 1e-11 * largest);
     }
@@ -147,7 +148,6 @@ template <int Dim>
 CoarseLevels test_levels() {
   CoarseLevels levels;
   levels.coarsest = 50;
-  levels.factor = 5;
   return levels;
 }
 
@@ -169,11 +169,12 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
   ASSERT_EQ(warm.report.status, SolveStatus::kConverged);
   EXPECT_FALSE(warm.report.coarse_levels.empty());
   EXPECT_LT(warm.report.iterations, cold.report.iterations);
-  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, optimum.weights), 3e-6);
-  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, cold.weights), 1e-6);
+  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), optimum.weights.dense()),
+            3e-6);
+  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), cold.weights.dense()), 1e-6);
   EXPECT_LE(warm.report.certificate.lower_bound, optimum.report.certificate.objective * (1 + 1e-9));
   EXPECT_LT(warm.report.certificate.relative_gap, 0.2);
-  const auto judgement = judge(sample.cage, sample.mesh, warm.weights);
+  const auto judgement = judge(sample.cage, sample.mesh, warm.weights.dense());
   EXPECT_LT(judgement.partition_error, 1e-13);
   EXPECT_LT(judgement.reproduction_error, 1e-13);
   EXPECT_EQ(judgement.lagrange_error, 0);
@@ -182,10 +183,8 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
 TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
   const auto sample = fine_sample<Dim>();
   SolverOptions options;
-  options.tolerance = 1e-5;
-  options.check_interval = 1;
+  options.tolerance = 1e-9;
   options.coarse_levels = test_levels<Dim>();
-  options.coarse_levels.factor = 3;
   std::vector<int> seen;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
@@ -196,7 +195,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
       solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner), observer);
   const auto& report = solution.report;
   EXPECT_EQ(report.vertices, sample.mesh.num_vertices());
-  ASSERT_GE(report.coarse_levels.size(), 2U);
+  ASSERT_GE(report.coarse_levels.size(), 1U);
   ASSERT_EQ(seen.size(), report.coarse_levels.size() + 1);
   Index below = 0;
   double seconds = 0;
@@ -233,7 +232,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
   for (const auto& mesher : meshers) {
     const auto warm = solve(sample.cage, sample.mesh, options, mesher);
     EXPECT_TRUE(warm.report.coarse_levels.empty());
-    EXPECT_TRUE((warm.weights.array() == cold.weights.array()).all());
+    EXPECT_TRUE((warm.weights.dense().array() == cold.weights.dense().array()).all());
   }
   const CoarseMesher<Dim> without_memory = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
     throw std::bad_alloc();
@@ -256,7 +255,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
     options.coarse_levels.coarsest = 10;
     const auto plain = solve(sample.cage, sample.mesh, options);
     const auto same = solve(sample.cage, sample.mesh, options, mesher);
-    EXPECT_TRUE((same.weights.array() == plain.weights.array()).all());
+    EXPECT_TRUE((same.weights.dense().array() == plain.weights.dense().array()).all());
   }
   EXPECT_EQ(calls, 0);
 }
@@ -292,7 +291,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, ThreadsDoNotChangeABit) {
   const auto two = run(2);
   EXPECT_FALSE(one.report.coarse_levels.empty());
   EXPECT_EQ(one.report.iterations, two.report.iterations);
-  EXPECT_TRUE((one.weights.array() == two.weights.array()).all());
+  EXPECT_TRUE((one.weights.dense().array() == two.weights.dense().array()).all());
 }
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, RefusesAMeshOfSomethingElse) {
@@ -343,10 +342,9 @@ TEST(CoarseSizes, NoneWhereTheyDoNotPay) {
 TEST(CoarseSizes, AscendByTheFactorDownToTheCoarsest) {
   CoarseLevels levels;
   levels.coarsest = 100;
-  levels.factor = 10;
   EXPECT_EQ(coarse_sizes({2, 9, 10000}, false, levels), (std::vector<Index>{100, 1000}));
-  EXPECT_EQ(coarse_sizes({3, 9, 9999}, false, levels), (std::vector<Index>{999}));
-  EXPECT_TRUE(coarse_sizes({3, 9, 999}, false, levels).empty());
+  EXPECT_EQ(coarse_sizes({3, 9, 9999}, false, levels), (std::vector<Index>{833}));
+  EXPECT_TRUE(coarse_sizes({3, 9, 199}, false, levels).empty());
 }
 
 }  // namespace

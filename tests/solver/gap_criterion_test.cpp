@@ -66,7 +66,7 @@ TEST_IN_2D_AND_3D(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) 
   EXPECT_GT(solution.report.primal_residual, 1);
   EXPECT_NEAR(solution.report.certificate.objective, solution.report.objective,
               1e-9 * solution.report.objective);
-  EXPECT_GE(solution.weights.minCoeff(), 0);
+  EXPECT_GE(solution.weights.dense().minCoeff(), 0);
   SolverOptions without;
   without.gap = 0;
   without.max_iterations = 3 * solution.report.iterations;
@@ -93,7 +93,7 @@ TEST_IN_2D_AND_3D(GapCriterionTest, EndsAllMethodsThatHaveDuals) {
     options.max_iterations = 500;
     const auto plain = solve(sample.cage, sample.mesh, options);
     EXPECT_EQ(plain.report.status, SolveStatus::kIterationLimit);
-    EXPECT_TRUE((plain.weights.array() == solution.weights.array()).all());
+    EXPECT_TRUE((plain.weights.dense().array() == solution.weights.dense().array()).all());
   }
 }
 
@@ -118,7 +118,7 @@ TEST_IN_2D_AND_3D(GapCriterionTest, HoldsForSolversThatContinueAndForMovedCages)
   const auto options = never_by_tolerance(0.2);
   const auto once = solve(sample.cage, sample.mesh, options);
   Solver<Dim> solver(sample.cage, sample.mesh, options);
-  EXPECT_TRUE((solver.solve().weights.array() == once.weights.array()).all());
+  EXPECT_TRUE((solver.solve().weights.dense().array() == once.weights.dense().array()).all());
   EXPECT_EQ(solver.solution().report.criterion, Criterion::kGap);
   EXPECT_EQ(solver.solve().report.criterion, Criterion::kGap);  // resumed
   EXPECT_EQ(solver.move(sample.cage.points).report.criterion, Criterion::kGap);

@@ -43,12 +43,13 @@ void expect_optimum(const LbcProblem<Dim>& problem, const ModelReference<Dim>& r
   options.tolerance = 1e-30;  // never: run to the end
   options.max_iterations = expected.iterations;
   options.certify = true;
-  const auto [weights, sparse, report] = solve(problem, options);
+  const auto [weights, report] = solve(problem, options);
   EXPECT_LT(report.objective, optimum.objective * (1 + expected.objective));
   EXPECT_GT(report.objective, optimum.objective * (1 - optimum.gap));
   // The bound is one of non-negative weights.
   EXPECT_LT(report.certificate.lower_bound, reference.with().objective);
-  EXPECT_LT(mean_squared_difference(reference.sampled(weights), optimum.weights), expected.squared);
+  EXPECT_LT(mean_squared_difference(reference.sampled(weights.dense()), optimum.weights),
+            expected.squared);
 }
 
 template <int Dim>

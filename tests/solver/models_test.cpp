@@ -23,7 +23,7 @@ void expect_properties(const Model& model) {
   const auto solution = solve(cage, mesh, options);
   EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
   EXPECT_LT(solution.report.certificate.relative_gap, 0.01);
-  const auto judgement = judge(cage, mesh, solution.weights);
+  const auto judgement = judge(cage, mesh, solution.weights.dense());
   EXPECT_LT(judgement.partition_error, 1e-12);
   // TetGen points on facets are off by up to 1e-9 of cage size.
   EXPECT_LT(judgement.reproduction_error, Dim == 2 ? 1e-12 : 1e-8);
@@ -36,8 +36,9 @@ void expect_properties(const Model& model) {
   EXPECT_LT(solution.report.quality.mean_influences, 5.5);
   for (const char* extension : {"npy", "dmat", "mtx"}) {
     const auto path = scratch_path(std::string("weights.") + extension);
-    io::write_weights(path, solution.weights);
-    EXPECT_TRUE((io::read_weights(path).array() == solution.weights.array()).all()) << extension;
+    io::write_weights(path, solution.weights.dense());
+    EXPECT_TRUE((io::read_weights(path).dense().array() == solution.weights.dense().array()).all())
+        << extension;
   }
 }
 
@@ -59,9 +60,10 @@ void expect_tighter_is_better(const Model& model) {
   const auto tighter = solve(problem, options);
   EXPECT_EQ(tighter.report.status, SolveStatus::kConverged);
   EXPECT_GT(tighter.report.iterations, by_default.report.iterations);
-  EXPECT_LT(mean_squared_difference(mesh, by_default.weights, tighter.weights), 2 * tolerance);
+  EXPECT_LT(mean_squared_difference(mesh, by_default.weights.dense(), tighter.weights.dense()),
+            2 * tolerance);
   const auto objective = [&](const Solution& solution) {
-    return testing::objective(problem.mesh, solution.weights, problem.phi.dense());
+    return testing::objective(problem.mesh, solution.weights.dense(), problem.phi.dense());
   };
   EXPECT_LT(objective(tighter), objective(by_default));
   EXPECT_LT(tighter.report.certificate.relative_gap,

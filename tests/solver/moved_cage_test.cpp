@@ -45,7 +45,7 @@ PointList<Dim> bent(const Cage<Dim>& cage, double part) {
 
 template <int Dim>
 WeightMatrix optimum(const Solver<Dim>& coordinates) {
-  return solve(coordinates.cage(), coordinates.mesh(), many_iterations(2000)).weights;
+  return solve(coordinates.cage(), coordinates.mesh(), many_iterations(2000)).weights.dense();
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations) {
@@ -62,8 +62,8 @@ TEST_IN_2D_AND_3D(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations)
       EXPECT_LT(warm.report.iterations, cold.report.iterations);
       const auto exact = optimum(coordinates);
       const auto& mesh = coordinates.mesh();
-      EXPECT_LT(mean_squared_difference(mesh, warm.weights, exact), 3 * kTolerance);
-      const auto judgement = judge(coordinates.cage(), mesh, warm.weights);
+      EXPECT_LT(mean_squared_difference(mesh, warm.weights.dense(), exact), 3 * kTolerance);
+      const auto judgement = judge(coordinates.cage(), mesh, warm.weights.dense());
       EXPECT_LT(judgement.partition_error, 1e-12);
       EXPECT_LT(judgement.reproduction_error, 1e-12);
       EXPECT_EQ(judgement.lagrange_error, 0);
@@ -78,7 +78,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, TheMeshFollowsByTheFirstWeights) {
   const auto sample = sample_of<Dim>();
   Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
-  const WeightMatrix first = coordinates.solution().weights;
+  const WeightMatrix first = coordinates.solution().weights.dense();
   coordinates.move(with_one_moved(sample.cage, 0.01, 1));
   const auto control_points = with_one_moved(sample.cage, 0.02);
   coordinates.move(control_points);
@@ -97,7 +97,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, ThereAndBackIsWhereItStarted) {
   const auto back = coordinates.move(sample.cage.points);
   EXPECT_LT((coordinates.mesh().points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_EQ(back.report.status, SolveStatus::kConverged);
-  EXPECT_LT(mean_squared_difference(sample.mesh, back.weights, exact), 3 * kTolerance);
+  EXPECT_LT(mean_squared_difference(sample.mesh, back.weights.dense(), exact), 3 * kTolerance);
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, AfterAnchoringTheMeshFollowsByThePresentWeights) {
@@ -106,7 +106,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, AfterAnchoringTheMeshFollowsByThePresentWeights
   coordinates.solve();
   coordinates.move(with_one_moved(sample.cage, 0.03));
   const auto before = coordinates.mesh().points;
-  const WeightMatrix weights = coordinates.solution().weights;
+  const WeightMatrix weights = coordinates.solution().weights.dense();
   coordinates.anchor();
   EXPECT_TRUE(coordinates.mesh().points == before);
   const auto control_points = with_one_moved(sample.cage, 0.06);
@@ -131,14 +131,15 @@ TEST_IN_2D_AND_3D(MovedCageTest, ABudgetEndsAStepAndRefiningGoesOn) {
   EXPECT_GE(solution.report.quality.min_weight, 0);
   EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
   for (int frame = 0; frame < 3; ++frame) coordinates.solve({10, 0});
-  EXPECT_TRUE(coordinates.solution().weights == at_once.solution().weights);  // bit-identical
+  EXPECT_TRUE(coordinates.solution().weights.dense() ==
+              at_once.solution().weights.dense());  // bit-identical
 
   Solver<Dim> released(sample.cage, sample.mesh, tight());
   released.solve();
   EXPECT_EQ(released.move(control_points, {5, 0}).report.iterations, 5);
   const auto& refined = released.solve();
   EXPECT_EQ(refined.report.status, SolveStatus::kConverged);
-  EXPECT_LT(mean_squared_difference(released.mesh(), refined.weights, optimum(released)),
+  EXPECT_LT(mean_squared_difference(released.mesh(), refined.weights.dense(), optimum(released)),
             3 * kTolerance);
 }
 
@@ -147,11 +148,10 @@ TEST_IN_2D_AND_3D(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
   int calls = 0;
   auto options = tight();
   options.tolerance = 1e-30;  // never
-  options.check_interval = 7;
   options.max_iterations = 60;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
-    EXPECT_EQ(progress.iteration % 7, 0);
+    EXPECT_EQ(progress.iteration % 10, 0);
     ++calls;
     return true;
   };
@@ -164,7 +164,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, ABudgetOfTimeLeavesUsableWeights) {
   EXPECT_LT(shortest.report.quality.max_reproduction_error, 1e-13);
   const auto& longest = coordinates.move(with_one_moved(sample.cage, 0.02), {0, 1e9}, observer);
   EXPECT_EQ(longest.report.iterations, 60);
-  EXPECT_EQ(calls, 8);
+  EXPECT_EQ(calls, 5);
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
@@ -173,7 +173,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
   coordinates.solve();
   coordinates.move(with_one_moved(sample.cage, 0.01), {5, 0});
   const auto points = coordinates.mesh().points;
-  const WeightMatrix weights = coordinates.solution().weights;
+  const WeightMatrix weights = coordinates.solution().weights.dense();
   // Through the opposite side of the cage.
   PointList<Dim> folded = sample.cage.points;
   const Vector<Dim> center = folded.rowwise().mean();
@@ -187,19 +187,19 @@ TEST_IN_2D_AND_3D(MovedCageTest, RefusesFoldsAndStaysAsItWas) {
     ASSERT_NE(number, std::string::npos) << text;
     const int cell = std::stoi(text.substr(number + 5));
     // Indeed turned over.
-    DomainMesh<Dim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights,
+    DomainMesh<Dim> mesh{folded * solve(sample.cage, sample.mesh, tight()).weights.dense(),
                          coordinates.mesh().cells};
     EXPECT_LE(signed_measure(mesh, cell), 0) << text;
     EXPECT_NE(text.find('('), std::string::npos) << text;
   }
   EXPECT_TRUE(coordinates.mesh().points == points);
   EXPECT_TRUE(coordinates.cage().points == with_one_moved(sample.cage, 0.01));
-  EXPECT_TRUE(coordinates.solution().weights == weights);
+  EXPECT_TRUE(coordinates.solution().weights.dense() == weights);
   // Then it continues normally.
   Solver<Dim> other(sample.cage, sample.mesh, tight());
   other.solve();
   other.move(with_one_moved(sample.cage, 0.01), {5, 0});
-  EXPECT_TRUE(coordinates.solve({5, 0}).weights == other.solve({5, 0}).weights);
+  EXPECT_TRUE(coordinates.solve({5, 0}).weights.dense() == other.solve({5, 0}).weights.dense());
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, RefusesWhatIsNoCageByName) {
@@ -225,12 +225,12 @@ TEST_IN_2D_AND_3D(MovedCageTest, SurvivesASolveThatFails) {
   fails.progress = [](const Progress&) -> bool { throw std::runtime_error("no more"); };
   Solver<Dim> coordinates(sample.cage, sample.mesh, tight());
   coordinates.solve();
-  const WeightMatrix weights = coordinates.solution().weights;
+  const WeightMatrix weights = coordinates.solution().weights.dense();
   EXPECT_THROW(coordinates.move(bent(sample.cage, 0.02), {}, fails), std::runtime_error);
-  EXPECT_TRUE(coordinates.solution().weights == weights);
+  EXPECT_TRUE(coordinates.solution().weights.dense() == weights);
   EXPECT_TRUE(coordinates.mesh().points == sample.mesh.points);
   const auto refined = coordinates.solve();
-  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights, optimum(coordinates)),
+  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights.dense(), optimum(coordinates)),
             3 * kTolerance);
 }
 
@@ -243,7 +243,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, ThreadsDoNotChangeABit) {
     coordinates.solve();
     coordinates.move(bent(sample.cage, 0.01), {6, 0});
     coordinates.solve({6, 0});
-    return WeightMatrix(coordinates.move(with_one_moved(sample.cage, 0.01)).weights);
+    return WeightMatrix(coordinates.move(with_one_moved(sample.cage, 0.01)).weights.dense());
   };
   const auto one = result(1);
   EXPECT_TRUE(result(2) == one);
@@ -257,20 +257,20 @@ TEST_IN_2D_AND_3D(MovedCageTest, FollowsOnSupports) {
   options.gap = 0;
   Solver<Dim> coordinates(sample.cage, sample.mesh, options);
   coordinates.solve();
-  EXPECT_TRUE(coordinates.solution().weights ==
-              solve(sample.cage, sample.mesh, options).weights);  // bit-identical
+  EXPECT_TRUE(coordinates.solution().weights.dense() ==
+              solve(sample.cage, sample.mesh, options).weights.dense());  // bit-identical
   for (const double part : {0.004, 0.01}) {
     const auto warm = coordinates.move(with_one_moved(sample.cage, part));
     const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
     EXPECT_LT(warm.report.active_set.density, 1);
     EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
     EXPECT_LT(warm.report.iterations, cold.report.iterations);
-    EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, optimum(coordinates)),
+    EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), optimum(coordinates)),
               3 * kTolerance);
   }
   coordinates.move(with_one_moved(sample.cage, 0.02), {3, 0});
   const auto& refined = coordinates.solve();
-  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights, optimum(coordinates)),
+  EXPECT_LT(mean_squared_difference(sample.mesh, refined.weights.dense(), optimum(coordinates)),
             3 * kTolerance);
   EXPECT_GE(refined.report.quality.min_weight, 0);
 }
@@ -290,8 +290,8 @@ TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
     EXPECT_GT(distances.phi_error, 0);
     EXPECT_LT(distances.phi_error, 0.05);
     const auto exact = optimum(coordinates);
-    EXPECT_LT(mean_squared_difference(coordinates.mesh(), solution.weights, exact), 2e-6);
-    const auto judgement = judge(coordinates.cage(), coordinates.mesh(), solution.weights);
+    EXPECT_LT(mean_squared_difference(coordinates.mesh(), solution.weights.dense(), exact), 2e-6);
+    const auto judgement = judge(coordinates.cage(), coordinates.mesh(), solution.weights.dense());
     EXPECT_LT(judgement.reproduction_error, 1e-12);
     EXPECT_GE(judgement.min_weight, 0);
   };
@@ -318,7 +318,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
   const auto control_points = with_one_moved(sample.cage, 0.01);
   const auto& solution = coordinates.move(control_points);
   EXPECT_EQ(solution.report.distances.source, Distances::kExact);
-  EXPECT_TRUE(solution.weights == plain.move(control_points).weights);
+  EXPECT_TRUE(solution.weights.dense() == plain.move(control_points).weights.dense());
 
   auto interpolated = tight();
   interpolated.distances = Distances::kInterpolated;
@@ -340,7 +340,8 @@ TEST_IN_2D_AND_3D(MovedCageTest, EveryMethodFollows) {
     const auto warm = coordinates.move(with_one_moved(sample.cage, 0.005));
     const auto cold = solve(coordinates.cage(), coordinates.mesh(), options);
     EXPECT_EQ(warm.report.iterations, cold.report.iterations);
-    EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights, cold.weights), 1e-12);
+    EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), cold.weights.dense()),
+              1e-12);
   }
 }
 

@@ -9,8 +9,8 @@ namespace {
 template <class Enum>
 class NamesTest : public ::testing::Test {};
 using Enumerations =
-    ::testing::Types<Method, NonNegative, DistanceScheme, Distances, Recovery, Precision,
-                     CoarseToFine, LinearSolver, SolveStatus, Criterion, OutsidePoints>;
+    ::testing::Types<Method, NonNegative, DistanceScheme, Distances, Precision, CoarseToFine,
+                     LinearSolver, SolveStatus, Criterion, OutsidePoints>;
 TYPED_TEST_SUITE(NamesTest, Enumerations);
 
 TYPED_TEST(NamesTest, GoBothWays) {

@@ -57,12 +57,13 @@ TEST_IN_2D_AND_3D(OptimaTest, ValueFindsBothOptima) {
   for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
-    expect_optimal(problem,
-                   solve(problem, accurate(problem, Method::kValue, NonNegative::kOff)).weights,
-                   reference.unconstrained);
     expect_optimal(
         problem,
-        solve(problem, accurate(problem, Method::kValue, NonNegative::kConstraint)).weights,
+        solve(problem, accurate(problem, Method::kValue, NonNegative::kOff)).weights.dense(),
+        reference.unconstrained);
+    expect_optimal(
+        problem,
+        solve(problem, accurate(problem, Method::kValue, NonNegative::kConstraint)).weights.dense(),
         reference.non_negative);
   }
 }
@@ -71,9 +72,10 @@ TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
-    expect_optimal(problem,
-                   solve(problem, accurate(problem, Method::kLbc2014, NonNegative::kOff)).weights,
-                   reference.unconstrained);
+    expect_optimal(
+        problem,
+        solve(problem, accurate(problem, Method::kLbc2014, NonNegative::kOff)).weights.dense(),
+        reference.unconstrained);
   }
 }
 
@@ -105,9 +107,10 @@ TEST_IN_2D_AND_3D(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
   for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
-    expect_optimal(problem,
-                   solve(problem, accurate(problem, Method::kGradient, NonNegative::kOff)).weights,
-                   reference.unconstrained);
+    expect_optimal(
+        problem,
+        solve(problem, accurate(problem, Method::kGradient, NonNegative::kOff)).weights.dense(),
+        reference.unconstrained);
   }
 }
 

@@ -50,7 +50,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, ValueFindsTheOptimumOfNewtonsMethod) {
         options.certify = true;
         const auto solution = solve(problem, options);
         EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-        EXPECT_LT(largest_difference<Dim>(solution.weights, *optimum), 3e-4);
+        EXPECT_LT(largest_difference<Dim>(solution.weights.dense(), *optimum), 3e-4);
         if (!non_negative) continue;
         // The bound is tight, and the objective is that of the problem in the mesh's own units.
         const double least = objective(problem.mesh, problem.phi, *optimum, smoothness) /
@@ -72,7 +72,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, GradientFindsTheOptimumOfNewtonsMethod) {
   options.non_negative = NonNegative::kOff;
   options.tolerance = 1e-8;
   const auto solution = solve(problem, options);
-  EXPECT_LT(largest_difference<Dim>(solution.weights, *newton.find()), 1e-3);
+  EXPECT_LT(largest_difference<Dim>(solution.weights.dense(), *newton.find()), 1e-3);
 }
 
 // On the active set as well, in every precision, and after a multilevel start.
@@ -80,13 +80,14 @@ TEST_IN_2D_AND_3D(SmoothnessTest, AllVariantsFindOneOptimum) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
   auto options = accurate(Method::kValue, 0.01);
   options.tolerance = 1e-10;
-  const auto optimum = solve(sample.cage, sample.mesh, options).weights;
+  const auto optimum = solve(sample.cage, sample.mesh, options).weights.dense();
   const auto expect_optimal = [&](const SolverOptions& changed, const CoarseMesher<Dim>& mesher,
                                   const char* what) {
     const auto solution = solve<Dim>(sample.cage, sample.mesh, changed, mesher);
     EXPECT_EQ(solution.report.status, SolveStatus::kConverged) << what;
     const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
-    EXPECT_LT(squared_error(problem, solution.weights, optimum), 3 * *changed.tolerance) << what;
+    EXPECT_LT(squared_error(problem, solution.weights.dense(), optimum), 3 * *changed.tolerance)
+        << what;
   };
   options.tolerance = 1e-8;
   auto changed = options;
@@ -105,7 +106,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, BoundsHoldForAnyFlux) {
   const double smoothness = 0.01;
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, smoothness);
   const auto optimum = solve(problem, accurate(Method::kValue, smoothness));
-  const double least = objective(problem.mesh, problem.phi, optimum.weights, smoothness);
+  const double least = objective(problem.mesh, problem.phi, optimum.weights.dense(), smoothness);
   const Index n = problem.num_control_points();
   const Index rows = problem.mesh.num_cells() * Dim;
   // Fluxes like gradients of harmonic coordinates, too short, right in size, and far too long.
@@ -120,7 +121,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, BoundsHoldForAnyFlux) {
           linear_gradients<Dim>(corners, columns_of(harmonic, problem.mesh.cells.col(s)));
     }
     const CellFieldView<double, Dim> view{flux.data(), static_cast<std::size_t>(n), n};
-    const double bound = lower_bound(problem, view, optimum.weights);
+    const double bound = lower_bound(problem, view, optimum.weights.dense());
     EXPECT_GE(bound, 0) << factor;
     EXPECT_LE(bound, least * (1 + 1e-9)) << factor;
     best = std::max(best, bound);
@@ -135,7 +136,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) 
   const auto with = [&](double smoothness, NonNegative non_negative = NonNegative::kConstraint) {
     auto options = accurate(Method::kValue, smoothness);
     options.non_negative = non_negative;
-    return solve(sample.cage, sample.mesh, options).weights;
+    return solve(sample.cage, sample.mesh, options).weights.dense();
   };
   const auto variation = [&](const WeightMatrix& weights) {
     return objective(problem.mesh, problem.phi, weights);
@@ -157,15 +158,16 @@ TEST_IN_2D_AND_3D(SmoothnessTest, MovedCagesKeepIt) {
   solver.solve();
   PointList<Dim> moved = sample.cage.points;
   moved.col(0).array() -= 0.05;
-  const auto weights = solver.move(moved).weights;
+  const auto weights = solver.move(moved).weights.dense();
   const auto alone = solve(solver.cage(), solver.mesh(), options);
-  EXPECT_LT(largest_difference<Dim>(weights, alone.weights), 1e-3);
+  EXPECT_LT(largest_difference<Dim>(weights, alone.weights.dense()), 1e-3);
   // Another smoothness is another problem on the same mesh.
   options.smoothness = 0.1;
   solver.set_options(options);
   const auto smoother = solve(solver.cage(), solver.mesh(), options);
-  EXPECT_LT(largest_difference<Dim>(solver.solve().weights, smoother.weights), 1e-3);
-  EXPECT_GT(largest_difference<Dim>(alone.weights, smoother.weights), 1e-2);
+  EXPECT_LT(largest_difference<Dim>(solver.solve().weights.dense(), smoother.weights.dense()),
+            1e-3);
+  EXPECT_GT(largest_difference<Dim>(alone.weights.dense(), smoother.weights.dense()), 1e-2);
 }
 
 TEST_IN_2D_AND_3D(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
@@ -175,9 +177,9 @@ TEST_IN_2D_AND_3D(SmoothnessTest, NumberOfThreadsDoesNotMatter) {
     options.smoothness = 0.01;
     options.active_set = active;
     options.threads = 1;
-    const auto one = solve(sample.cage, sample.mesh, options).weights;
+    const auto one = solve(sample.cage, sample.mesh, options).weights.dense();
     options.threads = 3;
-    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights, one);
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights.dense(), one);
   }
 }
 

@@ -53,14 +53,14 @@ TEST_IN_2D_AND_3D(SparsifyTest, KeepsTheConstraintsWhateverComes) {
       for (auto column : weights.colwise()) column /= column.cwiseAbs().sum();
       for (const Index most : {Dim + 1, Dim + 3}) {
         SCOPED_TRACE(most);
-        const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
+        const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most)).dense();
         expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
-        EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)), sparse);
+        EXPECT_EQ(sparsify<Dim>(control_points, points, sparse, at_most(most)).dense(), sparse);
         EXPECT_EQ(
             sparsify<Dim>(control_points, points, SparseWeights(weights), at_most(most)).dense(),
             sparse);
       }
-      const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05));
+      const auto dropped = sparsify<Dim>(control_points, points, weights, at_most(8, 0.05)).dense();
       expect_sparse_coordinates<Dim>(control_points, points, dropped, 8);
     }
   }
@@ -71,11 +71,10 @@ TEST_IN_2D_AND_3D(SparsifyTest, WithoutLimitItIsTheProjection) {
   const PointList<Dim> control_points = numbers.matrix(Dim, 20, -1, 1);
   const auto points = points_of<Dim>(control_points, 40);
   const WeightMatrix weights = numbers.matrix(20, 40, -0.2, 0.3);
-  WeightMatrix projected = weights;
-  project_non_negative<Dim>(control_points, points, projected);
+  const WeightMatrix projected = project_non_negative<Dim>(control_points, points, weights).dense();
   EXPECT_GT((weights - projected).norm(), 0.1);
-  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, at_most(20)), projected);
-  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, {}), projected);
+  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, at_most(20)).dense(), projected);
+  EXPECT_EQ(sparsify<Dim>(control_points, points, weights, {}).dense(), projected);
 }
 
 // The least |w - y|^2 over all supports of `most` control points, by trying every one.
@@ -93,7 +92,7 @@ double least_cost(const PointList<Dim>& control_points, const Vector<Dim>& point
     const PointList<Dim> some = control_points(Eigen::all, support);
     WeightMatrix few = row(support);
     try {
-      project_non_negative<Dim>(some, PointList<Dim>(point), few);
+      few = project_non_negative<Dim>(some, PointList<Dim>(point), few).dense();
     } catch (const InputError&) {
       continue;  // the point is not in the hull of these
     }
@@ -119,7 +118,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, IsNearTheBestOfAllSupports) {
       weights.col(v) /= weights.col(v).sum();
       points.col(v) = control_points * weights.col(v);
     }
-    const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most));
+    const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(most)).dense();
     expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
     for (int v = 0; v < kPoints; ++v) {
       const double cost = (sparse.col(v) - weights.col(v)).squaredNorm();
@@ -139,14 +138,15 @@ TEST_IN_2D_AND_3D(SparsifyTest, MatchesTheOptimumOfItsOwnSupport) {
   const PointList<Dim> control_points = numbers.matrix(Dim, 30, -1, 1);
   const auto points = points_of<Dim>(control_points, 40);
   const WeightMatrix weights = numbers.matrix(30, 40, -0.1, 0.2);
-  const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(6));
+  const auto sparse = sparsify<Dim>(control_points, points, weights, at_most(6)).dense();
   for (int v = 0; v < 40; ++v) {
     std::vector<Index> support;
     for (Index i = 0; i < 30; ++i) {
       if (sparse(i, v) != 0) support.push_back(i);
     }
     WeightMatrix few = weights.col(v)(support);
-    project_non_negative<Dim>(control_points(Eigen::all, support), points.col(v), few);
+    few =
+        project_non_negative<Dim>(control_points(Eigen::all, support), points.col(v), few).dense();
     EXPECT_LE((few.col(0) - sparse.col(v)(support)).norm(), 1e-12) << v;
   }
 }
@@ -155,13 +155,14 @@ TEST_IN_2D_AND_3D(SparsifyTest, LocalBarycentricCoordinates) {
   const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 6 : 3, 0.1);
   const auto solution = solve(sample.cage, sample.mesh, {});
   const auto& points = sample.mesh.points;
-  ASSERT_GT(count_influences(solution.weights).max, Dim + 2);
+  ASSERT_GT(count_influences(solution.weights.dense()).max, Dim + 2);
   const auto poses = independent_poses<Dim>(sample.cage.points, 10);
   double before = std::numeric_limits<double>::infinity();
   for (const Index most : {Dim + 1, Dim + 2, Dim + 4}) {
-    const auto sparse = sparsify<Dim>(sample.cage.points, points, solution.weights, at_most(most));
+    const auto sparse =
+        sparsify<Dim>(sample.cage.points, points, solution.weights.dense(), at_most(most)).dense();
     expect_sparse_coordinates<Dim>(sample.cage.points, points, sparse, most);
-    const double error = deformation_error<Dim>(poses, solution.weights, sparse).rms;
+    const double error = deformation_error<Dim>(poses, solution.weights.dense(), sparse).rms;
     EXPECT_LT(error, before);  // more influences, less error
     before = error;
   }
@@ -180,13 +181,13 @@ TEST_IN_2D_AND_3D(SparsifyTest, ThresholdDropsWhatIsBelow) {
   const PointList<Dim> points = control_points * weights;
   SparsifyOptions options;
   options.threshold = 1e-3;
-  const auto sparse = sparsify<Dim>(control_points, points, weights, options);
+  const auto sparse = sparsify<Dim>(control_points, points, weights, options).dense();
   expect_sparse_coordinates<Dim>(control_points, points, sparse, Dim + 4);
   EXPECT_EQ(count_influences(sparse).mean, Dim + 4);
   EXPECT_LT(weight_error(weights, sparse).max, 0.05);
   // Above all weights it must keep as many as the point needs.
   options.threshold = 0.99;
-  const auto few = sparsify<Dim>(control_points, points, weights, options);
+  const auto few = sparsify<Dim>(control_points, points, weights, options).dense();
   expect_sparse_coordinates<Dim>(control_points, points, few, 25);
   EXPECT_LT(count_influences(few).mean, Dim + 4);
 }
@@ -196,13 +197,13 @@ TEST_IN_2D_AND_3D(SparsifyTest, TellsHowFarItIs) {
   const PointList<Dim> control_points = numbers.matrix(Dim, 25, -1, 1);
   const auto points = points_of<Dim>(control_points, 400);
   const WeightMatrix weights = numbers.matrix(25, 400, -0.1, 0.2);
-  const auto expected = sparsify<Dim>(control_points, points, weights, at_most(5));
+  const auto expected = sparsify<Dim>(control_points, points, weights, at_most(5)).dense();
   for (const int threads : {1, 2}) {
     const ThreadScope scope(threads);
     std::vector<double> told;
     auto options = at_most(5);
     options.progress = [&](double done) { told.push_back(done); };
-    EXPECT_EQ(sparsify<Dim>(control_points, points, weights, options), expected);
+    EXPECT_EQ(sparsify<Dim>(control_points, points, weights, options).dense(), expected);
     ASSERT_FALSE(told.empty());
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_GT(told.front(), 0);
@@ -216,7 +217,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, RefusesWhatCannotBe) {
   PointList<Dim> points = points_of<Dim>(control_points, 3);
   const WeightMatrix weights = numbers.matrix(10, 3, 0, 1);
   const auto run = [&](const SparsifyOptions& options, const WeightMatrix& any) {
-    return sparsify<Dim>(control_points, points, any, options);
+    return sparsify<Dim>(control_points, points, any, options).dense();
   };
   EXPECT_NO_THROW(run(at_most(Dim + 1), weights));
   expect_error<OptionError>([&] { run(at_most(Dim), weights); },
@@ -236,11 +237,12 @@ TEST(ForeignWeights, OfTheArm) {
   const auto points = load_cage<3>("3d/arm.obj").points;
   const auto given = io::read_weight_triplets(model_path("3d/arm_other_weights.txt"),
                                               static_cast<Index>(control_points.cols()),
-                                              static_cast<Index>(points.cols()));
+                                              static_cast<Index>(points.cols()))
+                         .dense();
   EXPECT_EQ((given.array() < 0).count(), 23675);
   const auto poses = smooth_poses<3>(control_points, 5);
   for (const Index most : {4, 8}) {
-    const auto sparse = sparsify<3>(control_points, points, given, at_most(most));
+    const auto sparse = sparsify<3>(control_points, points, given, at_most(most)).dense();
     expect_sparse_coordinates<3>(control_points, points, sparse, most);
     EXPECT_LT(deformation_error<3>(poses, given, sparse).rms,
               0.005 * bounding_box_diagonal<3>(points));

@@ -26,11 +26,11 @@ struct PoissonProblem {
   WeightMatrix weights;
 
   WeightMatrix plain(const SparsifyOptions& options) const {
-    return sparsify(control_points, points, weights, options);
+    return sparsify(control_points, points, weights, options).dense();
   }
   WeightMatrix reduce(const SparsifyOptions& options,
                       const std::vector<PointList<Dim>>& poses = {}) const {
-    return reduce_by_poisson<Dim>(control_points, points, edges, weights, poses, options);
+    return reduce_by_poisson<Dim>(control_points, points, edges, weights, poses, options).dense();
   }
   double cost(const WeightMatrix& after, const std::vector<PointList<Dim>>& poses = {}) const {
     return poisson_cost<Dim>(control_points, points, edges, weights, after, poses);
@@ -49,7 +49,8 @@ PoissonProblem<Dim> problem_on_a_mesh() {
   SolverOptions options;
   options.method = Method::kHarmonic;
   const auto solution = solve(sample.cage, sample.mesh, options);
-  return {sample.cage.points, sample.mesh.points, edges_of_cells(sample.mesh), solution.weights};
+  return {sample.cage.points, sample.mesh.points, edges_of_cells(sample.mesh),
+          solution.weights.dense()};
 }
 
 //! Points along a curve, each with edges to those one and five places before, with weights that

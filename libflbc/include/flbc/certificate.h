@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/lbc_problem.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -31,13 +32,13 @@ struct Certificate {
 //! converged solver.
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, a vector per cell and control point; non-finite ones count as 0
-//! \param weights  n x V, an estimate of the optimum that saves time
+//! \param weights  of V points, an estimate of the optimum that saves time
 //! \return at least 0 and at most objective(problem.mesh, problem.phi, w, problem.smoothness) for
 //! all feasible w >= 0
 //! \throws InputError if sizes do not fit
 template <class Scalar, int Dim>
 double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                   const WeightMatrix& weights);
+                   const SparseWeights& weights);
 
 //! Computes the bound and the objective of the weights. Infeasible weights are first projected:
 //! boundary columns get their known values, interior columns go through project_non_negative().

@@ -76,21 +76,21 @@ struct WeightCheck {
 //! control point counts as on it.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
-//! \param weights  n x P
+//! \param weights  of P points
 //! \throws InputError if the sizes do not match
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
-                               const WeightMatrix& weights);
+                               const SparseWeights& weights);
 
 //! Measures weights at the vertices of a domain mesh, whose boundary lies on the cage.
 //! \param cage  has passed validate()
 //! \param domain  valid domain mesh of the cage
-//! \param weights  n x V
+//! \param weights  of V points
 //! \throws InputError if sizes do not match or the mesh does not fill the cage (see
 //! boundary_values); SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                               const WeightMatrix& weights);
+                               const SparseWeights& weights);
 
 //! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
 //! a deformation makes.

@@ -30,12 +30,6 @@ struct CoarseLevels {
   //! Minimum number of vertices of a coarse mesh, >= 1. Default: 500 for CoarseToFine::kOn,
   //! otherwise chosen by measurements, which means no coarse mesh for small meshes.
   std::optional<Index> coarsest{};
-
-  //! Ratio of vertices between successive meshes, >= 2. Default: chosen by measurements.
-  std::optional<double> factor{};
-
-  //! Tolerance on coarse meshes relative to the final tolerance, > 0.
-  double looseness = 4;
 };
 
 }  // namespace flbc

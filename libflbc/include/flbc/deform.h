@@ -8,21 +8,11 @@
 namespace flbc {
 
 //! Deforms points with the control points.
-//! \param weights  n x P
-//! \param control_points  Dim x n, in any units
-//! \param threads  maximum number of threads (0 = as many as OpenMP offers). Fewer than four
-//! million weights always use one thread, because starting others costs more. The result does not
-//! depend on it
-//! \return Dim x P, in the units of the control points
-//! \throws InputError if the numbers of control points differ, with both numbers
-template <int Dim>
-PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
-                      int threads = 0);
-
-//! The same for sparse weights.
 //! \param weights  of P points
 //! \param control_points  Dim x n, in any units
-//! \param threads  as above
+//! \param threads  maximum number of threads (0 = as many as OpenMP offers). Fewer than four
+//! million nonzero weights always use one thread, because starting others costs more. The result
+//! does not depend on it
 //! \return Dim x P, in the units of the control points
 //! \throws InputError if the numbers of control points differ, with both numbers
 template <int Dim>

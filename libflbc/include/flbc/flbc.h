@@ -13,8 +13,8 @@
 //!                    1, 2, 3, 0;
 //!
 //!     flbc::DomainMesh<2> mesh = flbc::triangulate(cage, {500});  // component cgal
-//!     flbc::Solution solution = flbc::solve(cage, mesh);          // n x V, a column per vertex
-//!     Eigen::MatrixXd moved = cage.points * solution.weights;     // move cage.points first
+//!     flbc::Solution solution = flbc::solve(cage, mesh);          // weights and a report
+//!     Eigen::MatrixXd moved = flbc::deform(solution.weights, cage.points);  // move cage.points
 //!
 //! Further headers:
 //! - other coordinates: harmonic.h, mean_value.h, maximum_entropy.h, maximum_likelihood.h,

@@ -3,8 +3,8 @@
 //! Gradients of weights, and the Jacobians of a deformation, which rotate and stretch what moves:
 //! normals, tangents, covariances.
 //!
-//! Gradients of n weights at P points are stored as weights are: a (Dim n) x P matrix, dense or
-//! sparse. Row Dim i + d of a column is the derivative of w_i in direction d, in 1 / units of the
+//! Gradients of n weights at P points are stored as weights of Dim n control points are. Number
+//! Dim i + d of a point is the derivative of w_i in direction d, in 1 / units of the
 //! mesh. The derivatives in a direction sum to 0 over all control points.
 #pragma once
 
@@ -23,22 +23,21 @@ enum class GradientKind {
 //! The means over the cells around each vertex, weighted by area or volume. They are exact where
 //! the weights are affine.
 //! \param mesh  V vertices
-//! \param weights  n x V
-//! \tparam Weights  WeightMatrix or SparseWeights
-//! \return (Dim n) x V
-template <int Dim, class Weights>
-Weights vertex_gradients(const DomainMesh<Dim>& mesh, const Weights& weights);
+//! \param weights  of V points
+//! \return Dim n numbers per vertex
+template <int Dim>
+SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights);
 
 //! Gradients at located points.
 //! \param mesh  V vertices
-//! \param weights  n x V
+//! \param weights  of V points
 //! \param places  P locations in cells, as returned by locate_points() or places_in_mesh()
 //! \param kind  see GradientKind
-//! \return (Dim n) x P
-template <int Dim, class Weights>
-Weights gradients_at(const DomainMesh<Dim>& mesh, const Weights& weights,
-                     const std::vector<Location<Dim>>& places,
-                     GradientKind kind = GradientKind::kSmooth);
+//! \return Dim n numbers per location
+template <int Dim>
+SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                           const std::vector<Location<Dim>>& places,
+                           GradientKind kind = GradientKind::kSmooth);
 
 //! A location in a cell for every placed point. Points outside the mesh get the location of the
 //! nearest point of the cage.
@@ -52,12 +51,12 @@ std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMes
 
 //! Jacobians J = sum_i c_i (grad w_i)^T of a deformation. An affine pose c_i = A v_i + b of the
 //! rest cage v_i gives J = A.
-//! \param gradients  (Dim n) x P
+//! \param gradients  of P points
 //! \param control_points  Dim x n, the pose
 //! \return (Dim Dim) x P: each column has J column by column, in units of the pose / units of the
 //! mesh
 //! \throws InputError if the numbers of control points differ
-template <int Dim, class Weights>
-Eigen::MatrixXd jacobians(const Weights& gradients, const PointList<Dim>& control_points);
+template <int Dim>
+Eigen::MatrixXd jacobians(const SparseWeights& gradients, const PointList<Dim>& control_points);
 
 }  // namespace flbc

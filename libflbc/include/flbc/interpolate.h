@@ -14,17 +14,16 @@ namespace flbc {
 //! Interpolates weights linearly in the cell of each located point. This preserves reproduction and
 //! partition of unity exactly.
 //! \param mesh  mesh of the weights, V vertices
-//! \param weights  n x V
+//! \param weights  of V points
 //! \param places  as returned by locate_points()
-//! \return n x number of `places`
+//! \return weights of the places
 template <int Dim>
-WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
-                         const std::vector<Location<Dim>>& places);
+SparseWeights interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                          const std::vector<Location<Dim>>& places);
 
 //! The same at one location: n weights.
-//! \tparam Weights  WeightMatrix or SparseWeights
-template <int Dim, class Weights>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const Weights& weights,
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
                             const Location<Dim>& place);
 
 }  // namespace flbc

@@ -15,7 +15,7 @@
 namespace flbc {
 
 //! The name of a value, such as "value" or "lbc2014".
-//! \tparam Enum  Method, NonNegative, DistanceScheme, Distances, Recovery, Precision, ActiveSet,
+//! \tparam Enum  Method, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
 //! CoarseToFine, LinearSolver, SolveStatus, Criterion, DefectKind, or OutsidePoints
 template <class Enum>
 const char* name_of(Enum value);

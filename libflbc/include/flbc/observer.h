@@ -27,12 +27,12 @@ enum class Stage {
 
 //! Callbacks of a solve. They run on the calling thread; each may be empty.
 struct Observer {
-  //! Called whenever residuals are evaluated; returning false stops the run. May throw: the
+  //! Called every ten iterations; returning false stops the run. May throw: the
   //! exception leaves the solve.
   std::function<bool(const Progress&)> progress{};
 
-  //! Called before every iteration of Method::kValue, and at least every check_interval iterations
-  //! of other methods. Throw to cancel the solve without a result.
+  //! Called before every iteration of Method::kValue, and at least every ten iterations of other
+  //! methods. Throw to cancel the solve without a result.
   std::function<void()> poll{};
 
   //! Called repeatedly during a stage with its progress in [0, 1]. Must not throw.

@@ -62,23 +62,10 @@ enum class ActiveSet {
   kOff    //!< all pairs
 };
 
-//! Method of recovering weights from gradients.
-enum class Recovery {
-  kAuto,          //!< kBreadthFirst for Method::kPaper, otherwise kLeastSquares
-  kBreadthFirst,  //!< integration from the boundary, level by level (section 4.2.2 of the paper)
-  kLeastSquares   //!< weights with the nearest gradients, by one Poisson solve
-};
-
 //! Smoothness for deforming models, the default of flbc run and openmesh::bind(): poses crease a
 //! model no more than with harmonic coordinates, for 5 % to 30 % more influences
 //! (docs/explanation/smooth_weights.md).
 constexpr double kDeformationSmoothness = 0.003;
-
-//! Options of the gradient methods, kGradient and kPaper.
-struct GradientOptions {
-  //! Method of recovering weights from gradients.
-  Recovery recovery = Recovery::kAuto;
-};
 
 //! Options of solve(). The defaults suit every cage. The method chooses options that are not set.
 //! Methods for comparison read only threads and non_negative.
@@ -149,22 +136,12 @@ struct SolverOptions {
   //! Over-relaxation in (0, 2), 1 = none.
   std::optional<double> relaxation{};
 
-  //! Iterations between two evaluations of the residuals, >= 1.
-  int check_interval = 10;
-
   //! Whether to compute a lower bound of the optimal objective; an error for
   //! methods for comparison.
   bool certify = false;
 
-  //! Whether to return sparse weights (Solution::sparse_weights). With an active set, no n x V
-  //! matrix is then allocated.
-  bool sparse = false;
-
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
   int threads = 0;
-
-  //! Options of kGradient and kPaper only.
-  GradientOptions gradient{};
 };
 
 //! Checks options. solve() and Solver call it first.

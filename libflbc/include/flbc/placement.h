@@ -79,21 +79,19 @@ std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Point
 //! Weights at placed points: linear in cells and facets; outside, by the policy. They are
 //! non-negative if the given weights are, except for OutsidePoints::kExtend.
 //! \param cage, mesh  as for place_points()
-//! \param weights  n x V, at the vertices of the mesh
+//! \param weights  of the V vertices of the mesh
 //! \param placement  as returned by place_points()
-//! \tparam Weights  WeightMatrix or SparseWeights
-//! \return n x P
-template <int Dim, class Weights>
-Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
-                   const Placement<Dim>& placement);
+//! \return weights of P points
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const SparseWeights& weights, const Placement<Dim>& placement);
 
 //! The same from weights of the inner points themselves.
-//! \param inside  n x P: the weights of points that are in neither `on_cage` nor `outside`; other
-//! columns are not used
+//! \param inside  weights of P points; those of points in `on_cage` or `outside` are not used
 //! \param placement  with or without a mesh
-//! \return n x P
+//! \return weights of P points
 template <int Dim>
-SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
+SparseWeights weights_at(const Cage<Dim>& cage, const SparseWeights& inside,
                          const Placement<Dim>& placement);
 
 }  // namespace flbc

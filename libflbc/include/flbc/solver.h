@@ -18,10 +18,8 @@ namespace flbc {
 
 //! Coordinates at the vertices of the domain mesh.
 struct Solution {
-  WeightMatrix weights;            //!< n x V; empty if SolverOptions::sparse
-  SparseWeights sparse_weights{};  //!< weights of V points if SolverOptions::sparse, otherwise
-                                   //!< empty
-  SolveReport report{};            //!< report of the run
+  SparseWeights weights{};  //!< of V points; weights.dense() is the n x V matrix
+  SolveReport report{};     //!< report of the run
 };
 
 //! A mesher as an argument: any callable that converts to CoarseMesher, or {} for none.
@@ -68,6 +66,11 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
 
+//! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of the
+//! weights are small enough. It then takes much less memory.
+bool tries_active_set(int dim, Index control_points, Index vertices,
+                      const SolverOptions& options = {});
+
 //! Limits the cost of one solve, for example to get one result per frame while a user drags a
 //! control point. A solve makes at least one iteration.
 struct Budget {
@@ -90,7 +93,7 @@ class Solver {
   //! Sets up the problem.
   //! \param cage  n control points, with a connected interior
   //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
-  //! \param options  of all solves until set_options(); solutions are never sparse
+  //! \param options  of all solves until set_options()
   //! \param mesher  makes meshes for a multilevel start; {} for none. One of them also moves with
   //! the cage, and provides distances if SolverOptions::distances allows it
   //! \throws InputError if the mesh does not match the cage; OptionError
@@ -125,9 +128,9 @@ class Solver {
   //! exactly.
   void anchor();
 
-  //! Changes the options of the following solves. The next solve resumes from the last state unless
-  //! method, smoothness, precision, non_negative, linear_solver, penalty, or active_set differ.
-  //! \param options  with the same phi
+  //! Changes the options of the following solves. The next solve resumes from the last state if
+  //! only tolerance, gap, max_iterations, certify, or threads differ; otherwise it starts over.
+  //! \param options  with the same phi and distances
   //! \throws OptionError; then options are unchanged
   void set_options(const SolverOptions& options);
 

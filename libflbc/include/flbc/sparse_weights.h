@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Sparse weights: the nonzero weights of each point.
+//! The weights of points: results of solves, and the input of all that uses weights.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,9 @@
 
 namespace flbc {
 
-//! Sparse weights, stored point by point: efficient for many poses, and the input of skinning.
+//! The nonzero weights of each point. A dense matrix converts implicitly, so functions of the
+//! library also accept n x P matrices. Convert once if you call many functions with the same
+//! matrix.
 class SparseWeights {
  public:
   //! No points.
@@ -23,6 +25,11 @@ class SparseWeights {
   //! \param threshold  >= 0
   //! \throws OptionError if the threshold is negative or NaN
   SparseWeights(const WeightMatrix& weights, double threshold = 0);
+
+  //! The same for other expressions of Eigen.
+  template <class Derived>
+  SparseWeights(const Eigen::MatrixBase<Derived>& weights, double threshold = 0)
+      : SparseWeights(WeightMatrix(weights), threshold) {}
 
   //! Takes given arrays.
   //! \param num_control_points  n
@@ -51,7 +58,7 @@ class SparseWeights {
   //! The control point of each weight, ascending for each point.
   const std::vector<std::uint32_t>& control_points() const { return control_points_; }
 
-  //! The weights.
+  //! The nonzero weights.
   const std::vector<double>& values() const { return values_; }
 
   //! Calls action(i, weight) for the weights of a point, by ascending control point i.
@@ -66,8 +73,18 @@ class SparseWeights {
   //! All n weights of a point, zeros included. \param point  in [0, P)
   Eigen::VectorXd at(Index point) const;
 
+  //! The weights of all points for a control point, P numbers. \param control_point  in [0, n)
+  Eigen::VectorXd of_control_point(Index control_point) const;
+
   //! The dense matrix, n x P.
   WeightMatrix dense() const;
+
+  //! Whether all numbers are equal.
+  friend bool operator==(const SparseWeights& a, const SparseWeights& b) {
+    return a.num_control_points_ == b.num_control_points_ && a.starts_ == b.starts_ &&
+           a.control_points_ == b.control_points_ && a.values_ == b.values_;
+  }
+  friend bool operator!=(const SparseWeights& a, const SparseWeights& b) { return !(a == b); }
 
  private:
   Index num_control_points_ = 0;

@@ -30,25 +30,24 @@ struct SparsifyOptions {
 template <int Dim>
 void validate(const SparsifyOptions& options);
 
-//! Replaces every column by one with at most `max_influences` nonzero weights, w >= 0, sum w = 1,
-//! and sum w c = x. The sum holds to 1e-13, and reproduction to 1e-13 of the size of the control
-//! points. Columns that satisfy the limits are unchanged. With default options the result equals
-//! that of project_non_negative(). The given weights may be negative and need not reproduce points.
-//! For the chosen influences, the weights minimize |w - given|^2. This is the expected squared
-//! error of the point under random independent displacements of the control points. Influences are
-//! chosen by repeatedly removing the cheapest one, and by exchange with others whose given weight
-//! is at least 1e-3. The choice is usually, but not always, the best one.
+//! Replaces the weights of every point by at most `max_influences` nonzero ones with w >= 0, sum w
+//! = 1, and sum w c = x. The sum holds to 1e-13, and reproduction to 1e-13 of the size of the
+//! control points. Weights that satisfy the limits are unchanged. With default options the result
+//! equals that of project_non_negative(). The given weights may be negative and need not reproduce
+//! points. For the chosen influences, the weights minimize |w - given|^2. This is the expected
+//! squared error of the point under random independent displacements of the control points.
+//! Influences are chosen by repeatedly removing the cheapest one, and by exchange with others whose
+//! given weight is at least 1e-3. The choice is usually, but not always, the best one.
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units
-//! \param weights  n x P, finite
+//! \param weights  of P points, finite
 //! \param options  valid
-//! \tparam Weights  WeightMatrix or SparseWeights
-//! \return n x P
+//! \return weights of P points
 //! \throws OptionError as validate(); InputError if sizes do not match, a value is not finite, or a
 //! point lies outside the convex hull of the control points, naming the first such point
-template <int Dim, class Weights>
-Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                 const Weights& weights, const SparsifyOptions& options);
+template <int Dim>
+SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                       const SparseWeights& weights, const SparsifyOptions& options);
 
 //! Reduces influences under the same constraints and with the same accuracy as sparsify(), but
 //! jointly for all points. It minimizes the error of differences along edges, so that no seams
@@ -72,17 +71,17 @@ Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& poi
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units
 //! \param edges  between the points, with weights in any unit
-//! \param weights  n x P, as for sparsify()
+//! \param weights  of P points, as for sparsify()
 //! \param poses  Dim x n each, displaced control points, may be empty
 //! \param options  as for sparsify()
-//! \return n x P
+//! \return weights of P points
 //! \throws OptionError and InputError as sparsify(); InputError also for edges and poses of wrong
 //! size
 template <int Dim>
-WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                               const EdgeList& edges, const WeightMatrix& weights,
-                               const std::vector<PointList<Dim>>& poses,
-                               const SparsifyOptions& options);
+SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                                const EdgeList& edges, const SparseWeights& weights,
+                                const std::vector<PointList<Dim>>& poses,
+                                const SparsifyOptions& options);
 
 //! Whether reduce_influences() uses reduce_by_poisson(): there are edges, and the dense weights,
 //! which it needs, have at most 2.5e8 numbers (2 GB).
@@ -93,10 +92,10 @@ bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points, Eigen
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units
 //! \param edges  between the points, may be empty
-//! \param weights  n x P, as for sparsify()
+//! \param weights  of P points, as for sparsify()
 //! \param poses  Dim x n each, displaced control points, may be empty
 //! \param options  as for sparsify()
-//! \return n x P
+//! \return weights of P points
 //! \throws as these functions
 template <int Dim>
 SparseWeights reduce_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
@@ -109,14 +108,14 @@ SparseWeights reduce_influences(const PointList<Dim>& control_points, const Poin
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P
 //! \param edges  between the points
-//! \param before  n x P, given weights
-//! \param after  n x P, new weights
+//! \param before  given weights of P points
+//! \param after  new weights of P points
 //! \param poses  Dim x n each, may be empty
 //! \return >= 0
 //! \throws InputError if sizes of weights, edges, or poses do not match
 template <int Dim>
 double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                    const EdgeList& edges, const WeightMatrix& before, const WeightMatrix& after,
+                    const EdgeList& edges, const SparseWeights& before, const SparseWeights& after,
                     const std::vector<PointList<Dim>>& poses);
 
 }  // namespace flbc

@@ -18,7 +18,7 @@ struct Influences {
 };
 
 //! Counts nonzero weights, or only those above a threshold.
-//! \param weights  n x P
+//! \param weights  of P points
 //! \param threshold  a weight counts if |w_i| is above it; kInfluenceThreshold counts as Quality does
 Influences count_influences(const SparseWeights& weights, double threshold = 0);
 
@@ -29,16 +29,14 @@ struct ErrorNorms {
 };
 
 //! Norms of the differences of individual weights.
-//! \param before  n x P
-//! \param after  n x P
+//! \param before, after  of P points
 //! \throws InputError if sizes differ
 ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after);
 
 //! Norms of the distances between points deformed with the two sets of weights, over all points and
 //! poses.
 //! \param poses  Dim x n each, displaced control points
-//! \param before  n x P
-//! \param after  n x P
+//! \param before, after  of P points
 //! \return lengths in the units of the poses
 //! \throws InputError if sizes do not match
 template <int Dim>
@@ -51,8 +49,7 @@ ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const Spa
 //! \param points  Dim x P, at rest
 //! \param edges  between the points
 //! \param poses  Dim x n each, in the units of the points
-//! \param before  n x P
-//! \param after  n x P
+//! \param before, after  of P points
 //! \return relative to edge lengths
 //! \throws InputError if sizes do not match
 template <int Dim>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/cage.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -19,16 +20,16 @@ struct ModelElements {
 //! point (project_non_negative()).
 //! \param control_points  Dim x n
 //! \param from  model with weights
-//! \param weights  n x P, at the points of the model
+//! \param weights  of the P points of the model
 //! \param to  Dim x Q
 //! \param limit  maximum distance of a point from the model, in its units
 //! \param distances  output: Q distances from the model; may be null
-//! \return n x Q
+//! \return weights of Q points
 //! \throws InputError if sizes do not match, or points are farther away than the limit, naming
 //! their number, the first, and the farthest; also as project_non_negative()
 template <int Dim>
-WeightMatrix transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                              const WeightMatrix& weights, const PointList<Dim>& to, double limit,
-                              Eigen::VectorXd* distances = nullptr);
+SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
+                               const SparseWeights& weights, const PointList<Dim>& to, double limit,
+                               Eigen::VectorXd* distances = nullptr);
 
 }  // namespace flbc

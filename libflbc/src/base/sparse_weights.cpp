@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparse_weights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -71,27 +72,42 @@ SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t>
 
 SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
                                 const std::function<Eigen::VectorXd(Index)>& of_point) {
-  struct Entry {
-    std::uint32_t control_point;
-    double value;
+  // The weights of 64 points; one allocation per point would fragment the memory.
+  struct Block {
+    std::vector<std::uint32_t> control_points;
+    std::vector<double> values;
   };
-  std::vector<std::vector<Entry>> rows(num_points);
-  parallel_for_chunks(num_points, 64, [&](Index p) {
-    const Eigen::VectorXd weights = of_point(p);
-    rows[p].reserve((weights.array() != 0).count());
-    for (Index i = 0; i < num_control_points; ++i) {
-      if (weights[i] != 0) rows[p].push_back({static_cast<std::uint32_t>(i), weights[i]});
-    }
-  });
+  constexpr Index kBlock = 64;
+  std::vector<Block> blocks((num_points + kBlock - 1) / kBlock);
+  const auto num_blocks = static_cast<Index>(blocks.size());
   SparseWeights result;
   result.num_control_points_ = num_control_points;
-  for (auto& row : rows) {
-    for (const Entry& entry : row) {
-      result.control_points_.push_back(entry.control_point);
-      result.values_.push_back(entry.value);
+  result.starts_.resize(static_cast<std::size_t>(num_points) + 1);
+  parallel_for_chunks(num_blocks, 1, [&](Index b) {
+    auto& [control_points, values] = blocks[b];
+    for (Index p = b * kBlock; p < std::min(num_points, (b + 1) * kBlock); ++p) {
+      const Eigen::VectorXd weights = of_point(p);
+      for (Index i = 0; i < num_control_points; ++i) {
+        if (weights[i] == 0) continue;
+        control_points.push_back(static_cast<std::uint32_t>(i));
+        values.push_back(weights[i]);
+      }
+      result.starts_[p + 1] = static_cast<std::int64_t>(values.size());  // in the block
     }
-    result.starts_.push_back(static_cast<std::int64_t>(result.values_.size()));
-    row = {};
+  });
+  std::int64_t before = 0;
+  for (Index p = 0; p < num_points; ++p) {
+    if (p % kBlock == 0) before = result.starts_[p];
+    result.starts_[p + 1] += before;
+  }
+  result.control_points_.reserve(result.starts_.back());
+  result.values_.reserve(result.starts_.back());
+  for (auto& [control_points, values] : blocks) {
+    result.control_points_.insert(result.control_points_.end(), control_points.begin(),
+                                  control_points.end());
+    result.values_.insert(result.values_.end(), values.begin(), values.end());
+    control_points = {};
+    values = {};
   }
   return result;
 }
@@ -99,6 +115,16 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
 Eigen::VectorXd SparseWeights::at(Index point) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_control_points_);
   visit(point, [&](Index i, double weight) { weights[i] = weight; });
+  return weights;
+}
+
+Eigen::VectorXd SparseWeights::of_control_point(Index control_point) const {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_points());
+  for (Index p = 0; p < num_points(); ++p) {
+    visit(p, [&](Index i, double weight) {
+      if (i == control_point) weights[p] = weight;
+    });
+  }
   return weights;
 }
 

@@ -9,7 +9,10 @@ namespace flbc {
 
 class Stopwatch {
  public:
-  //! Seconds since construction or the last call.
+  //! Seconds since construction or the last lap.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  //! The same, and starts a lap.
   double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -11,10 +11,10 @@
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
-#include "flbc/non_negative.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
+#include "polytope/project_columns.h"
 #include "polytope/vertex_linear_program.h"
 #include "polytope/weight_projection.h"
 
@@ -166,32 +166,35 @@ void vertex_costs(const AdmissibleFlux<Scalar, Dim>& flux, Index vertex, std::ve
 }
 
 template <class Scalar, int Dim>
-void check_flux_and_weights(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                            const WeightMatrix& weights) {
+void check_flux(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux) {
   const Index n = problem.num_control_points();
   if (flux.n != n || flux.stride < static_cast<std::size_t>(n)) {
     throw InputError("a flux for " + std::to_string(flux.n) +
                      " control points does not match a cage with " + std::to_string(n));
   }
-  check_size(weights, n, problem.mesh.num_vertices());
 }
 
 // The weights with the known values on the boundary and feasible columns inside.
 template <int Dim>
-WeightMatrix made_feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
-  problem.boundary.impose_on(weights);
+SparseWeights made_feasible(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
   const StageScope silent({});  // progress is reported by the bound below
-  project_non_negative(problem.cage.points, problem.mesh.points, weights,
-                       problem.boundary.interior_vertices());
-  return weights;
+  const auto& boundary = problem.boundary;
+  return project_columns<Dim>(problem.cage.points, problem.mesh.points,
+                              boundary.interior_vertices(), [&](Index v) -> Eigen::VectorXd {
+                                if (boundary.is_interior(v)) return weights.col(v);
+                                Eigen::VectorXd known = Eigen::VectorXd::Zero(weights.rows());
+                                boundary.scatter(boundary.boundary_index[v], known);
+                                return known;
+                              });
 }
 
 }  // namespace
 
 template <class Scalar, int Dim>
 double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                   const WeightMatrix& weights) {
-  check_flux_and_weights(problem, flux, weights);
+                   const SparseWeights& weights) {
+  check_flux(problem, flux);
+  check_size(weights, problem.num_control_points(), problem.mesh.num_vertices());
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
   LoopProgress progress(problem.mesh.num_vertices());
   // In long double, so that the sum over vertices has negligible error.
@@ -207,7 +210,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
             continue;
           }
           vertex_costs(admissible, v, sums, costs);
-          start = weights.col(v);
+          start = weights.at(v);
           block.add(program.lower_bound(problem.mesh.points.col(v), costs, start));
         }
         progress.add(end - begin);
@@ -231,8 +234,9 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
 template <class Scalar, int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
                     const WeightMatrix& weights) {
-  check_flux_and_weights(problem, flux, weights);
-  const WeightMatrix feasible = made_feasible(problem, weights);
+  check_flux(problem, flux);
+  check_size(weights, problem.num_control_points(), problem.mesh.num_vertices());
+  const auto feasible = made_feasible(problem, weights);
   Certificate certificate;
   certificate.objective = flbc::objective(problem, feasible);
   certificate.lower_bound = lower_bound(problem, flux, feasible);
@@ -245,7 +249,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
 
 #define FLBC_INSTANTIATE(Scalar, Dim)                                                     \
   template double lower_bound(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&,  \
-                              const WeightMatrix&);                                       \
+                              const SparseWeights&);                                      \
   template Certificate certify(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&, \
                                const WeightMatrix&);
 FLBC_INSTANTIATE(float, 2)

@@ -19,21 +19,6 @@ void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
 }  // namespace
 
 template <int Dim>
-PointList<Dim> deform(const WeightMatrix& weights, const PointList<Dim>& control_points,
-                      int threads) {
-  check_pose(weights.rows(), control_points.cols());
-  // One coordinate per column, so sums run over contiguous values.
-  const Eigen::Matrix<double, Eigen::Dynamic, Dim> coordinates = control_points.transpose();
-  const Eigen::Index count = weights.cols();
-  PointList<Dim> points(Dim, count);
-  const ThreadScope scope(deform_threads(static_cast<std::size_t>(weights.size()), threads));
-  parallel_for(count, [&](Eigen::Index p) {
-    for (int d = 0; d < Dim; ++d) points(d, p) = coordinates.col(d).dot(weights.col(p));
-  });
-  return points;
-}
-
-template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
                       int threads) {
   check_pose(weights.num_control_points(), control_points.cols());
@@ -65,8 +50,6 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
   return lengths;
 }
 
-template PointList<2> deform(const WeightMatrix&, const PointList<2>&, int);
-template PointList<3> deform(const WeightMatrix&, const PointList<3>&, int);
 template PointList<2> deform(const SparseWeights&, const PointList<2>&, int);
 template PointList<3> deform(const SparseWeights&, const PointList<3>&, int);
 template Eigen::VectorXd displacements(const PointList<2>&, const PointList<2>&);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/instantiate.h"
-#include "base/weight_columns.h"
+#include "base/parallel.h"
 #include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
@@ -15,37 +15,16 @@
 namespace flbc {
 namespace {
 
-// Adds w_i g^T, for all i, to the gradients of a point.
 template <int Dim>
-void add_outer(const WeightMatrix& weights, Index vertex, const Vector<Dim>& g,
-               Eigen::VectorXd& sum) {
-  sum.reshaped(Dim, weights.rows()) += g * weights.col(vertex).transpose();
-}
-template <int Dim>
-void add_outer(const SparseWeights& weights, Index vertex, const Vector<Dim>& g,
-               Eigen::VectorXd& sum) {
-  weights.visit(vertex, [&](Index i, double weight) { sum.segment<Dim>(Dim * i) += weight * g; });
-}
-
-template <int Dim, class Weights>
-void add_cell_gradients(const DomainMesh<Dim>& mesh, const Weights& weights, Index cell,
+void add_cell_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights, Index cell,
                         const CellGeometry<Dim>& geometry, double factor, Eigen::VectorXd& sum) {
   for (int k = 0; k <= Dim; ++k) {
     const Vector<Dim> g = factor * geometry.hat_gradients.col(k);
-    add_outer<Dim>(weights, mesh.cells(k, cell), g, sum);
+    weights.visit(mesh.cells(k, cell),
+                  [&](Index i, double weight) { sum.segment<Dim>(Dim * i) += weight * g; });
   }
 }
 
-template <class Weights>
-Index num_rows(const Weights& weights, int dim) {
-  return static_cast<Index>(dim * num_control_points(weights));
-}
-
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim> jacobian(const WeightMatrix& gradients, Index point,
-                                         const PointList<Dim>& pose) {
-  return pose * gradients.col(point).reshaped(Dim, pose.cols()).transpose();
-}
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> jacobian(const SparseWeights& gradients, Index point,
                                          const PointList<Dim>& pose) {
@@ -58,11 +37,11 @@ Eigen::Matrix<double, Dim, Dim> jacobian(const SparseWeights& gradients, Index p
 
 }  // namespace
 
-template <int Dim, class Weights>
-Weights vertex_gradients(const DomainMesh<Dim>& mesh, const Weights& weights) {
+template <int Dim>
+SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights) {
   const VertexCells around(mesh);
-  const Index rows = num_rows(weights, Dim);
-  return weights_of_points<Weights>(rows, mesh.num_vertices(), [&](Index v) {
+  const Index rows = Dim * weights.num_control_points();
+  return SparseWeights::of(rows, mesh.num_vertices(), [&](Index v) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
     double measure = 0;
     for (const Index cell : around.cells_of(v)) {
@@ -75,17 +54,17 @@ Weights vertex_gradients(const DomainMesh<Dim>& mesh, const Weights& weights) {
   });
 }
 
-template <int Dim, class Weights>
-Weights gradients_at(const DomainMesh<Dim>& mesh, const Weights& weights,
-                     const std::vector<Location<Dim>>& places, GradientKind kind) {
-  const Index rows = num_rows(weights, Dim);
+template <int Dim>
+SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                           const std::vector<Location<Dim>>& places, GradientKind kind) {
+  const Index rows = Dim * weights.num_control_points();
   const auto count = static_cast<Index>(places.size());
   if (kind == GradientKind::kSmooth) {
     const auto at_vertices = vertex_gradients(mesh, weights);
-    return weights_of_points<Weights>(
-        rows, count, [&](Index p) { return interpolate(mesh, at_vertices, places[p]); });
+    return SparseWeights::of(rows, count,
+                             [&](Index p) { return interpolate(mesh, at_vertices, places[p]); });
   }
-  return weights_of_points<Weights>(rows, count, [&](Index p) {
+  return SparseWeights::of(rows, count, [&](Index p) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
     const Index cell = places[p].cell;
     add_cell_gradients(mesh, weights, cell, cell_geometry(mesh, cell), 1, sum);
@@ -112,30 +91,24 @@ std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMes
   return places;
 }
 
-template <int Dim, class Weights>
-Eigen::MatrixXd jacobians(const Weights& gradients, const PointList<Dim>& control_points) {
-  const auto rows = num_control_points(gradients);
+template <int Dim>
+Eigen::MatrixXd jacobians(const SparseWeights& gradients, const PointList<Dim>& control_points) {
+  const Index rows = gradients.num_control_points();
   if (rows != Dim * control_points.cols()) {
     throw InputError("gradients of " + std::to_string(control_points.cols()) +
                      " control points have " + std::to_string(Dim * control_points.cols()) +
                      " rows, not " + std::to_string(rows));
   }
-  return weights_of_points<WeightMatrix>(
-      Dim * Dim, static_cast<Index>(num_points(gradients)), [&](Index p) -> Eigen::VectorXd {
-        return jacobian<Dim>(gradients, p, control_points).reshaped();
-      });
+  Eigen::MatrixXd result(Dim * Dim, gradients.num_points());
+  parallel_for(gradients.num_points(), [&](Index p) {
+    result.col(p) = jacobian<Dim>(gradients, p, control_points).reshaped();
+  });
+  return result;
 }
 
-#define FLBC_INSTANTIATE(Dim, Weights)                                            \
-  template Weights vertex_gradients(const DomainMesh<Dim>&, const Weights&);      \
-  template Weights gradients_at(const DomainMesh<Dim>&, const Weights&,           \
-                                const std::vector<Location<Dim>>&, GradientKind); \
-  template Eigen::MatrixXd jacobians(const Weights&, const PointList<Dim>&);
-FLBC_INSTANTIATE(2, WeightMatrix)
-FLBC_INSTANTIATE(3, WeightMatrix)
-FLBC_INSTANTIATE(2, SparseWeights)
-FLBC_INSTANTIATE(3, SparseWeights)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(vertex_gradients)
+FLBC_INSTANTIATE_FUNCTION(gradients_at)
+FLBC_INSTANTIATE_FUNCTION(jacobians)
 FLBC_INSTANTIATE_FUNCTION(places_in_mesh)
 
 }  // namespace flbc

@@ -1,33 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/interpolate.h"
 
-#include "base/weight_columns.h"
-
 namespace flbc {
 
 template <int Dim>
-WeightMatrix interpolate(const DomainMesh<Dim>& mesh, const WeightMatrix& weights,
-                         const std::vector<Location<Dim>>& places) {
-  return weights_of_points<WeightMatrix>(
-      static_cast<Index>(weights.rows()), static_cast<Index>(places.size()),
-      [&](Index p) { return interpolate(mesh, weights, places[p]); });
+SparseWeights interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                          const std::vector<Location<Dim>>& places) {
+  return SparseWeights::of(weights.num_control_points(), static_cast<Index>(places.size()),
+                           [&](Index p) { return interpolate(mesh, weights, places[p]); });
 }
 
-template <int Dim, class Weights>
-Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const Weights& weights,
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
                             const Location<Dim>& place) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(num_control_points(weights));
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
   for (int k = 0; k <= Dim; ++k) {
-    add_column(weights, mesh.cells(k, place.cell), place.coordinates[k], result);
+    const double factor = place.coordinates[k];
+    weights.visit(mesh.cells(k, place.cell),
+                  [&](Index i, double weight) { result[i] += factor * weight; });
   }
   return result;
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                        \
-  template WeightMatrix interpolate(const DomainMesh<Dim>&, const WeightMatrix&,     \
-                                    const std::vector<Location<Dim>>&);              \
-  template Eigen::VectorXd interpolate(const DomainMesh<Dim>&, const WeightMatrix&,  \
-                                       const Location<Dim>&);                        \
+  template SparseWeights interpolate(const DomainMesh<Dim>&, const SparseWeights&,   \
+                                     const std::vector<Location<Dim>>&);             \
   template Eigen::VectorXd interpolate(const DomainMesh<Dim>&, const SparseWeights&, \
                                        const Location<Dim>&);
 FLBC_INSTANTIATE(2)

@@ -14,7 +14,6 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
-#include "base/weight_columns.h"
 #include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
 #include "coordinates/place_on_cage.h"
@@ -277,33 +276,32 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
   return placement;
 }
 
-template <int Dim, class Weights>
-Weights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Weights& weights,
-                   const Placement<Dim>& placement) {
+template <int Dim>
+SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const SparseWeights& weights, const Placement<Dim>& placement) {
   const auto inside = [&](Index p) { return interpolate(mesh, weights, placement.places[p]); };
-  return weights_of_points<Weights>(cage.size(), static_cast<Index>(placement.places.size()),
-                                    WeightsAt<Dim>(cage, placement, inside));
+  return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
+                           WeightsAt<Dim>(cage, placement, inside));
 }
 
 template <int Dim>
-SparseWeights weights_at(const Cage<Dim>& cage, const WeightMatrix& inside,
+SparseWeights weights_at(const Cage<Dim>& cage, const SparseWeights& weights,
                          const Placement<Dim>& placement) {
-  const auto column = [&](Index p) { return Eigen::VectorXd(inside.col(p)); };
-  return weights_of_points<SparseWeights>(cage.size(), static_cast<Index>(placement.places.size()),
-                                          WeightsAt<Dim>(cage, placement, column));
+  const auto inside = [&](Index p) { return weights.at(p); };
+  return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
+                           WeightsAt<Dim>(cage, placement, inside));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template WeightMatrix weights_at(const Cage<Dim>&, const DomainMesh<Dim>&, const WeightMatrix&,  \
-                                   const Placement<Dim>&);                                         \
-  template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,                      \
-                                    const SparseWeights&, const Placement<Dim>&);                  \
-  template SparseWeights weights_at(const Cage<Dim>&, const WeightMatrix&, const Placement<Dim>&); \
-  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                   \
-                                       const PointList<Dim>&, OutsidePoints);                      \
-  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,                   \
-                                       const CellLocator<Dim>&, const PointList<Dim>&,             \
-                                       OutsidePoints);                                             \
+#define FLBC_INSTANTIATE(Dim)                                                          \
+  template SparseWeights weights_at(const Cage<Dim>&, const DomainMesh<Dim>&,          \
+                                    const SparseWeights&, const Placement<Dim>&);      \
+  template SparseWeights weights_at(const Cage<Dim>&, const SparseWeights&,            \
+                                    const Placement<Dim>&);                            \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,       \
+                                       const PointList<Dim>&, OutsidePoints);          \
+  template Placement<Dim> place_points(const Cage<Dim>&, const DomainMesh<Dim>&,       \
+                                       const CellLocator<Dim>&, const PointList<Dim>&, \
+                                       OutsidePoints);                                 \
   template Placement<Dim> place_points(const Cage<Dim>&, const PointList<Dim>&, OutsidePoints);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

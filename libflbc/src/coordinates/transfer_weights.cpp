@@ -19,7 +19,7 @@ namespace {
 
 template <int Dim>
 void check_input(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                 const WeightMatrix& weights) {
+                 const SparseWeights& weights) {
   check_size(weights, control_points.cols(), from.points.cols());
   if (from.corners.cols() == 0) throw InputError("the model that has weights is empty");
   for (Eigen::Index e = 0; e < from.corners.cols(); ++e) {
@@ -50,24 +50,27 @@ void refuse_unmatched(const PointList<Dim>& to, const Eigen::VectorXd& distances
 }  // namespace
 
 template <int Dim>
-WeightMatrix transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                              const WeightMatrix& weights, const PointList<Dim>& to, double limit,
-                              Eigen::VectorXd* distances) {
+SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
+                               const SparseWeights& weights, const PointList<Dim>& to, double limit,
+                               Eigen::VectorXd* distances) {
   check_input(control_points, from, weights);
   const NearestSimplex<Dim, 3> nearest(from.points, from.corners);
   const auto num_points = static_cast<Index>(to.cols());
-  WeightMatrix result = WeightMatrix::Zero(weights.rows(), num_points);
   Eigen::VectorXd found(num_points);
-  parallel_for_chunks(num_points, 64, [&](Index p) {
-    HullPoint<Dim> place;
-    const Index element = nearest(to.col(p), place);
-    found[p] = place.distance;
-    for (int k = 0; k < place.size; ++k) {
-      result.col(p) += place.weights[k] * weights.col(from.corners(place.support[k], element));
-    }
-  });
+  const auto nearest_weights =
+      SparseWeights::of(weights.num_control_points(), num_points, [&](Index p) {
+        HullPoint<Dim> place;
+        const Index element = nearest(to.col(p), place);
+        found[p] = place.distance;
+        Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
+        for (int k = 0; k < place.size; ++k) {
+          weights.visit(from.corners(place.support[k], element),
+                        [&](Index i, double weight) { result[i] += place.weights[k] * weight; });
+        }
+        return result;
+      });
   refuse_unmatched(to, found, limit);
-  project_non_negative(control_points, to, result);
+  auto result = project_non_negative(control_points, to, nearest_weights);
   if (distances != nullptr) *distances = std::move(found);
   return result;
 }

@@ -16,6 +16,7 @@
 #include "flbc/harmonic.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/quality.h"
+#include "flbc/sparsify_error.h"
 #include "mesh/vertex_cells.h"
 #include "problem/problem_geometry.h"
 
@@ -106,27 +107,29 @@ Extrema<Dim> find_extrema(const DomainMesh<Dim>& mesh, const std::vector<Index>&
 
 // The objective in the units of the mesh. \param problem  with phi
 template <int Dim>
-double weighted_variation(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
+double weighted_variation(const LbcProblem<Dim>& problem, const SparseWeights& weights) {
   return objective(problem.mesh, problem.phi, weights) / std::pow(problem.scale, Dim - 1);
 }
 
 // \param problem  made of the mesh
 // \param domain  the mesh, in its own units
+// \param dense  the same weights
 // \param mean_influences  of the weights
 template <int Dim>
 MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& domain,
-                             const WeightMatrix& weights, double mean_influences) {
+                             const SparseWeights& weights, const WeightMatrix& dense,
+                             double mean_influences) {
   const auto interior = problem.boundary.interior_vertices();
   MeshCheck<Dim> check;
   check.interior_vertices = static_cast<Index>(interior.size());
-  const auto extrema = find_extrema(domain, interior, weights);
+  const auto extrema = find_extrema(domain, interior, dense);
   check.local_minima.assign(extrema.minima.begin(), extrema.minima.end());
   check.local_maxima.assign(extrema.maxima.begin(), extrema.maxima.end());
   check.deepest_minimum = extrema.deepest;
   check.highest_maximum = extrema.highest;
   check.total_variation = total_variation(domain, weights);
 
-  const auto harmonic = harmonic_coordinates(problem);
+  const SparseWeights harmonic = harmonic_coordinates(problem);
   check.harmonic_total_variation = total_variation(domain, harmonic);
   check.gradient_jump = gradient_jump(problem, weights);
   check.harmonic_gradient_jump = gradient_jump(problem, harmonic);
@@ -135,9 +138,7 @@ MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& dom
     check.weighted_variation = weighted_variation(problem, weights);
     check.harmonic_weighted_variation = weighted_variation(problem, harmonic);
   }
-  check.harmonic_mean_influences =
-      static_cast<double>((harmonic.array().abs() > kInfluenceThreshold).count()) /
-      static_cast<double>(domain.num_vertices());
+  check.harmonic_mean_influences = count_influences(harmonic, kInfluenceThreshold).mean;
   check.influence_ratio = mean_influences / check.harmonic_mean_influences;
   return check;
 }
@@ -306,26 +307,28 @@ std::string weight_for(Index control_point) {
 
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
-                               const WeightMatrix& weights) {
+                               const SparseWeights& weights) {
   check_size(weights, cage.size(), points.cols());
-  return check_at_points(cage, points, weights, find_points_on_cage(cage, points));
+  return check_at_points(cage, points, weights.dense(), find_points_on_cage(cage, points));
 }
 
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                               const WeightMatrix& weights) {
+                               const SparseWeights& weights) {
   check_size(weights, cage.size(), domain.num_vertices());
   auto problem = make_geometry(cage, domain);  // which may have several parts
-  auto check = check_at_points(cage, domain.points, weights, to_known_weights(problem.boundary));
-  check.mesh = check_on_mesh(std::move(problem), domain, weights, check.quality.mean_influences);
+  const auto dense = weights.dense();
+  auto check = check_at_points(cage, domain.points, dense, to_known_weights(problem.boundary));
+  check.mesh =
+      check_on_mesh(std::move(problem), domain, weights, dense, check.quality.mean_influences);
   return check;
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                       \
   template WeightCheck<Dim> check_weights(const Cage<Dim>&, const PointList<Dim>&,  \
-                                          const WeightMatrix&);                     \
+                                          const SparseWeights&);                    \
   template WeightCheck<Dim> check_weights(const Cage<Dim>&, const DomainMesh<Dim>&, \
-                                          const WeightMatrix&);
+                                          const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

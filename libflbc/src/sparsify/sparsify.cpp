@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/stage_progress.h"
-#include "base/weight_columns.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "polytope/nearest_point_in_hull.h"
@@ -173,38 +173,31 @@ TellPart told_of(const SparsifyOptions& options) {
 }
 
 // \param one_more  as for a point
-template <int Dim, class Weights>
-Weights sparsify_points(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                        const Weights& weights, const SparsifyOptions& options,
-                        WeightMatrix* one_more) {
+template <int Dim>
+SparseWeights sparsify_points(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                              const SparseWeights& weights, const SparsifyOptions& options,
+                              WeightMatrix* one_more) {
   validate<Dim>(options);
   const StageScope scope(told_of(options));
-  auto projected = weights;
-  {
+  const auto projected = [&] {
     const StageScope silent({});
-    // Also checks the input.
-    if constexpr (std::is_same_v<Weights, SparseWeights>) {
-      projected = project_non_negative(control_points, points, weights);
-    } else {
-      project_non_negative(control_points, points, projected);
-    }
-  }
+    return project_non_negative(control_points, points, weights);  // also checks the input
+  }();
   const auto num_points = static_cast<Index>(points.cols());
   if (one_more) one_more->resize(control_points.cols(), num_points);
   const PointSparsifier<Dim> sparsifier(control_points, options);
   LoopProgress progress(num_points);
   std::vector<std::optional<typename PointSparsifier<Dim>::Workspace>> works(omp_get_max_threads());
-  return weights_of_points<Weights>(
-      static_cast<Index>(control_points.cols()), num_points, [&](Index p) {
-        auto& work = works[omp_get_thread_num()];
-        if (!work) work.emplace(control_points);
-        progress.add(1);
-        Eigen::VectorXd more;
-        auto few = sparsifier.sparsify(points.col(p), column_of(weights, p),
-                                       column_of(projected, p), *work, one_more ? &more : nullptr);
-        if (one_more) one_more->col(p) = more;
-        return few;
-      });
+  return SparseWeights::of(static_cast<Index>(control_points.cols()), num_points, [&](Index p) {
+    auto& work = works[omp_get_thread_num()];
+    if (!work) work.emplace(control_points);
+    progress.add(1);
+    Eigen::VectorXd more;
+    auto few = sparsifier.sparsify(points.col(p), weights.at(p), projected.at(p), *work,
+                                   one_more ? &more : nullptr);
+    if (one_more) one_more->col(p) = more;
+    return few;
+  });
 }
 
 }  // namespace
@@ -222,30 +215,22 @@ void validate(const SparsifyOptions& options) {
   }
 }
 
-template <int Dim, class Weights>
-Weights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                 const Weights& weights, const SparsifyOptions& options) {
+template <int Dim>
+SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                       const SparseWeights& weights, const SparsifyOptions& options) {
   return sparsify_points(control_points, points, weights, options, nullptr);
 }
 
 template <int Dim>
-WeightMatrix sparsify_twice(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                            const WeightMatrix& weights, const SparsifyOptions& options,
-                            WeightMatrix& one_more) {
+SparseWeights sparsify_twice(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                             const SparseWeights& weights, const SparsifyOptions& options,
+                             WeightMatrix& one_more) {
   return sparsify_points(control_points, points, weights, options, &one_more);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                        \
-  template void validate<Dim>(const SparsifyOptions&);                               \
-  template WeightMatrix sparsify(const PointList<Dim>&, const PointList<Dim>&,       \
-                                 const WeightMatrix&, const SparsifyOptions&);       \
-  template SparseWeights sparsify(const PointList<Dim>&, const PointList<Dim>&,      \
-                                  const SparseWeights&, const SparsifyOptions&);     \
-  template WeightMatrix sparsify_twice(const PointList<Dim>&, const PointList<Dim>&, \
-                                       const WeightMatrix&, const SparsifyOptions&,  \
-                                       WeightMatrix&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template void validate<2>(const SparsifyOptions&);
+template void validate<3>(const SparsifyOptions&);
+FLBC_INSTANTIATE_FUNCTION(sparsify)
+FLBC_INSTANTIATE_FUNCTION(sparsify_twice)
 
 }  // namespace flbc

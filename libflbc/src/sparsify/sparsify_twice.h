@@ -11,8 +11,8 @@ namespace flbc {
 //! \param one_more  output, n x P: weights with at most one more influence per point than the
 //! options allow, accurate to about 1e-8
 template <int Dim>
-WeightMatrix sparsify_twice(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                            const WeightMatrix& weights, const SparsifyOptions& options,
-                            WeightMatrix& one_more);
+SparseWeights sparsify_twice(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                             const SparseWeights& weights, const SparsifyOptions& options,
+                             WeightMatrix& one_more);
 
 }  // namespace flbc

@@ -29,7 +29,6 @@ WeightMatrix read_mat(const std::string& path, std::string content);
 
 //! Checks that weights are finite, because readers reject other values. \throws InputError naming
 //! the first one
-void check_finite(const WeightMatrix& weights);
 void check_finite(const SparseWeights& weights);
 
 void write_lbw(std::ostream& out, const SparseWeights& weights);

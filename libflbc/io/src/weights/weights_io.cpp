@@ -20,15 +20,6 @@ namespace {
 
 }  // namespace
 
-void check_finite(const WeightMatrix& weights) {
-  for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-    if (weights.col(v).allFinite()) continue;
-    Eigen::Index i = 0;
-    while (std::isfinite(weights(i, v))) ++i;
-    refuse_not_finite(i, v);
-  }
-}
-
 void check_finite(const SparseWeights& weights) {
   for (Index p = 0; p < weights.num_points(); ++p) {
     weights.visit(p, [&](Index i, double weight) {
@@ -37,32 +28,10 @@ void check_finite(const SparseWeights& weights) {
   }
 }
 
-WeightMatrix read_weights(const std::string& path) {
-  const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
-  if (!format.read_sparse) return format.read(path, read_file(path));
-  const auto weights = format.read_sparse(path, read_file(path));
-  try {
-    return weights.dense();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path + ": " + std::to_string(weights.num_points()) + " x " +
-                     std::to_string(weights.num_control_points()) +
-                     " elements are declared, more than the memory can hold");
-  }
-}
-
-SparseWeights read_sparse_weights(const std::string& path) {
+SparseWeights read_weights(const std::string& path) {
   const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
   return format.read_sparse ? format.read_sparse(path, read_file(path))
                             : SparseWeights(format.read(path, read_file(path)));
-}
-
-void write_weights(const std::string& path, const WeightMatrix& weights) {
-  const auto& format = format_of(path, Content::kWeights, "write weights as").weights;
-  check_finite(weights);
-  write_file(path, [&](std::ostream& out) {
-    format.write_sparse ? format.write_sparse(out, SparseWeights(weights))
-                        : format.write(out, weights);
-  });
 }
 
 void write_weights(const std::string& path, const SparseWeights& weights) {

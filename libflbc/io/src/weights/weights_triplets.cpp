@@ -58,7 +58,7 @@ TripletSize size_by_numbers(const std::string& path) {
 
 }  // namespace
 
-WeightMatrix read_weight_triplets(const std::string& path, Index num_controls, Index num_points) {
+SparseWeights read_weight_triplets(const std::string& path, Index num_controls, Index num_points) {
   TextReader reader = open(path);
   WeightMatrix weights = WeightMatrix::Zero(num_controls, num_points);
   std::vector<bool> seen(static_cast<std::size_t>(weights.size()), false);
@@ -83,27 +83,27 @@ WeightMatrix read_weight_triplets(const std::string& path, Index num_controls, I
   return weights;
 }
 
-WeightMatrix read_weight_triplets(const std::string& path) {
+SparseWeights read_weight_triplets(const std::string& path) {
   const TripletSize size = size_by_numbers(path);
   return read_weight_triplets(path, size.controls, size.points);
 }
 
-void write_weight_triplets(const std::string& path, const WeightMatrix& weights) {
-  if (weights.size() == 0) throw InputError("cannot write \"" + path + "\": there are no weights");
+void write_weight_triplets(const std::string& path, const SparseWeights& weights) {
+  if (weights.num_points() == 0 || weights.num_control_points() == 0)
+    throw InputError("cannot write \"" + path + "\": there are no weights");
   check_finite(weights);
   write_file(path, [&](std::ostream& out) {
     TextWriter writer(out);
     writer << "# CONTROL_POINT POINT WEIGHT\n";
-    for (Eigen::Index v = 0; v < weights.cols(); ++v) {
-      for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-        const bool is_last = v == weights.cols() - 1 && i == weights.rows() - 1;
-        const double weight = weights(i, v);
-        // -0 is written, because it differs from a missing weight.
-        if (weight != 0 || std::signbit(weight) || is_last) {
-          writer << i << " " << v << " " << weight << "\n";
-        }
-      }
+    const Index last_point = weights.num_points() - 1;
+    const Index last_control_point = weights.num_control_points() - 1;
+    const auto write = [&](Index i, Index p, double weight) {
+      writer << i << " " << p << " " << weight << "\n";
+    };
+    for (Index p = 0; p <= last_point; ++p) {
+      weights.visit(p, [&](Index i, double weight) { write(i, p, weight); });
     }
+    if (weights.at(last_point)[last_control_point] == 0) write(last_control_point, last_point, 0);
     writer.flush();
   });
 }

@@ -63,8 +63,6 @@ FLBC_NAMES(DistanceScheme, {DistanceScheme::kSquare, "square"}, {DistanceScheme:
            {DistanceScheme::kSquareRoot, "sqrt"}, {DistanceScheme::kConstant, "constant"})
 FLBC_NAMES(Distances, {Distances::kAuto, "auto"}, {Distances::kExact, "exact"},
            {Distances::kInterpolated, "interpolated"})
-FLBC_NAMES(Recovery, {Recovery::kAuto, "auto"}, {Recovery::kBreadthFirst, "breadth-first"},
-           {Recovery::kLeastSquares, "least-squares"})
 FLBC_NAMES(Precision, {Precision::kAuto, "auto"}, {Precision::kSingle, "single"},
            {Precision::kDouble, "double"})
 FLBC_NAMES(ActiveSet, {ActiveSet::kAuto, "auto"}, {ActiveSet::kOn, "on"}, {ActiveSet::kOff, "off"})

@@ -152,17 +152,8 @@ SolveReport join(std::vector<SolveReport> parts) {
 
 // Weights of the whole mesh from those of its parts.
 template <int Dim>
-WeightMatrix join_dense(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
-                        Index num_control_points, Index num_vertices) {
-  WeightMatrix weights = WeightMatrix::Zero(num_control_points, num_vertices);
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    weights(parts[p].control_points, parts[p].domain.vertices) = solved[p].weights;
-  }
-  return weights;
-}
-template <int Dim>
-SparseWeights join_sparse(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
-                          Index num_control_points, Index num_vertices) {
+SparseWeights join(const std::vector<Part<Dim>>& parts, const std::vector<Solution>& solved,
+                   Index num_control_points, Index num_vertices) {
   struct Place {
     std::size_t part;
     Index vertex;  // of the part
@@ -176,7 +167,7 @@ SparseWeights join_sparse(const std::vector<Part<Dim>>& parts, const std::vector
   return SparseWeights::of(num_control_points, num_vertices, [&](Index v) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(num_control_points);
     const auto& [part, vertex] = places[v];
-    solved[part].sparse_weights.visit(vertex, [&, part = part](Index i, double weight) {
+    solved[part].weights.visit(vertex, [&, part = part](Index i, double weight) {
       all[parts[part].control_points[i]] = weight;
     });
     return all;
@@ -186,13 +177,14 @@ SparseWeights join_sparse(const std::vector<Part<Dim>>& parts, const std::vector
 }  // namespace
 
 template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sparse,
-                     const Reporter& reporter, const SolvePart<Dim>& solve_part) {
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
+                     const SolvePart<Dim>& solve_part) {
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {
     return static_cast<double>(part.cage.size()) * part.domain.mesh.num_vertices();
   };
   double all = 0, before = 0;
+  bool stopped = false;
   for (const auto& part : parts) all += unknowns(part);
 
   std::vector<Solution> solved;
@@ -201,19 +193,16 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sp
     const double share = unknowns(parts[p]) / all;
     const auto to_come = static_cast<int>(parts.size() - p) - 1;
     solved.push_back(solve_part(parts[p].cage, parts[p].domain.mesh,
-                                reporter.with_more_to_come(to_come).of_part(before, share)));
+                                reporter.with_more_to_come(to_come).of_part(before, share),
+                                stopped));
+    stopped = stopped || solved[p].report.status == SolveStatus::kStopped;
     reports.push_back(std::move(solved[p].report));
     before += share;
   }
   Solution whole;
   whole.report = join(std::move(reports));
-  if (sparse) {
-    whole.sparse_weights = join_sparse(parts, solved, cage.size(), mesh.num_vertices());
-    whole.report.quality = measure_quality(cage.points, mesh.points, whole.sparse_weights);
-  } else {
-    whole.weights = join_dense(parts, solved, cage.size(), mesh.num_vertices());
-    whole.report.quality = measure_quality(cage.points, mesh.points, whole.weights);
-  }
+  whole.weights = join(parts, solved, cage.size(), mesh.num_vertices());
+  whole.report.quality = measure_quality(cage.points, mesh.points, whole.weights);
   return whole;
 }
 

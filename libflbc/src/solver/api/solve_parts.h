@@ -10,16 +10,16 @@
 
 namespace flbc {
 
-//! Solves one connected part.
+//! Solves one connected part. \param stopped  whether the caller stopped the solve of a part
+//! before, so that one iteration suffices
 template <int Dim>
-using SolvePart =
-    std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&)>;
+using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&,
+                                         bool stopped)>;
 
 //! Solves every part of the mesh with the control points that are its vertices.
-//! \param sparse  whether `solve_part` returns sparse weights
 //! \throws InputError if the parts of mesh and cage differ
 template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, bool sparse,
-                     const Reporter& reporter, const SolvePart<Dim>& solve_part);
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
+                     const SolvePart<Dim>& solve_part);
 
 }  // namespace flbc

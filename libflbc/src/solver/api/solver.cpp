@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,9 +19,9 @@
 #include "flbc/deform.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
-#include "flbc/non_negative.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
+#include "polytope/project_columns.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/solve_parts.h"
 #include "solver/multilevel/cascade.h"
@@ -78,14 +79,13 @@ std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
 }
 
 template <int Dim>
-void make_non_negative(const LbcProblem<Dim>& problem, Weights& weights) {
-  const auto interior = problem.boundary.interior_vertices();
-  if (weights.is_sparse()) {
-    weights.sparse =
-        project_non_negative(problem.cage.points, problem.mesh.points, weights.sparse, interior);
-  } else {
-    project_non_negative(problem.cage.points, problem.mesh.points, weights.dense, interior);
-  }
+SparseWeights made_non_negative(const LbcProblem<Dim>& problem, const Weights& weights) {
+  return project_columns<Dim>(problem.cage.points, problem.mesh.points,
+                              problem.boundary.interior_vertices(),
+                              [&](Index v) -> Eigen::VectorXd {
+                                if (weights.is_sparse()) return weights.sparse.at(v);
+                                return weights.dense.col(v);
+                              });
 }
 
 template <int Dim>
@@ -99,15 +99,14 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
   return certificate;
 }
 
-template <int Dim, class AnyWeights>
-void measure(const LbcProblem<Dim>& problem, const AnyWeights& weights, SolveReport& report) {
+template <int Dim>
+void measure(const LbcProblem<Dim>& problem, const SparseWeights& weights, SolveReport& report) {
   report.objective = problem.phi.size() > 0 ? unscaled(problem, objective(problem, weights))
                                             : std::numeric_limits<double>::quiet_NaN();
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
 }
 
-//! Makes a solution from the weights of a run: projection, certificate, measures. Conversion to
-//! sparse weights is last, because projecting sparse weights takes more memory than the iteration.
+//! Makes a solution from the weights of a run: projection, certificate, measures.
 //! \param options  resolved
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
@@ -119,28 +118,22 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
     weights.is_sparse() ? project_interior(problem, weights.sparse)
                         : project_interior(problem, weights.dense);
   }
-  if (!options.sparse) weights = {std::move(weights).to_dense(), {}};
+  Solution solution;
   if (options.non_negative != NonNegative::kOff) {
     const StageScope scope(reporter.stage(Stage::kNonNegative));
-    make_non_negative(problem, weights);
+    solution.weights = made_non_negative(problem, weights);
+  } else {
+    solution.weights =
+        weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(weights.dense);
   }
+  weights = {};
   report.seconds.recover += watch.lap();
   if (options.certify || report.criterion == Criterion::kGap) {
     const StageScope scope(reporter.stage(Stage::kCertificate));
-    report.certificate = weights.is_sparse() ? certify(problem, run, weights.sparse.dense())
-                                             : certify(problem, run, weights.dense);
+    report.certificate = certify(problem, run, solution.weights.dense());
   }
   report.seconds.certify = watch.lap();
-  Solution solution;
-  if (options.sparse) {
-    solution.sparse_weights =
-        weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(weights.dense);
-    weights = {};
-    measure(problem, solution.sparse_weights, report);
-  } else {
-    solution.weights = std::move(weights.dense);
-    measure(problem, solution.weights, report);
-  }
+  measure(problem, solution.weights, report);
   solution.report = std::move(report);
   return solution;
 }
@@ -161,20 +154,23 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
                     const CoarseMesher<Dim>& mesher, const Observer& observer,
                     const MeshTopology<Dim>* topology) {
   require_valid_setup(given, bool(mesher));
-  const auto options = resolve(given);
+  const auto resolved = resolve(given);
   const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                                   const Reporter& reporter) {
+                                   const Reporter& reporter, bool stopped) {
+    auto options = resolved;
+    if (stopped) options.max_iterations = 1;
     const auto* facets = &domain == &mesh ? topology : nullptr;
     const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
     auto ready = set_up<Dim>(part, domain, options, mesher, reporter, nullptr, facets);
     auto solution = solve_once(ready.problem, std::move(ready.coarse), options, reporter);
     solution.report.seconds.setup = ready.seconds;
     solution.report.distances = ready.distances;
+    if (stopped) solution.report.status = SolveStatus::kStopped;
     return solution;
   };
   const Reporter reporter(observer);
-  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter);
-  return solve_parts<Dim>(cage, mesh, options.sparse, reporter, solve_connected);
+  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter, false);
+  return solve_parts<Dim>(cage, mesh, reporter, solve_connected);
 }
 
 void validate(const Budget& budget) {
@@ -187,36 +183,6 @@ void validate(const Budget& budget) {
                       format_number(budget.seconds));
   }
 }
-
-// Ends a solve at its time limit.
-class Deadline {
- public:
-  explicit Deadline(double seconds) : seconds_(seconds) {}
-
-  // An observer that also checks the time, in every iteration.
-  Observer watch_over(const Observer& observer, SolverOptions& options) {
-    if (seconds_ == 0) return observer;
-    const int interval = std::exchange(options.check_interval, 1);
-    auto watching = observer;
-    watching.progress = [this, interval, &observer](const Progress& progress) {
-      if (observer.progress && progress.iteration % interval == 0 && !observer.progress(progress)) {
-        return false;
-      }
-      elapsed_ += watch_.lap();
-      has_passed_ = elapsed_ >= seconds_;
-      return !has_passed_;
-    };
-    return watching;
-  }
-
-  bool has_passed() const { return has_passed_; }
-
- private:
-  double seconds_;
-  Stopwatch watch_;
-  double elapsed_ = 0;
-  bool has_passed_ = false;
-};
 
 // \throws InputError if a cell is inverted or degenerate
 template <int Dim>
@@ -239,14 +205,21 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-// Whether the state of one solve can start the other.
-bool share_state(const SolverOptions& a, const SolverOptions& b) {
-  return a.method == b.method && a.precision == b.precision && a.non_negative == b.non_negative &&
-         a.linear_solver == b.linear_solver && a.penalty == b.penalty &&
-         a.active_set == b.active_set && a.smoothness == b.smoothness;
+// Options that stay the same during a run. All others take effect when it resumes, except phi and
+// distances, which cannot change. Names all options, so that a new one cannot be forgotten.
+auto fixed_in_a_run(const SolverOptions& options) {
+  const auto& [method, phi, smoothness, distances, precision, non_negative, linear_solver,
+               coarse_to_fine, coarse_levels, tolerance, gap, active_set, max_iterations, penalty,
+               relaxation, certify, threads] = options;
+  return std::tuple(method, smoothness, precision, non_negative, linear_solver, coarse_to_fine,
+                    coarse_levels.coarsest, active_set, penalty, relaxation);
 }
 
 }  // namespace
+
+bool tries_active_set(int dim, Index control_points, Index vertices, const SolverOptions& options) {
+  return plan::active_set({dim, control_points, vertices}, resolve(options));
+}
 
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
@@ -301,8 +274,8 @@ class Solver<Dim>::State {
   }
 
   void move(const PointList<Dim>& control_points, const Budget& budget, const Observer& observer) {
-    if (solution_.weights.size() == 0) solve({}, observer);
-    if (anchor_weights_.size() == 0) anchor();
+    if (solution_.weights.num_points() == 0) solve({}, observer);
+    if (anchor_weights_.num_points() == 0) anchor();
     Stopwatch watch;
     auto options = resolve(options_);
     const ThreadScope threads(num_threads(shape_->problem, options));
@@ -327,10 +300,11 @@ class Solver<Dim>::State {
 
   void set_options(const SolverOptions& options) {
     require_valid(options, bool(mesher_));
-    if (options.phi != options_.phi) {
-      throw OptionError("phi cannot be changed once the problem is set up; make another Solver");
+    if (options.phi != options_.phi || options.distances != options_.distances) {
+      throw OptionError(
+          "phi and distances cannot be changed once the problem is set up; make another Solver");
     }
-    if (!share_state(resolve(options), resolve(options_))) restart();
+    if (fixed_in_a_run(resolve(options)) != fixed_in_a_run(resolve(options_))) restart();
     coarse_.clear();  // made for the previous options
     options_ = options;
     shape_->problem.smoothness = options.smoothness.value_or(0);
@@ -403,13 +377,11 @@ class Solver<Dim>::State {
   void solve_on(Shape& shape, const Transfer<Dim>* start, const Budget& budget,
                 const Observer& observer) {
     auto options = resolve(options_);
-    options.sparse = false;
     if (budget.iterations > 0) {
       options.max_iterations = std::min(options.max_iterations, budget.iterations);
     }
-    Deadline deadline(budget.seconds);
-    const Observer watching = deadline.watch_over(observer, options);
-    const Reporter reporter(watching);
+    const Reporter unlimited(observer);
+    const Reporter reporter = budget.seconds > 0 ? unlimited.with_limit(budget.seconds) : unlimited;
     const ThreadScope threads(num_threads(shape.problem, options));
     SolveReport report;
     Weights weights;
@@ -421,7 +393,6 @@ class Solver<Dim>::State {
       weights =
           solve_in_cascade(shape.problem, *shape.run, std::move(coarse), options, reporter, report);
     }
-    if (deadline.has_passed()) report.status = SolveStatus::kIterationLimit;
     solution_ =
         finish(shape.problem, *shape.run, std::move(weights), options, reporter, std::move(report));
     solution_.report.seconds.setup = std::exchange(shape.setup_seconds, 0);
@@ -435,7 +406,7 @@ class Solver<Dim>::State {
   Solution solution_{};
   std::optional<MovingDistances<Dim>> moving_distances_;
   DomainMesh<Dim> anchor_mesh_;
-  WeightMatrix anchor_weights_;
+  SparseWeights anchor_weights_;
 };
 
 template <int Dim>

@@ -125,7 +125,8 @@ std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
   settings.relaxation = *options.relaxation;
   settings.harmonic =
       options.method == Method::kGradient && options.linear_solver != LinearSolver::kNone;
-  settings.recovery = options.gradient.recovery;
+  settings.breadth_first =
+      options.method == Method::kPaper || options.linear_solver == LinearSolver::kNone;
   settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
   return make_in<gradient::GradientIteration>(options.precision, problem, settings);
 }

@@ -91,7 +91,8 @@ SparseWeights pointwise_coordinates(const Cage<Dim>& cage, const Placement<Dim>&
     for (Index p = 0; p < points.cols(); ++p) {
       if (!is_beside[p]) inside.push_back(p);
     }
-    project_non_negative(cage.points, points, weights, inside);
+    return weights_at(cage, project_non_negative<Dim>(cage.points, points, weights, inside),
+                      placement);
   }
   return weights_at(cage, weights, placement);
 }

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
 #include "solver/start/transfer.h"
 
 namespace flbc {
@@ -20,7 +21,7 @@ bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int
                  const SolverOptions& given, const Reporter& reporter, Duals<Dim>& duals) {
   Stopwatch watch;
   auto options = given;
-  *options.tolerance *= given.coarse_levels.looseness;
+  *options.tolerance *= plan::kLooseness;
   std::optional<Transfer<Dim>> transfer;
   if (below != nullptr) transfer.emplace(below->problem, duals, level.problem);
   SolveReport report;

@@ -102,8 +102,8 @@ MovingDistances<Dim>::MovingDistances(CoarseProblem<Dim> coarse, const LbcProble
 }
 
 template <int Dim>
-void MovingDistances<Dim>::anchor(const DomainMesh<Dim>& fine, const WeightMatrix& weights) {
-  weights_ = interpolate(fine, weights, places_);
+void MovingDistances<Dim>::anchor(const DomainMesh<Dim>& fine, const SparseWeights& weights) {
+  weights_ = interpolate(fine, weights, places_).dense();
   coarse_.problem.boundary.impose_on(weights_);
 }
 

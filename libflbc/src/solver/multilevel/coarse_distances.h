@@ -30,8 +30,8 @@ class MovingDistances {
   MovingDistances(CoarseProblem<Dim> coarse, const LbcProblem<Dim>& fine);
 
   //! Sets the weights by which the coarse mesh follows the control points.
-  //! \param weights  n x V, by which the fine mesh follows
-  void anchor(const DomainMesh<Dim>& fine, const WeightMatrix& weights);
+  //! \param weights  of V points, by which the fine mesh follows
+  void anchor(const DomainMesh<Dim>& fine, const SparseWeights& weights);
 
   //! Distances for another rest cage, as choose_distances(); exact if the coarse mesh folds.
   //! \param fine  of that rest cage, phi is not needed \return n x V

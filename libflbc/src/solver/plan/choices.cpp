@@ -111,19 +111,17 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options
   if (!gains_by_coarse_start(sizes, options)) return {};
   const auto limits = worthwhile(sizes.dim, active_set(sizes, options));
   const auto& levels = options.coarse_levels;
-  const double factor = levels.factor.value_or(limits.factor);
   const Index coarsest = levels.coarsest.value_or(limits.coarsest);
   const double numbers = static_cast<double>(sizes.vertices) * sizes.control_points;
   if (!levels.coarsest && numbers < limits.numbers) return {};
   std::vector<Index> vertices;
-  double size = sizes.vertices / factor;
+  double size = sizes.vertices / limits.factor;
   while (size >= coarsest) {
     vertices.push_back(static_cast<Index>(size));
-    size /= factor;
+    size /= limits.factor;
   }
   // An explicit request always gives a coarse mesh.
-  const bool is_asked_for = levels.coarsest && !levels.factor;
-  if (vertices.empty() && is_asked_for && sizes.vertices >= 2 * coarsest) {
+  if (vertices.empty() && levels.coarsest && sizes.vertices >= 2 * coarsest) {
     vertices.push_back(coarsest);
   }
   std::reverse(vertices.begin(), vertices.end());
@@ -155,12 +153,6 @@ void make_smooth(SolverOptions& options) {
 SolverOptions resolve(SolverOptions options) {
   if (options.method == Method::kAuto) options.method = Method::kValue;
   const bool gradient = options.method == Method::kGradient;
-  auto& recovery = options.gradient.recovery;
-  if (recovery == Recovery::kAuto) {
-    const bool local = options.method == Method::kPaper ||
-                       (gradient && options.linear_solver == LinearSolver::kNone);
-    recovery = local ? Recovery::kBreadthFirst : Recovery::kLeastSquares;
-  }
   options.non_negative = plan::non_negative(options);
   options.gap = plan::gap(options);
   if (options.coarse_to_fine == CoarseToFine::kOn && !options.coarse_levels.coarsest) {

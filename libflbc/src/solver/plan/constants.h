@@ -188,6 +188,9 @@ constexpr Index kCoarsest = 500;
 //! only the first iterations, and at such tolerances most iterations are late ones.
 constexpr double kCoarseStartTolerance = 3e-7;
 
+//! Tolerance on coarse meshes relative to the final one.
+constexpr double kLooseness = 4;
+
 //! When a multilevel start pays. `value` needs few iterations, so coarse meshes must be cheap: one
 //! level with a tenth of the vertices.
 struct Worthwhile {

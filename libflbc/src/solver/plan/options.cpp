@@ -31,10 +31,6 @@ void validate_gap(const SolverOptions& options, bool iterative) {
 void validate(const CoarseLevels& levels) {
   const Index coarsest = levels.coarsest.value_or(1);
   require(coarsest >= 1, "coarse_levels.coarsest", coarsest, "at least 1 vertex");
-  const double factor = levels.factor.value_or(2);
-  require(std::isfinite(factor) && factor >= 2, "coarse_levels.factor", factor, "at least 2");
-  require(std::isfinite(levels.looseness) && levels.looseness > 0, "coarse_levels.looseness",
-          levels.looseness, "positive");
 }
 
 }  // namespace
@@ -64,7 +60,6 @@ void validate(const SolverOptions& options) {
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
   const double relaxation = options.relaxation.value_or(1);
   require(relaxation > 0 && relaxation < 2, "relaxation", relaxation, "in (0, 2)");
-  require(options.check_interval >= 1, "check_interval", options.check_interval, "at least 1");
   const bool splitting = options.method == Method::kAuto || options.method == Method::kValue ||
                          options.method == Method::kLbc2014;
   if (options.non_negative == NonNegative::kConstraint && !splitting) {

@@ -3,7 +3,11 @@
 //! Reports progress of a solve to the observer.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "base/stage_progress.h"
+#include "base/stopwatch.h"
 #include "flbc/observer.h"
 
 namespace flbc {
@@ -26,6 +30,18 @@ class Reporter {
     other.share_ = share;
     return other;
   }
+
+  //! The same with a time limit from now on.
+  Reporter with_limit(double seconds) const {
+    auto other = *this;
+    other.limit_ = seconds;
+    other.watch_ = {};
+    return other;
+  }
+
+  //! Whether there is a time limit, which is to be checked after every iteration.
+  bool has_limit() const { return std::isfinite(limit_); }
+  bool is_late() const { return has_limit() && watch_.seconds() >= limit_; }
 
   //! \return whether the run continues
   bool progress(Progress progress) const {
@@ -51,6 +67,8 @@ class Reporter {
   const Observer& observer_;
   int finer_levels_ = 0;
   double before_ = 0, share_ = 1;
+  double limit_ = std::numeric_limits<double>::infinity();  // seconds
+  Stopwatch watch_;
 };
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
@@ -21,9 +22,10 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
                      const SolveReport& report) {
   Progress progress{report.iterations, report.primal_residual, report.dual_residual};
   progress.objective = [&] {
-    const auto weights = iteration.weights();
-    return unscaled(problem, weights.is_sparse() ? objective(problem, weights.sparse)
-                                                 : objective(problem, weights.dense));
+    auto weights = iteration.weights();
+    return unscaled(problem,
+                    objective(problem, weights.is_sparse() ? std::move(weights.sparse)
+                                                           : SparseWeights(weights.dense)));
   };
   return progress;
 }
@@ -89,10 +91,14 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
   ThreadChoice choice(omp_get_max_threads());
   while (state.made < limit) {
     context.reporter.poll();
-    const int count = std::min(interval - state.made % interval, limit - state.made);
+    const int until = std::min(interval - state.made % interval, limit - state.made);
+    const int count = context.reporter.has_limit() ? 1 : until;
     const Step step = iterate(iteration, state, count, choice);
     state.made += count;
     report.iterations = state.made - before;
+    const bool is_late = context.reporter.is_late();
+    if (count < until && !is_late) continue;
+    if (count < until) break;
     const auto [primal, dual] = state.stop->judge(step, iteration, state.made, tolerance);
     report.primal_residual = primal;
     report.dual_residual = dual;
@@ -103,6 +109,7 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
         {state.made, step, tolerance * std::max(primal, 1.0), tolerance, converged});
     if (to_make > 0) state.earliest = state.made + to_make;
     if (ends && !(converged && to_make > 0)) return;
+    if (is_late) break;
   }
   report.status = SolveStatus::kIterationLimit;
   report.criterion = Criterion::kNone;

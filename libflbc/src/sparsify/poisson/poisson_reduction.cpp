@@ -292,10 +292,10 @@ WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph
 }  // namespace
 
 template <int Dim>
-WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                               const EdgeList& edges, const WeightMatrix& weights,
-                               const std::vector<PointList<Dim>>& poses,
-                               const SparsifyOptions& user_options) {
+SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                                const EdgeList& edges, const SparseWeights& given,
+                                const std::vector<PointList<Dim>>& poses,
+                                const SparsifyOptions& user_options) {
   validate(edges, points.cols());
   constexpr double kStart = 0.3;  // share of the time
   const StageScope scope(user_options.progress);
@@ -303,14 +303,15 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   options.progress = {};  // progress is reported by the scope
   // Starting with one more influence lets neighbors agree on which one to drop.
   WeightMatrix with_one_more;
-  auto plain = [&] {
+  const auto plain_few = [&] {
     const StagePart part(0, kStart);
-    return sparsify_twice(control_points, points, weights, options,
+    return sparsify_twice(control_points, points, given, options,
                           with_one_more);  // checks the input
   }();
+  const WeightMatrix weights = given.dense(), plain = plain_few.dense();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
-  if (!(plain_cost > 0)) return plain;
+  if (!(plain_cost > 0)) return plain_few;
 
   const EdgeGraph graph(points, weights, edges);
   const WeightProjection<Dim> projection(control_points);
@@ -327,7 +328,7 @@ WeightMatrix reduce_by_poisson(const PointList<Dim>& control_points, const Point
   auto result = descend_from(with_one_more);
   if (is_better(result)) return result;
   result = descend_from(plain);
-  return is_better(result) ? result : plain;
+  return is_better(result) ? SparseWeights(result) : plain_few;
 }
 
 bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points,
@@ -350,19 +351,18 @@ SparseWeights reduce_influences(const PointList<Dim>& control_points, const Poin
   if (has_few || !suits_poisson(edges, control_points.cols(), points.cols())) {
     return sparsify(control_points, points, weights, options);
   }
-  return SparseWeights(
-      reduce_by_poisson(control_points, points, edges, weights.dense(), poses, options));
+  return reduce_by_poisson(control_points, points, edges, weights, poses, options);
 }
 
 template <int Dim>
 double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                    const EdgeList& edges, const WeightMatrix& before, const WeightMatrix& after,
+                    const EdgeList& edges, const SparseWeights& before, const SparseWeights& after,
                     const std::vector<PointList<Dim>>& poses) {
   check_size(before, control_points.cols(), points.cols());
   check_size(after, control_points.cols(), points.cols());
   validate(edges, points.cols());
   return evaluate<Dim>(make_poisson_energy<Dim>(control_points, points, edges, poses), points,
-                       edges, before, after);
+                       edges, before.dense(), after.dense());
 }
 
 FLBC_INSTANTIATE_FUNCTION(reduce_by_poisson)

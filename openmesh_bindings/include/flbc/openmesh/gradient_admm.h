@@ -98,7 +98,7 @@ class GradientAdmm {
 
   //! Drops the state and starts from harmonic coordinates.
   void restart() {
-    const auto weights = harmonic_coordinates(problem_.base);
+    const SparseWeights weights = harmonic_coordinates(problem_.base);
     for (const Cell cell : Elements<Mesh>::cells(mesh_)) {
       gradient(cell) = internal::gradients_on_cell(problem_.base.mesh, cell.idx(), weights);
       rows(extrapolated_, cell) = gradient(cell);

@@ -14,26 +14,27 @@ namespace flbc::openmesh {
 
 namespace internal {
 
-//! The gradients of piecewise linear functions on a cell. \param weights  n x V \return Dim x n
+//! The gradients of piecewise linear functions on a cell. \return Dim x n
 template <int Dim>
 Eigen::Matrix<double, Dim, Eigen::Dynamic> gradients_on_cell(const DomainMesh<Dim>& mesh,
                                                              Index cell,
-                                                             const WeightMatrix& weights) {
+                                                             const SparseWeights& weights) {
   const auto vertices = mesh.cells.col(cell);
   Eigen::Matrix<double, Dim, Dim> edges;
-  Eigen::Matrix<double, Dim, Eigen::Dynamic> differences(Dim, weights.rows());
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> differences(Dim, weights.num_control_points());
+  const Eigen::VectorXd first = weights.at(vertices[0]);
   for (int k = 0; k < Dim; ++k) {
     edges.row(k) = mesh.points.col(vertices[k + 1]) - mesh.points.col(vertices[0]);
-    differences.row(k) = weights.col(vertices[k + 1]) - weights.col(vertices[0]);
+    differences.row(k) = weights.at(vertices[k + 1]) - first;
   }
   return edges.inverse() * differences;
 }
 
 template <int Dim, class Mesh>
-void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const WeightMatrix& weights,
+void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const SparseWeights& weights,
                    const std::string& name, bool persistent) {
   using Handle = typename Elements<Mesh>::template CellProperty<Wide<double>>;
-  const auto n = static_cast<std::size_t>(weights.rows());
+  const auto n = static_cast<std::size_t>(weights.num_control_points());
   auto& gradients = *attach_rows<Handle>(mesh, name, Dim, n, persistent).first;
   for (Index s = 0; s < domain.num_cells(); ++s) {
     gradients[s].matrix() = gradients_on_cell(domain, s, weights);

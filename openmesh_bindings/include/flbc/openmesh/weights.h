@@ -4,6 +4,7 @@
 //! all n weights per vertex, or Influences with the nonzero weights.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -116,16 +117,21 @@ void set_offsets(Mesh& mesh, const RowBlock<double>& offsets, const std::string&
 }  // namespace internal
 
 //! Attaches weights to the vertices of any mesh, such as a model, as Wide<double>.
-//! \param weights  n x V \param persistent  whether .om files store them
+//! \param weights  of V points \param persistent  whether .om files store them
 //! \throws InputError if their number is not the number of vertices
 template <class Mesh>
-void set_weights(Mesh& mesh, const WeightMatrix& weights, const std::string& name = kWeights,
+void set_weights(Mesh& mesh, const SparseWeights& weights, const std::string& name = kWeights,
                  bool persistent = false) {
-  internal::require_number_of_vertices(weights.cols(), mesh.n_vertices());
+  internal::require_number_of_vertices(weights.num_points(), mesh.n_vertices());
   internal::make_way_for<Wide<double>>(mesh, name);
   auto& rows = internal::get_property<Wide<double>>(mesh, name);
-  rows.set_shape(1, static_cast<std::size_t>(weights.rows()));
-  Eigen::Map<WeightMatrix>(rows.data(), weights.rows(), weights.cols()) = weights;
+  const auto n = static_cast<std::size_t>(weights.num_control_points());
+  rows.set_shape(1, n);
+  std::fill_n(rows.data(), n * mesh.n_vertices(), 0.0);
+  for (Index v = 0; v < weights.num_points(); ++v) {
+    double* row = rows.data() + static_cast<std::size_t>(v) * n;
+    weights.visit(v, [row](Index i, double weight) { row[i] = weight; });
+  }
   if (persistent) rows.set_persistent(true);
 }
 

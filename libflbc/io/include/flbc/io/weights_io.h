@@ -14,21 +14,17 @@ namespace flbc::io {
 //! Reads Matrix Market (.mtx: coordinate or array, real or integer, general), DMAT (.dmat, text or
 //! binary, as libigl writes it) or NumPy (.npy: version 1 to 3, float32 or float64, C or Fortran
 //! order, two dimensions).
-//! \return n x #points
+//! \return weights of the points; for .mtx, no dense matrix is allocated
 //! \throws IoError if the file cannot be read; InputError naming file and line or byte if it is
 //! malformed, contains a non-finite number, or ends early; OptionError for another extension
-WeightMatrix read_weights(const std::string& path);
-
-//! The same as sparse weights; for .mtx, no dense matrix is allocated.
-SparseWeights read_sparse_weights(const std::string& path);
+SparseWeights read_weights(const std::string& path);
 
 //! Writes the format chosen by the extension: .mtx (coordinate real general, 17 digits, without
-//! zeros), .dmat (binary) or .npy (float64). \param weights n x #points
+//! zeros), .dmat (binary) or .npy (float64). For .mtx, no dense matrix is
+//! allocated.
+//! \param weights  of the points
 //! \throws IoError if the file cannot be written; InputError if a weight is not finite; OptionError
 //! for another extension
-void write_weights(const std::string& path, const WeightMatrix& weights);
-
-//! Writes the same file from sparse weights; for .mtx, no dense matrix is allocated.
 void write_weights(const std::string& path, const SparseWeights& weights);
 
 }  // namespace flbc::io

@@ -14,11 +14,11 @@ namespace flbc::gradient {
 
 //! Settings of the iteration.
 struct Settings {
-  double penalty = 1;     //!< mu > 0
-  double relaxation = 1;  //!< in (0, 2), 1 for the iteration of the paper
-  bool harmonic = false;  //!< starts from harmonic coordinates, otherwise from the least-norm
-                          //!< solution
-  Recovery recovery = Recovery::kLeastSquares;
+  double penalty = 1;          //!< mu > 0
+  double relaxation = 1;       //!< in (0, 2), 1 for the iteration of the paper
+  bool harmonic = false;       //!< starts from harmonic coordinates, otherwise from the least-norm
+                               //!< solution
+  bool breadth_first = false;  //!< recovery of weights as in the paper, else by least squares
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< of start and recovery
 };
 
@@ -54,7 +54,7 @@ class GradientIteration final : public Iteration<Dim> {
   //! harmonic start.
   Weights weights() const override {
     if (start_weights_.size() > 0) return {start_weights_, {}};
-    if (settings_.recovery == Recovery::kBreadthFirst) {
+    if (settings_.breadth_first) {
       return {integrate_breadth_first(problem_, admm_.gradients()), {}};
     }
     return {integrate_least_squares(problem_, admm_.gradients(), poisson()), {}};
