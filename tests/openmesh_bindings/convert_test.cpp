@@ -150,7 +150,7 @@ void expect_matrices(const Mesh& mesh, const DomainMesh<Dim>& domain) {
   EXPECT_EQ(list.ends.size(), expected.ends.size());
   double sum = 0;
   for (const double weight : list.weights) sum += weight;
-  for (const double weight : expected.weights.dense()) sum -= weight;
+  for (const double weight : expected.weights) sum -= weight;
   EXPECT_NEAR(sum, 0, 1e-9);
 }
 
