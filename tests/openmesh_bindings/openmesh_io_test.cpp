@@ -13,14 +13,14 @@ namespace {
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
 };
-using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+using BoxMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
 // A box without lid, in quadrilaterals, with thirds as coordinates.
-Mesh open_box() {
-  Mesh mesh;
-  std::vector<Mesh::VertexHandle> v;
+BoxMesh open_box() {
+  BoxMesh mesh;
+  std::vector<BoxMesh::VertexHandle> v;
   for (int k = 0; k < 8; ++k) {
-    v.push_back(mesh.add_vertex(Mesh::Point((k & 1) / 3.0, (k & 2) / 3.0, (k & 4) / 3.0)));
+    v.push_back(mesh.add_vertex(BoxMesh::Point((k & 1) / 3.0, (k & 2) / 3.0, (k & 4) / 3.0)));
   }
   mesh.add_face(v[0], v[2], v[3], v[1]);
   mesh.add_face(v[0], v[1], v[5], v[4]);
