@@ -166,7 +166,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   SolverOptions options;
   options.tolerance = tolerance;
   options.precision = std::is_same_v<Scalar, double> ? Precision::kDouble : Precision::kAuto;
-  options = resolve(options);
+  const auto plan = plan::settings_of(options);
   const WeightMatrix weights = harmonic_coordinates(problem);
   Start<Dim> start;
   start.penalty = 0.1;
@@ -174,9 +174,9 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   start.flux_density = [n = problem.num_control_points()](Index) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
   };
-  active_set::Settings settings;
+  active_set::Parameters settings;
   settings.penalty = start.penalty;
-  settings.relaxation = *options.relaxation;
+  settings.relaxation = plan.relaxation;
   settings.half = half;
   active_set::ActiveSet<Scalar, Dim> iteration(problem, splitting::measure_metric(problem, true),
                                                settings, active_of_harmonic(problem, 0.2));
@@ -353,7 +353,7 @@ TEST(ActiveSetChoice, AreForManyControlPointsIn3D) {
     SolverOptions options;
     options.active_set = choice;
     options.certify = certify;
-    return plan::active_set(plan::sizes_of(problem), resolve(options));
+    return plan::active_set(plan::sizes_of(problem), plan::settings_of(options));
   };
   const auto few = make_fine_problem<3>(Shape::kBox);
   ASSERT_LT(few.num_control_points(), 80);

@@ -326,7 +326,7 @@ std::vector<Index> coarse_sizes(const plan::Sizes& sizes, bool on_active_set = f
   options.tolerance = 1e-6;
   options.active_set = on_active_set ? ActiveSet::kOn : ActiveSet::kOff;
   options.coarse_levels = levels;
-  return plan::coarse_sizes(sizes, resolve(options));
+  return plan::coarse_sizes(sizes, plan::settings_of(options));
 }
 
 TEST(CoarseSizes, NoneWhereTheyDoNotPay) {

@@ -49,11 +49,11 @@ Case<Dim> make_case(Shape shape, bool non_negative = true) {
 template <class Scalar, int Dim>
 CompactSplitting<Scalar, Dim> make_splitting(const Case<Dim>& c, double relaxation = 1.9,
                                              bool half = false) {
-  compact::Settings settings;
-  settings.penalty = c.penalty;
+  compact::Parameters parameters;
+  parameters.penalty = c.penalty;
   settings.relaxation = relaxation;
-  settings.half = half;
-  return {c.problem, c.metric, settings};
+  parameters.half = half;
+  return {c.problem, c.metric, parameters};
 }
 
 // Of the cells with interior corners before the iteration, and of u = w after it: the library does
@@ -88,9 +88,9 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
       const double relaxation = non_negative ? 1.65 : 1;
       const auto start = harmonic_coordinates(problem);
       auto textbook = textbook_for(problem, metric, penalty, relaxation, start);
-      compact::Settings settings{penalty, relaxation};
-      settings.paper_residuals = true;
-      CompactSplitting<double, Dim> splitting(problem, metric, settings);
+      compact::Parameters parameters{penalty, relaxation};
+      parameters.paper_residuals = true;
+      CompactSplitting<double, Dim> splitting(problem, metric, parameters);
       splitting.start_from_weights(start);
       for (int iteration = 1; iteration <= 15; ++iteration) {
         const auto before = textbook.weights();
@@ -123,9 +123,9 @@ template <class Scalar, int Dim>
 void expect_to_follow(const Case<Dim>& c, const WeightMatrix& exact, double tolerance, bool half) {
   const auto list = supported_kernels<compact::Kernel<Scalar, Dim>>();
   for (int k = 0; k < list.size; ++k) {
-    compact::Settings settings{c.penalty, 1.9};
-    settings.half = half;
-    CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, settings, *list.kernels[k]);
+    compact::Parameters parameters{c.penalty, 1.9};
+    parameters.half = half;
+    CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, parameters, *list.kernels[k]);
     splitting.start({});
     splitting.iterate(0, 400, false);
     EXPECT_EQ(splitting.stores_half(), half);
@@ -150,10 +150,10 @@ template <class Scalar, int Dim>
 std::pair<WeightMatrix, Eigen::MatrixXd> run_with_threads(const Case<Dim>& c, int count,
                                                           bool half) {
   const ThreadScope threads(count);
-  compact::Settings settings{c.penalty, 1.9};
-  settings.half = half;
-  settings.balances = true;
-  CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, settings);
+  compact::Parameters parameters{c.penalty, 1.9};
+  parameters.half = half;
+  parameters.balances = true;
+  CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, parameters);
   splitting.start({});
   for (int made = 0; made < 12; ++made) {
     const auto step = splitting.iterate(made, 1, made % 3 == 0);
@@ -187,9 +187,9 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
 // Whatever the penalty is changed to on the way, the duals survive and the optimum stays.
 TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
   const auto c = make_case<Dim>(Shape::kRing);
-  compact::Settings settings{10 * c.penalty, 1.5};
-  settings.balances = true;
-  CompactSplitting<double, Dim> splitting(c.problem, c.metric, settings);
+  compact::Parameters parameters{10 * c.penalty, 1.5};
+  parameters.balances = true;
+  CompactSplitting<double, Dim> splitting(c.problem, c.metric, parameters);
   splitting.start({});
   splitting.iterate(0, 6000, false);
   constexpr int kBalanced = plan::kBalancedAfter[0];
@@ -197,7 +197,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
   EXPECT_LT(last.change, 1e-9);
   const auto before = splitting.all_weights();
   splitting.adapt({kBalanced, last, 1, 1, false});
-  EXPECT_GT(std::abs(std::log(splitting.penalty() / settings.penalty)), 1);
+  EXPECT_GT(std::abs(std::log(splitting.penalty() / parameters.penalty)), 1);
   double change = 0;
   for (int made = kBalanced; made < kBalanced + 10; ++made) {
     change += splitting.iterate(made + 100, 1, false).change;
@@ -211,10 +211,10 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
 TEST_IN_2D_AND_3D(CompactSplittingTest, ALookMeasuresAllConstraints) {
   const auto c = make_case<Dim>(Shape::kRing);
   const auto violation_at_the_first_look = [&](bool looks) {
-    compact::Settings settings{c.penalty, 1.9};
-    settings.balances = true;
-    settings.looks = looks;
-    CompactSplitting<double, Dim> splitting(c.problem, c.metric, settings);
+    compact::Parameters parameters{c.penalty, 1.9};
+    parameters.balances = true;
+    parameters.looks = looks;
+    CompactSplitting<double, Dim> splitting(c.problem, c.metric, parameters);
     splitting.start({});
     Step step;
     for (int made = 0; made < plan::kFirstLook; ++made) {

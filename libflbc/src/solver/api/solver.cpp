@@ -28,6 +28,7 @@
 #include "solver/multilevel/coarse_distances.h"
 #include "solver/multilevel/set_up.h"
 #include "solver/plan/choices.h"
+#include "solver/plan/settings.h"
 #include "solver/run/run.h"
 
 namespace flbc {
@@ -50,32 +51,31 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 
 // A problem for a method that does not minimize has no phi.
 template <int Dim>
-void require_objective(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  if (!is_local(options.method)) return;
+void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
+  if (!is_local(settings.method)) return;
   if (problem.phi.cols() != problem.mesh.num_cells()) {
     throw InputError(
         "the problem has no weight functions phi for the cells of its mesh; make_problem() "
         "computes them");
   }
-  if (problem.smoothness != *options.smoothness) {
+  if (problem.smoothness != settings.smoothness) {
     throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
-                      ", and the options say " + format_number(*options.smoothness));
+                      ", and the options say " + format_number(settings.smoothness));
   }
 }
 
 template <int Dim>
-int num_threads(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  return threads_for(options.threads, problem.num_control_points(), problem.mesh.num_vertices());
+int num_threads(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
+  return threads_for(settings.threads, problem.num_control_points(), problem.mesh.num_vertices());
 }
 
-//! \param options  resolved
 template <int Dim>
 std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
                                               const CoarseMesher<Dim>& mesher,
-                                              const SolverOptions& options) {
+                                              const plan::Settings& settings) {
   if (!mesher) return {};
-  const auto sizes = plan::coarse_sizes(plan::sizes_of(problem), options);
-  return make_coarse_problems(problem, mesher, sizes, options, CoarseUse{});
+  const auto sizes = plan::coarse_sizes(plan::sizes_of(problem), settings);
+  return make_coarse_problems(problem, mesher, sizes, settings, CoarseUse{});
 }
 
 template <int Dim>
@@ -107,19 +107,19 @@ void measure(const LbcProblem<Dim>& problem, const SparseWeights& weights, Solve
 }
 
 //! Makes a solution from the weights of a run: projection, certificate, measures.
-//! \param options  resolved
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
-                const SolverOptions& options, const Reporter& reporter, SolveReport report) {
+                const plan::Settings& settings, const Reporter& reporter, SolveReport report) {
   Stopwatch watch;
-  const bool is_splitting = options.method == Method::kValue || options.method == Method::kLbc2014;
+  const bool is_splitting =
+      settings.method == Method::kValue || settings.method == Method::kLbc2014;
   // Weights of the splitting have the precision of its iteration.
-  if (is_splitting && options.non_negative == NonNegative::kOff) {
+  if (is_splitting && settings.non_negative == NonNegative::kOff) {
     weights.is_sparse() ? project_interior(problem, weights.sparse)
                         : project_interior(problem, weights.dense);
   }
   Solution solution;
-  if (options.non_negative != NonNegative::kOff) {
+  if (settings.non_negative != NonNegative::kOff) {
     const StageScope scope(reporter.stage(Stage::kNonNegative));
     solution.weights = made_non_negative(problem, weights);
   } else {
@@ -128,7 +128,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   }
   weights = {};
   report.seconds.recover += watch.lap();
-  if (options.certify || report.criterion == Criterion::kGap) {
+  if (settings.certify || report.criterion == Criterion::kGap) {
     const StageScope scope(reporter.stage(Stage::kCertificate));
     report.certificate = certify(problem, run, solution.weights.dense());
   }
@@ -138,14 +138,13 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   return solution;
 }
 
-//! \param options  resolved
 template <int Dim>
 Solution solve_once(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
-                    const SolverOptions& options, const Reporter& reporter) {
+                    const plan::Settings& settings, const Reporter& reporter) {
   MethodRun<Dim> run(problem);
   SolveReport report;
-  auto weights = solve_in_cascade(problem, run, std::move(coarse), options, reporter, report);
-  return finish(problem, run, std::move(weights), options, reporter, std::move(report));
+  auto weights = solve_in_cascade(problem, run, std::move(coarse), settings, reporter, report);
+  return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
 }
 
 //! \param topology  null if not known
@@ -154,15 +153,15 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
                     const CoarseMesher<Dim>& mesher, const Observer& observer,
                     const MeshTopology<Dim>* topology) {
   require_valid_setup(given, bool(mesher));
-  const auto resolved = resolve(given);
+  const auto common = plan::settings_of(given);
   const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
                                    const Reporter& reporter, bool stopped) {
-    auto options = resolved;
-    if (stopped) options.max_iterations = 1;
+    auto settings = common;
+    if (stopped) settings.max_iterations = 1;
     const auto* facets = &domain == &mesh ? topology : nullptr;
-    const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
-    auto ready = set_up<Dim>(part, domain, options, mesher, reporter, nullptr, facets);
-    auto solution = solve_once(ready.problem, std::move(ready.coarse), options, reporter);
+    const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
+    auto ready = set_up<Dim>(part, domain, settings, mesher, reporter, nullptr, facets);
+    auto solution = solve_once(ready.problem, std::move(ready.coarse), settings, reporter);
     solution.report.seconds.setup = ready.seconds;
     solution.report.distances = ready.distances;
     if (stopped) solution.report.status = SolveStatus::kStopped;
@@ -207,10 +206,10 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 
 // Options that stay the same during a run. All others take effect when it resumes, except phi and
 // distances, which cannot change. Names all options, so that a new one cannot be forgotten.
-auto fixed_in_a_run(const SolverOptions& options) {
+auto fixed_in_a_run(const plan::Settings& settings) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, linear_solver,
                coarse_to_fine, coarse_levels, tolerance, gap, active_set, max_iterations, penalty,
-               relaxation, certify, threads] = options;
+               relaxation, certify, threads] = settings;
   return std::tuple(method, smoothness, precision, non_negative, linear_solver, coarse_to_fine,
                     coarse_levels.coarsest, active_set, penalty, relaxation);
 }
@@ -218,17 +217,17 @@ auto fixed_in_a_run(const SolverOptions& options) {
 }  // namespace
 
 bool tries_active_set(int dim, Index control_points, Index vertices, const SolverOptions& options) {
-  return plan::active_set({dim, control_points, vertices}, resolve(options));
+  return plan::active_set({dim, control_points, vertices}, plan::settings_of(options));
 }
 
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
                const MesherArgument<Dim>& mesher, const Observer& observer) {
   require_valid(given, bool(mesher));
-  const auto options = resolve(given);
-  require_objective(problem, options);
-  const ThreadScope threads(num_threads(problem, options));
-  return solve_once(problem, coarse_starts<Dim>(problem, mesher, options), options,
+  const auto settings = plan::settings_of(given);
+  require_objective(problem, settings);
+  const ThreadScope threads(num_threads(problem, settings));
+  return solve_once(problem, coarse_starts<Dim>(problem, mesher, settings), settings,
                     Reporter(observer));
 }
 
@@ -255,7 +254,8 @@ class Solver<Dim>::State {
     normalize_and_validate(mesh);
     std::optional<CoarseProblem<Dim>> coarsest;
     const Observer nobody;
-    auto ready = set_up(cage, mesh, resolve(options), mesher, Reporter(nobody), &coarsest);
+    auto ready =
+        set_up(cage, mesh, plan::settings_of(options), mesher, Reporter(nobody), &coarsest);
     if (coarsest) moving_distances_.emplace(std::move(*coarsest), ready.problem);
     coarse_ = std::move(ready.coarse);
     *shape_ = {std::move(cage), std::move(mesh), std::move(ready.problem),
@@ -277,11 +277,11 @@ class Solver<Dim>::State {
     if (solution_.weights.num_points() == 0) solve({}, observer);
     if (anchor_weights_.num_points() == 0) anchor();
     Stopwatch watch;
-    auto options = resolve(options_);
-    const ThreadScope threads(num_threads(shape_->problem, options));
-    auto shape = moved(control_points, options);
+    auto settings = plan::settings_of(options_);
+    const ThreadScope threads(num_threads(shape_->problem, settings));
+    auto shape = moved(control_points, settings);
     shape->setup_seconds = watch.lap();
-    if (plan::inherits(options.method) && shape_->run->has_duals()) {
+    if (plan::inherits(settings.method) && shape_->run->has_duals()) {
       const auto duals = shape_->run->duals();
       const auto transfer = Transfer<Dim>::between_shapes(shape_->problem, duals, shape->problem);
       solve_on(*shape, &transfer, left(budget, shape->setup_seconds), observer);
@@ -304,7 +304,8 @@ class Solver<Dim>::State {
       throw OptionError(
           "phi and distances cannot be changed once the problem is set up; make another Solver");
     }
-    if (fixed_in_a_run(resolve(options)) != fixed_in_a_run(resolve(options_))) restart();
+    if (fixed_in_a_run(plan::settings_of(options)) != fixed_in_a_run(plan::settings_of(options_)))
+      restart();
     coarse_.clear();  // made for the previous options
     options_ = options;
     shape_->problem.smoothness = options.smoothness.value_or(0);
@@ -344,16 +345,17 @@ class Solver<Dim>::State {
   // Computes phi when a method needs it.
   void complete() {
     auto& problem = shape_->problem;
-    const auto options = resolve(options_);
-    if (problem.phi.size() > 0 || !is_local(options.method)) return;
-    const ThreadScope threads(num_threads(problem, options));
+    const auto settings = plan::settings_of(options_);
+    if (problem.phi.size() > 0 || !is_local(settings.method)) return;
+    const ThreadScope threads(num_threads(problem, settings));
     Stopwatch watch;
-    set_phi(problem, options.phi);
+    set_phi(problem, settings.phi);
     shape_->setup_seconds += watch.lap();
   }
 
   // The mesh moved by the control points, not solved yet.
-  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points, const SolverOptions& options) {
+  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
+                               const plan::Settings& settings) {
     require_points_for(shape_->cage, control_points);
     auto shape = std::make_unique<Shape>();
     shape->cage = {control_points, shape_->cage.facets};
@@ -363,38 +365,38 @@ class Solver<Dim>::State {
     auto& problem = shape->problem;
     problem =
         make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
-    problem.smoothness = *options.smoothness;
+    problem.smoothness = settings.smoothness;
     shape->run.emplace(problem);
-    if (!is_local(options.method)) return shape;
+    if (!is_local(settings.method)) return shape;
     shape->distances = shape_->distances;
-    auto distances = moving_distances_ ? (*moving_distances_)(problem, options, shape->distances)
-                                       : distances_for(options.phi, problem);
-    set_phi(problem, options.phi, std::move(distances));
+    auto distances = moving_distances_ ? (*moving_distances_)(problem, settings, shape->distances)
+                                       : distances_for(settings.phi, problem);
+    set_phi(problem, settings.phi, std::move(distances));
     return shape;
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
   void solve_on(Shape& shape, const Transfer<Dim>* start, const Budget& budget,
                 const Observer& observer) {
-    auto options = resolve(options_);
+    auto settings = plan::settings_of(options_);
     if (budget.iterations > 0) {
-      options.max_iterations = std::min(options.max_iterations, budget.iterations);
+      settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
     }
     const Reporter unlimited(observer);
     const Reporter reporter = budget.seconds > 0 ? unlimited.with_limit(budget.seconds) : unlimited;
-    const ThreadScope threads(num_threads(shape.problem, options));
+    const ThreadScope threads(num_threads(shape.problem, settings));
     SolveReport report;
     Weights weights;
     if (start != nullptr || shape.run->has_begun() || &shape != shape_.get()) {
-      weights = shape.run->solve(options, reporter, report, {start});
+      weights = shape.run->solve(settings, reporter, report, {start});
     } else {
       auto coarse = std::exchange(coarse_, {});
-      if (coarse.empty()) coarse = coarse_starts(shape.problem, mesher_, options);
-      weights =
-          solve_in_cascade(shape.problem, *shape.run, std::move(coarse), options, reporter, report);
+      if (coarse.empty()) coarse = coarse_starts(shape.problem, mesher_, settings);
+      weights = solve_in_cascade(shape.problem, *shape.run, std::move(coarse), settings, reporter,
+                                 report);
     }
-    solution_ =
-        finish(shape.problem, *shape.run, std::move(weights), options, reporter, std::move(report));
+    solution_ = finish(shape.problem, *shape.run, std::move(weights), settings, reporter,
+                       std::move(report));
     solution_.report.seconds.setup = std::exchange(shape.setup_seconds, 0);
     solution_.report.distances = shape.distances;
   }

@@ -50,8 +50,8 @@ double typical_measure(const LbcProblem<Dim>& problem) {
 }
 
 template <int Dim>
-splitting::Metric metric_of(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  return splitting::measure_metric(problem, options.non_negative == NonNegative::kConstraint);
+splitting::Metric metric_of(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
+  return splitting::measure_metric(problem, settings.non_negative == NonNegative::kConstraint);
 }
 
 template <template <class, int> class Method, int Dim, class... Arguments>
@@ -66,17 +66,17 @@ std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Di
 // Method::kValue on all pairs.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
-                                           const SolverOptions& options, double penalty,
+                                           const plan::Settings& settings, double penalty,
                                            bool looks) {
-  compact::Settings settings;
-  settings.penalty = penalty;
-  settings.relaxation = *options.relaxation;
-  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
-  settings.half = plan::half_precision(problem.mesh.num_cells(), options);
-  settings.balances = !options.penalty;
-  settings.looks = looks && settings.balances;
-  return make_in<compact::CompactSplitting>(options.precision, problem, metric_of(problem, options),
-                                            settings);
+  compact::Parameters parameters;
+  parameters.penalty = penalty;
+  parameters.relaxation = settings.relaxation;
+  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  parameters.half = plan::half_precision(problem.mesh.num_cells(), settings);
+  parameters.balances = !settings.penalty;
+  parameters.looks = looks && parameters.balances;
+  return make_in<compact::CompactSplitting>(settings.precision, problem,
+                                            metric_of(problem, settings), parameters);
 }
 
 // Method::kLbc2014: the augmented Lagrangian of (2), in which the weight of a cell is its squared
@@ -85,33 +85,33 @@ std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
 // 1; relative to squared cell measures this is length^-(2 Dim - 2) here.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
-                                             const SolverOptions& options) {
-  const bool chosen = !options.penalty;
+                                             const plan::Settings& settings) {
+  const bool chosen = !settings.penalty;
   const double measure = typical_measure(problem);
-  const auto like_value = metric_of(problem, options);
+  const auto like_value = metric_of(problem, settings);
   double vertex_weight = 0;
   if (like_value.vertex.size() > 0) {
     vertex_weight = chosen ? measure * like_value.vertex.mean()
                            : std::pow(plan::published_scale(problem.mesh), 2 - 2 * Dim);
   }
-  compact::Settings settings;
-  settings.penalty = chosen ? plan::kLbc2014Penalty / measure : *options.penalty;
-  settings.relaxation = *options.relaxation;
-  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
+  compact::Parameters parameters;
+  parameters.penalty = chosen ? plan::kLbc2014Penalty / measure : *settings.penalty;
+  parameters.relaxation = settings.relaxation;
+  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
   // If W = w has a large weight, the existing factor needs hundreds of solves for harmonic
   // coordinates.
-  settings.harmonic_cold = !chosen;
-  settings.paper_residuals = true;
+  parameters.harmonic_cold = !chosen;
+  parameters.paper_residuals = true;
   return make_in<compact::CompactSplitting>(
-      options.precision, problem, splitting::squared_measure_metric(problem, vertex_weight),
-      settings);
+      settings.precision, problem, splitting::squared_measure_metric(problem, vertex_weight),
+      parameters);
 }
 
 template <int Dim>
-double gradient_penalty(const LbcProblem<Dim>& problem, const SolverOptions& options) {
-  if (options.penalty) return *options.penalty;
-  if (options.method == Method::kPaper) {
-    return plan::published_gradient_penalty(Dim) / published_unit(problem, options.method);
+double gradient_penalty(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
+  if (settings.penalty) return *settings.penalty;
+  if (settings.method == Method::kPaper) {
+    return plan::published_gradient_penalty(Dim) / published_unit(problem, settings.method);
   }
   const double length = std::pow(typical_measure(problem), 1.0 / Dim);
   return plan::gradient_penalty(Dim) * std::pow(length, Dim - 1);
@@ -119,25 +119,25 @@ double gradient_penalty(const LbcProblem<Dim>& problem, const SolverOptions& opt
 
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
-                                              const SolverOptions& options) {
-  gradient::Settings settings;
-  settings.penalty = gradient_penalty(problem, options);
-  settings.relaxation = *options.relaxation;
-  settings.harmonic =
-      options.method == Method::kGradient && options.linear_solver != LinearSolver::kNone;
-  settings.breadth_first =
-      options.method == Method::kPaper || options.linear_solver == LinearSolver::kNone;
-  settings.linear_solver = plan::linear_solver(plan::sizes_of(problem), options);
-  return make_in<gradient::GradientIteration>(options.precision, problem, settings);
+                                              const plan::Settings& settings) {
+  gradient::Parameters parameters;
+  parameters.penalty = gradient_penalty(problem, settings);
+  parameters.relaxation = settings.relaxation;
+  parameters.harmonic =
+      settings.method == Method::kGradient && settings.linear_solver != LinearSolver::kNone;
+  parameters.breadth_first =
+      settings.method == Method::kPaper || settings.linear_solver == LinearSolver::kNone;
+  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  return make_in<gradient::GradientIteration>(settings.precision, problem, parameters);
 }
 
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOptions& options,
+std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const plan::Settings& settings,
                                                               const WarmStart<Dim>& start) const {
-  const bool in_double = options.precision == Precision::kDouble;
-  switch (options.method) {
+  const bool in_double = settings.precision == Precision::kDouble;
+  switch (settings.method) {
     case Method::kValue: {
       const bool looks = !start.for_finer_mesh && problem_->smoothness == 0;
       return std::make_unique<EstimatedError<Dim>>(*problem_, *iteration_, in_double,
@@ -146,82 +146,84 @@ std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const SolverOption
     case Method::kGradient:
       return std::make_unique<RecoveredError<Dim>>(*problem_, *iteration_, in_double);
     default:
-      return published_criterion(*problem_, options.method);
+      return published_criterion(*problem_, settings.method);
   }
 }
 
 // \return whether an active set pays
 template <int Dim>
-bool MethodRun<Dim>::begin_on_active_set(const SolverOptions& options,
+bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
                                          const WarmStart<Dim>& start) {
   const auto sizes = plan::sizes_of(*problem_);
-  if (!plan::active_set(sizes, options)) return false;
+  if (!plan::active_set(sizes, settings)) return false;
   const bool cold = start.from == nullptr;
   active_set::ColdStart<Dim> harmonic;
   if (cold) {
     harmonic = start.cold != nullptr
                    ? *start.cold
-                   : active_set::cold_start(*problem_, plan::linear_solver(sizes, options));
+                   : active_set::cold_start(*problem_, plan::linear_solver(sizes, settings));
   }
   auto active = cold ? std::move(harmonic.active)
                      : active_set::active_from(*problem_, *start.from,
-                                               active_set::threshold_for(*options.tolerance));
-  if (!plan::active_set_pays(active_set::density(*problem_, active), options)) return false;
+                                               active_set::threshold_for(settings.tolerance));
+  if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
-  active_set::Settings settings;
-  settings.penalty = options.penalty ? *options.penalty
-                     : cold ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
-                            : from.penalty;
-  settings.part = options.penalty ? 1 : cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
-  settings.relaxation = *options.relaxation;
-  settings.half = plan::half_precision(problem_->mesh.num_cells(), options);
-  settings.balances = cold && !options.penalty;
+  active_set::Parameters parameters;
+  parameters.penalty = settings.penalty ? *settings.penalty
+                       : cold ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
+                              : from.penalty;
+  parameters.part = settings.penalty ? 1
+                    : cold           ? plan::kActivePenaltyCold
+                                     : plan::kActivePenaltyWarm;
+  parameters.relaxation = settings.relaxation;
+  parameters.half = plan::half_precision(problem_->mesh.num_cells(), settings);
+  parameters.balances = cold && !settings.penalty;
   iteration_ = make_in<active_set::ActiveSet>(
-      options.precision, *problem_, metric_of(*problem_, options), settings, std::move(active));
+      settings.precision, *problem_, metric_of(*problem_, settings), parameters, std::move(active));
   iteration_->start(from);
   return true;
 }
 
 template <int Dim>
-void MethodRun<Dim>::begin(const SolverOptions& options, const WarmStart<Dim>& start) {
-  is_active_ = begin_on_active_set(options, start);
+void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>& start) {
+  is_active_ = begin_on_active_set(settings, start);
   if (is_active_) return;
-  if (options.method == Method::kValue) {
+  if (settings.method == Method::kValue) {
     const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
-    const double penalty = options.penalty ? *options.penalty
+    const double penalty = settings.penalty ? *settings.penalty
                            : from.is_cold()
                                ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
                                : from.penalty;
     // A finer mesh needs the penalty of the first iterations.
-    iteration_ = make_value(*problem_, options, penalty, !start.for_finer_mesh);
+    iteration_ = make_value(*problem_, settings, penalty, !start.for_finer_mesh);
     iteration_->start(from);
     return;
   }
-  iteration_ = options.method == Method::kLbc2014 ? make_lbc2014(*problem_, options)
-                                                  : make_gradient(*problem_, options);
+  iteration_ = settings.method == Method::kLbc2014 ? make_lbc2014(*problem_, settings)
+                                                   : make_gradient(*problem_, settings);
   iteration_->start({});
 }
 
 template <int Dim>
-Weights MethodRun<Dim>::iterate(const SolverOptions& given, const Reporter& reporter,
+Weights MethodRun<Dim>::iterate(const plan::Settings& given, const Reporter& reporter,
                                 SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
-  auto options = given;
-  if (is_active_ && plan::proves(options)) iteration_ = nullptr;
+  auto settings = given;
+  if (is_active_ && plan::proves(settings)) iteration_ = nullptr;
   if (!iteration_) {
-    begin(options, start);
-    state_ = {make_stop_rule(options, start)};
+    begin(settings, start);
+    state_ = {make_stop_rule(settings, start)};
     // Meanwhile, small changes do not imply a small error.
     if (is_active_ && start.from == nullptr) {
       state_.earliest = plan::kUntilDualsAreThere;
       if (start.for_finer_mesh) {
-        options.max_iterations = std::min(options.max_iterations, plan::kUntilDualsAreThere);
+        settings.max_iterations = std::min(settings.max_iterations, plan::kUntilDualsAreThere);
       }
     }
   }
   if (start.started) start.started();
-  run(*iteration_, state_, {*problem_, options, plan::gap_target(options, is_active_), reporter},
-      report);
+  run(*iteration_, state_,
+      {*problem_, settings, is_active_ ? plan::GapTarget{} : settings.gap, reporter}, report);
   iteration_->describe(report);
   report.seconds.solve = watch.lap();
   auto weights = iteration_->weights();
@@ -230,27 +232,27 @@ Weights MethodRun<Dim>::iterate(const SolverOptions& given, const Reporter& repo
 }
 
 template <int Dim>
-Weights MethodRun<Dim>::solve(const SolverOptions& options, const Reporter& reporter,
+Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& reporter,
                               SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
   report = {};
-  report.method = options.method;
+  report.method = settings.method;
   report.control_points = problem_->num_control_points();
   report.vertices = problem_->mesh.num_vertices();
   report.cells = problem_->mesh.num_cells();
   Weights weights;
-  if (options.method == Method::kHarmonic) {
+  if (settings.method == Method::kHarmonic) {
     weights.dense = harmonic_coordinates(*problem_);
-  } else if (options.method == Method::kBiharmonic) {
+  } else if (settings.method == Method::kBiharmonic) {
     weights.dense = bounded_biharmonic_weights(*problem_);
-  } else if (is_pointwise(options.method)) {
-    weights.dense = pointwise_coordinates(problem_->cage, problem_->mesh.points, options.method);
+  } else if (is_pointwise(settings.method)) {
+    weights.dense = pointwise_coordinates(problem_->cage, problem_->mesh.points, settings.method);
   } else {
-    weights = iterate(options, reporter, report, std::move(start));
+    weights = iterate(settings, reporter, report, std::move(start));
   }
   require_finite(weights.is_sparse() || weights.dense.allFinite(), report);
   if (!iteration_) report.seconds.solve = watch.lap();
-  report.published_penalty = report.penalty * published_unit(*problem_, options.method);
+  report.published_penalty = report.penalty * published_unit(*problem_, settings.method);
   return weights;
 }
 

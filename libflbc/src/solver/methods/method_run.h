@@ -32,9 +32,9 @@ class MethodRun {
   //! Solves, without the final projection, so weights may be negative. The first call begins at the
   //! start. Later calls resume: a run in parts makes the same iterations as one in one piece. Only
   //! if a certificate is wanted after a run on an active set, the run starts over on all pairs.
-  //! \param options  resolved \param report  reset
+  //!  \param report  reset
   //! \throws SolverError
-  Weights solve(const SolverOptions& options, const Reporter& reporter, SolveReport& report,
+  Weights solve(const plan::Settings& settings, const Reporter& reporter, SolveReport& report,
                 WarmStart<Dim> start = {});
 
   //! Certificate of weights (n x V) from the current duals.
@@ -51,11 +51,11 @@ class MethodRun {
   Duals<Dim> duals(double least_weight = 0) const;
 
  private:
-  Weights iterate(const SolverOptions& options, const Reporter& reporter, SolveReport& report,
+  Weights iterate(const plan::Settings& settings, const Reporter& reporter, SolveReport& report,
                   WarmStart<Dim> start);
-  void begin(const SolverOptions& options, const WarmStart<Dim>& start);
-  bool begin_on_active_set(const SolverOptions& options, const WarmStart<Dim>& start);
-  std::unique_ptr<StopRule<Dim>> make_stop_rule(const SolverOptions& options,
+  void begin(const plan::Settings& settings, const WarmStart<Dim>& start);
+  bool begin_on_active_set(const plan::Settings& settings, const WarmStart<Dim>& start);
+  std::unique_ptr<StopRule<Dim>> make_stop_rule(const plan::Settings& settings,
                                                 const WarmStart<Dim>& start) const;
 
   const LbcProblem<Dim>* problem_;

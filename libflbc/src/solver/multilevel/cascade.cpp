@@ -18,20 +18,20 @@ namespace {
 // \param duals  in: of the level below; out: of this level \return whether it was stopped
 template <int Dim>
 bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int finer_levels,
-                 const SolverOptions& given, const Reporter& reporter, Duals<Dim>& duals) {
+                 const plan::Settings& given, const Reporter& reporter, Duals<Dim>& duals) {
   Stopwatch watch;
-  auto options = given;
-  *options.tolerance *= plan::kLooseness;
+  auto settings = given;
+  settings.tolerance *= plan::kLooseness;
   std::optional<Transfer<Dim>> transfer;
   if (below != nullptr) transfer.emplace(below->problem, duals, level.problem);
   SolveReport report;
   MethodRun<Dim> run(level.problem);
   const auto started = [&level] { level.cold.reset(); };
-  run.solve(options, reporter.with_more_to_come(finer_levels), report,
+  run.solve(settings, reporter.with_more_to_come(finer_levels), report,
             {transfer ? &*transfer : nullptr, level.cold ? &*level.cold : nullptr, started, true});
   // An active set on the finer mesh reads duals only near nonzero weights.
   const bool on_active_set = plan::active_set(plan::sizes_of(level.problem), given);
-  duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
+  duals = run.duals(on_active_set ? active_set::threshold_for(given.tolerance) : 0);
   level.problem.phi = {};  // finer levels have their own
   level.report.iterations = report.iterations;
   level.report.solve_seconds = watch.lap();
@@ -42,7 +42,7 @@ bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int
 
 template <int Dim>
 Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& given,
+                         std::vector<CoarseProblem<Dim>> levels, const plan::Settings& given,
                          const Reporter& reporter, SolveReport& report) {
   Duals<Dim> duals;
   std::size_t num_solved = 0;
@@ -55,8 +55,8 @@ Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
     below = &level;
   }
   Stopwatch watch;
-  auto options = given;
-  if (stopped) options.max_iterations = 1;  // one iteration, to get weights on this mesh
+  auto settings = given;
+  if (stopped) settings.max_iterations = 1;  // one iteration, to get weights on this mesh
   std::optional<Transfer<Dim>> transfer;
   if (below != nullptr) {
     transfer.emplace(below->problem, duals, problem, std::move(below->finest_vertices));
@@ -67,7 +67,7 @@ Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
     duals = {};
     for (auto& level : levels) level = {{}, {}, level.report};
   };
-  auto weights = run.solve(options, reporter, report,
+  auto weights = run.solve(settings, reporter, report,
                            {transfer ? &*transfer : nullptr, nullptr, forget_levels});
   if (stopped) report.status = SolveStatus::kStopped;
   report.seconds.solve += placing;

@@ -13,11 +13,11 @@ namespace flbc {
 //! Solves a problem, starting from the solution on coarser meshes, level by level.
 //! \param run  of the problem, not started if there are coarser meshes
 //! \param levels  coarsest first; none for a cold start
-//! \param options  resolved; with levels, the method must satisfy plan::inherits()
+//! ; with levels, the method must satisfy plan::inherits()
 //! \param report  of the mesh of the problem, including those of the levels
 template <int Dim>
 Weights solve_in_cascade(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                         std::vector<CoarseProblem<Dim>> levels, const SolverOptions& options,
+                         std::vector<CoarseProblem<Dim>> levels, const plan::Settings& settings,
                          const Reporter& reporter, SolveReport& report);
 
 }  // namespace flbc

@@ -80,14 +80,14 @@ bool folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
 
 template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                                const SolverOptions& options, DistanceReport& report) {
+                                const plan::Settings& settings, DistanceReport& report) {
   auto distances = distances_from(coarse.problem, problem, coarse.finest_vertices);
-  const double error = check_on_sample(problem, options.phi, coarse.reach, distances);
+  const double error = check_on_sample(problem, settings.phi, coarse.reach, distances);
   const double change = plan::kWeightsOfPhi * error * error;
-  if (options.distances == Distances::kAuto &&
-      change > plan::kPartOfTolerance * *options.tolerance) {
+  if (settings.distances == Distances::kAuto &&
+      change > plan::kPartOfTolerance * settings.tolerance) {
     report = {};
-    return distances_for(options.phi, problem);
+    return distances_for(settings.phi, problem);
   }
   report = {Distances::kInterpolated, coarse.problem.mesh.num_vertices(), error};
   return distances;
@@ -109,19 +109,19 @@ void MovingDistances<Dim>::anchor(const DomainMesh<Dim>& fine, const SparseWeigh
 
 template <int Dim>
 DistanceMatrix MovingDistances<Dim>::operator()(const LbcProblem<Dim>& fine,
-                                                const SolverOptions& options,
+                                                const plan::Settings& settings,
                                                 DistanceReport& report) {
   auto& problem = coarse_.problem;
   DomainMesh<Dim> mesh{fine.cage.points * weights_, problem.mesh.cells};
   if (folds(first_, mesh)) {
     report = {};
-    return distances_for(options.phi, fine);
+    return distances_for(settings.phi, fine);
   }
   problem.cage = fine.cage;
   problem.scale = fine.scale;
   problem.mesh = std::move(mesh);
-  set_phi(problem, options.phi);
-  return choose_distances(coarse_, fine, options, report);
+  set_phi(problem, settings.phi);
+  return choose_distances(coarse_, fine, settings, report);
 }
 
 FLBC_INSTANTIATE_FUNCTION(choose_distances)

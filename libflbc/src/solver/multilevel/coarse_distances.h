@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "flbc/options.h"
 #include "flbc/report.h"
 #include "solver/multilevel/coarse_problem.h"
+#include "solver/plan/settings.h"
 
 namespace flbc {
 
@@ -19,7 +19,7 @@ namespace flbc {
 //! \return n x V
 template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                                const SolverOptions& options, DistanceReport& report);
+                                const plan::Settings& settings, DistanceReport& report);
 
 //! A coarse mesh that moves with a finer mesh of the same cage. The finer mesh interpolates its
 //! distances instead of computing them for every rest cage.
@@ -35,7 +35,7 @@ class MovingDistances {
 
   //! Distances for another rest cage, as choose_distances(); exact if the coarse mesh folds.
   //! \param fine  of that rest cage, phi is not needed \return n x V
-  DistanceMatrix operator()(const LbcProblem<Dim>& fine, const SolverOptions& options,
+  DistanceMatrix operator()(const LbcProblem<Dim>& fine, const plan::Settings& settings,
                             DistanceReport& report);
 
  private:

@@ -41,13 +41,13 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
 // Distances, limited to the needs of the active set if there will be one.
 template <int Dim>
 std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
-                                                    const SolverOptions& options) {
+                                                    const plan::Settings& settings) {
   const auto& geometry = level.problem;
   const auto sizes = plan::sizes_of(geometry);
-  if (options.phi == DistanceScheme::kConstant || !plan::active_set(sizes, options)) return {};
-  auto cold = active_set::cold_start(geometry, plan::linear_solver(sizes, options));
+  if (settings.phi == DistanceScheme::kConstant || !plan::active_set(sizes, settings)) return {};
+  auto cold = active_set::cold_start(geometry, plan::linear_solver(sizes, settings));
   const double density = active_set::density(geometry, cold.active);
-  if (!plan::active_set_pays(density, options)) return {};
+  if (!plan::active_set_pays(density, settings)) return {};
   const auto needed = items_by_vertex<Index>(sizes.control_points, [&](const auto& visit) {
     for (Index v = 0; v < sizes.vertices; ++v) {
       for (const auto i : cold.active.of(v)) visit(i, v);
@@ -63,7 +63,7 @@ std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
 // Inherited distances are checked when the finest mesh uses them.
 // \param below  next coarser problem; null: none
 template <int Dim>
-void measure_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, CoarseUse use,
+void measure_phi(const CoarseProblem<Dim>* below, const plan::Settings& settings, CoarseUse use,
                  CoarseProblem<Dim>& level) {
   std::optional<DistanceMatrix> distances;
   if (use.distances && below != nullptr) {
@@ -71,10 +71,10 @@ void measure_phi(const CoarseProblem<Dim>* below, const SolverOptions& options, 
     distances = distances_from(below->problem, level.problem,
                                places_in(below->problem, level.problem.mesh.points));
   } else if (use.distances && use.start) {
-    distances = measure_on_active_set(level, options);
+    distances = measure_on_active_set(level, settings);
   }
-  if (!distances) distances = distances_for(options.phi, level.problem);
-  set_phi(level.problem, options.phi, std::move(*distances));
+  if (!distances) distances = distances_for(settings.phi, level.problem);
+  set_phi(level.problem, settings.phi, std::move(*distances));
 }
 
 }  // namespace
@@ -90,7 +90,8 @@ template <int Dim>
 std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
                                                      const CoarseMesher<Dim>& mesher,
                                                      const std::vector<Index>& sizes,
-                                                     const SolverOptions& options, CoarseUse use) {
+                                                     const plan::Settings& settings,
+                                                     CoarseUse use) {
   std::vector<CoarseProblem<Dim>> coarse;
   for (const Index size : sizes) {
     Stopwatch watch;
@@ -104,7 +105,7 @@ std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& prob
     report.mesh_seconds = watch.lap();
     CoarseProblem<Dim> level{make_geometry(problem.cage, std::move(*mesh))};
     level.problem.smoothness = problem.smoothness;
-    measure_phi(below, options, use, level);
+    measure_phi(below, settings, use, level);
     report.setup_seconds = watch.lap();
     level.report = report;
     coarse.push_back(std::move(level));

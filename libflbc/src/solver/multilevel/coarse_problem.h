@@ -9,9 +9,9 @@
 #include "flbc/cell_locator.h"
 #include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
-#include "flbc/options.h"
 #include "flbc/report.h"
 #include "solver/methods/active_set/active_lists.h"
+#include "solver/plan/settings.h"
 
 namespace flbc {
 
@@ -46,13 +46,13 @@ DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Di
 //! \param problem  the finest problem; phi is not needed
 //! \param mesher  not empty
 //! \param sizes  numbers of vertices, ascending
-//! \param options  resolved
+//!
 //! \return coarsest first
 //! \throws InputError if a coarse mesh does not belong to the cage
 template <int Dim>
 std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
                                                      const CoarseMesher<Dim>& mesher,
                                                      const std::vector<Index>& sizes,
-                                                     const SolverOptions& options, CoarseUse use);
+                                                     const plan::Settings& settings, CoarseUse use);
 
 }  // namespace flbc

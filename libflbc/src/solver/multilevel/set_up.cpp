@@ -52,22 +52,22 @@ bool is_convex(const Cage<Dim>& cage) {
 // Weights of round cages are nearly undetermined, and small errors of distances move them far. The
 // check of interpolated distances does not predict this.
 template <int Dim>
-bool needs_exact_distances(const Cage<Dim>& cage, const SolverOptions& options) {
-  return options.distances == Distances::kAuto && *options.tolerance < plan::kConvexTolerance &&
+bool needs_exact_distances(const Cage<Dim>& cage, const plan::Settings& settings) {
+  return settings.distances == Distances::kAuto && settings.tolerance < plan::kConvexTolerance &&
          is_convex(cage);
 }
 
 template <int Dim>
-CoarsePlan plan_coarse(const Cage<Dim>& cage, Index vertices, const SolverOptions& options,
+CoarsePlan plan_coarse(const Cage<Dim>& cage, Index vertices, const plan::Settings& settings,
                        bool has_mesher) {
   const plan::Sizes sizes{Dim, cage.size(), vertices};
-  if (!has_mesher || !is_local(options.method)) return {{}, {false, false}};
-  auto coarse = plan::coarse_sizes(sizes, options);
+  if (!has_mesher || !is_local(settings.method)) return {{}, {false, false}};
+  auto coarse = plan::coarse_sizes(sizes, settings);
   const bool starts = !coarse.empty();
-  const bool interpolates =
-      plan::interpolates_distances(sizes, options, starts) && !needs_exact_distances(cage, options);
+  const bool interpolates = plan::interpolates_distances(sizes, settings, starts) &&
+                            !needs_exact_distances(cage, settings);
   if (interpolates && !starts) {
-    coarse = {plan::distances_mesh_size(sizes.vertices, *options.tolerance)};
+    coarse = {plan::distances_mesh_size(sizes.vertices, settings.tolerance)};
   }
   return {std::move(coarse), {starts, interpolates}};
 }
@@ -103,25 +103,25 @@ CoarseProblem<Dim>& with_places(CoarseProblem<Dim>& coarse, const LbcProblem<Dim
 }  // namespace
 
 template <int Dim>
-SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const plan::Settings& settings,
                   const CoarseMesher<Dim>& mesher, const Reporter& reporter,
                   std::optional<CoarseProblem<Dim>>* coarsest, const MeshTopology<Dim>* topology) {
   Stopwatch watch;
   require_connected(mesh);
-  const auto [sizes, use] = plan_coarse(cage, mesh.num_vertices(), options, bool(mesher));
+  const auto [sizes, use] = plan_coarse(cage, mesh.num_vertices(), settings, bool(mesher));
   const auto begun_mesher = mesh_ahead(cage, sizes, mesher);
   SetUp<Dim> result{topology == nullptr
                         ? make_geometry(std::move(cage), std::move(mesh))
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& [problem, coarse, report, seconds] = result;
-  problem.smoothness = *options.smoothness;
-  if (is_local(options.method)) {
-    coarse = make_coarse_problems(problem, begun_mesher, sizes, options, use);
+  problem.smoothness = settings.smoothness;
+  if (is_local(settings.method)) {
+    coarse = make_coarse_problems(problem, begun_mesher, sizes, settings, use);
     const StageScope scope(reporter.stage(Stage::kDistances));
-    set_phi(problem, options.phi,
+    set_phi(problem, settings.phi,
             use.distances && !coarse.empty()
-                ? choose_distances(with_places(coarse.back(), problem), problem, options, report)
-                : distances_for(options.phi, problem));
+                ? choose_distances(with_places(coarse.back(), problem), problem, settings, report)
+                : distances_for(settings.phi, problem));
     if (coarsest != nullptr && report.source == Distances::kInterpolated) {
       *coarsest = with_places(coarse.front(), problem);
     }

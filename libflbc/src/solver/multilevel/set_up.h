@@ -22,7 +22,7 @@ struct SetUp {
 
 //! Sets up a problem as make_problem() does. Distances come from a coarser mesh if the options say
 //! so, and phi is omitted if the method does not need it.
-//! \param options  resolved
+//!
 //! \param mesher  may be empty unless required by options; called from a separate thread if there
 //! are several
 //! \param coarsest  output: the mesh with computed distances and the locations of the finest
@@ -30,7 +30,7 @@ struct SetUp {
 //! \param topology  of the mesh, or null if unknown
 //! \throws InputError, SolverError
 template <int Dim>
-SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const plan::Settings& settings,
                   const CoarseMesher<Dim>& mesher, const Reporter& reporter,
                   std::optional<CoarseProblem<Dim>>* coarsest = nullptr,
                   const MeshTopology<Dim>* topology = nullptr);

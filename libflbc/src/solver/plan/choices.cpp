@@ -15,46 +15,11 @@ namespace {
 // Indices of control points are stored in 16 bits.
 constexpr Index kMostActiveControlPoints = 65000;
 
-NonNegative non_negative(const SolverOptions& options) {
-  if (options.non_negative != NonNegative::kAuto) return options.non_negative;
-  switch (options.method) {
-    case Method::kValue:
-    case Method::kLbc2014:
-      return NonNegative::kConstraint;
-    case Method::kGradient:
-      return NonNegative::kProject;
-    default:
-      return NonNegative::kOff;
-  }
-}
-
-// \param options  with non_negative resolved, and the tolerance as given
-double gap(const SolverOptions& options) {
-  if (options.gap) return *options.gap;
-  const bool by_default = options.method == Method::kValue || options.method == Method::kGradient;
-  const bool proves = options.non_negative != NonNegative::kOff;
-  return by_default && proves && !options.tolerance ? kGap : 0;
-}
-
-double relaxation(const SolverOptions& options) {
-  if (options.relaxation) return *options.relaxation;
-  switch (options.method) {
-    case Method::kValue:
-      return kRelaxation;
-    case Method::kLbc2014:
-      return options.penalty ? kPublishedRelaxation : kRelaxation;
-    case Method::kGradient:
-      return kGradientRelaxation;
-    default:
-      return 1;
-  }
-}
-
-bool gains_by_coarse_start(const Sizes& sizes, const SolverOptions& options) {
+bool gains_by_coarse_start(const Sizes& sizes, const Settings& settings) {
   const bool is_open =
-      options.coarse_to_fine == CoarseToFine::kAuto && !options.coarse_levels.coarsest;
-  return sizes.dim == 2 || !is_open || *options.tolerance >= kCoarseStartTolerance ||
-         active_set(sizes, options);
+      settings.coarse_to_fine == CoarseToFine::kAuto && !settings.coarse_levels.coarsest;
+  return sizes.dim == 2 || !is_open || settings.tolerance >= kCoarseStartTolerance ||
+         active_set(sizes, settings);
 }
 
 }  // namespace
@@ -67,38 +32,33 @@ bool inherits(Method method) {
   return method == Method::kValue;
 }
 
-LinearSolver linear_solver(const Sizes& sizes, const SolverOptions& options) {
-  if (options.linear_solver != LinearSolver::kAuto) return options.linear_solver;
-  if (options.method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
+LinearSolver linear_solver(const Sizes& sizes, const Settings& settings) {
+  if (settings.linear_solver != LinearSolver::kAuto) return settings.linear_solver;
+  if (settings.method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
   return sizes.vertices > most_factored(sizes.dim) ? LinearSolver::kMultigrid
                                                    : LinearSolver::kDirect;
 }
 
-bool half_precision(Index cells, const SolverOptions& options) {
-  return options.method == Method::kValue && options.precision == Precision::kAuto &&
-         *options.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
-         *options.smoothness <= kHalfSmoothness;
+bool half_precision(Index cells, const Settings& settings) {
+  return settings.method == Method::kValue && settings.precision == Precision::kAuto &&
+         settings.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
+         settings.smoothness <= kHalfSmoothness;
 }
 
-bool active_set(const Sizes& sizes, const SolverOptions& options) {
+bool active_set(const Sizes& sizes, const Settings& settings) {
   const auto [dim, n, vertices] = sizes;
-  if (options.method != Method::kValue || n > kMostActiveControlPoints) return false;
-  if (options.active_set != ActiveSet::kAuto) return options.active_set == ActiveSet::kOn;
+  if (settings.method != Method::kValue || n > kMostActiveControlPoints) return false;
+  if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
   if (static_cast<double>(n) * vertices < kActivePairs) return false;
-  return dim == 3 && n >= kActiveControlPoints && !proves(options);
+  return dim == 3 && n >= kActiveControlPoints && !proves(settings);
 }
 
-bool proves(const SolverOptions& options) {
-  return options.certify || (options.gap && *options.gap > 0 && *options.gap != kGap);
+bool proves(const Settings& settings) {
+  return settings.certify || (settings.gap.gap > 0 && !settings.gap.settles);
 }
 
-GapTarget gap_target(const SolverOptions& options, bool on_active_set) {
-  if (on_active_set) return {};
-  return {*options.gap, *options.gap == kGap};
-}
-
-bool active_set_pays(double density, const SolverOptions& options) {
-  return options.active_set == ActiveSet::kOn || density <= kActiveDensity;
+bool active_set_pays(double density, const Settings& settings) {
+  return settings.active_set == ActiveSet::kOn || density <= kActiveDensity;
 }
 
 double penalty_unit(Method method, int dim, double size) {
@@ -106,11 +66,11 @@ double penalty_unit(Method method, int dim, double size) {
   return std::pow(size, dim + 1 - measures * dim);
 }
 
-std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options) {
-  if (options.coarse_to_fine == CoarseToFine::kOff || !inherits(options.method)) return {};
-  if (!gains_by_coarse_start(sizes, options)) return {};
-  const auto limits = worthwhile(sizes.dim, active_set(sizes, options));
-  const auto& levels = options.coarse_levels;
+std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings) {
+  if (settings.coarse_to_fine == CoarseToFine::kOff || !inherits(settings.method)) return {};
+  if (!gains_by_coarse_start(sizes, settings)) return {};
+  const auto limits = worthwhile(sizes.dim, active_set(sizes, settings));
+  const auto& levels = settings.coarse_levels;
   const Index coarsest = levels.coarsest.value_or(limits.coarsest);
   const double numbers = static_cast<double>(sizes.vertices) * sizes.control_points;
   if (!levels.coarsest && numbers < limits.numbers) return {};
@@ -128,11 +88,11 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options
   return vertices;
 }
 
-bool interpolates_distances(const Sizes& sizes, const SolverOptions& options,
-                            bool has_coarse_mesh) {
-  if (options.phi == DistanceScheme::kConstant) return false;
-  if (options.distances != Distances::kAuto) return options.distances == Distances::kInterpolated;
-  if (options.method != Method::kValue || *options.tolerance < kInterpolatedTolerance) return false;
+bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh) {
+  if (settings.phi == DistanceScheme::kConstant) return false;
+  if (settings.distances != Distances::kAuto) return settings.distances == Distances::kInterpolated;
+  if (settings.method != Method::kValue || settings.tolerance < kInterpolatedTolerance)
+    return false;
   return has_coarse_mesh || (sizes.dim == 3 && sizes.vertices >= kInterpolatedVertices);
 }
 
@@ -144,34 +104,13 @@ Index distances_mesh_size(Index vertices, double tolerance) {
 
 namespace flbc {
 
-void make_smooth(SolverOptions& options) {
-  if (!options.smoothness && plan::smooths(options.method)) {
-    options.smoothness = kDeformationSmoothness;
-  }
-}
-
-SolverOptions resolve(SolverOptions options) {
-  if (options.method == Method::kAuto) options.method = Method::kValue;
-  const bool gradient = options.method == Method::kGradient;
-  options.non_negative = plan::non_negative(options);
-  options.gap = plan::gap(options);
-  if (options.coarse_to_fine == CoarseToFine::kOn && !options.coarse_levels.coarsest) {
-    options.coarse_levels.coarsest = plan::kCoarsest;
-  }
-  if (!options.tolerance)
-    options.tolerance = gradient ? plan::kGradientTolerance : plan::kTolerance;
-  options.relaxation = plan::relaxation(options);
-  options.smoothness = options.smoothness.value_or(0);
-  return options;
-}
-
 template <int Dim>
 double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
                          double penalty) {
   SolverOptions options;
   options.penalty = penalty;
   validate(options);
-  if (method == Method::kAuto) method = resolve({}).method;
+  if (method == Method::kAuto) method = plan::settings_of({}).method;
   const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
   return penalty / plan::penalty_unit(method, Dim, size);
 }

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Every automatic choice of a solve, from sizes and options. The constants are in constants.h.
+//! Every automatic choice of a solve, from sizes and settings. The constants are in constants.h.
 #pragma once
 
 #include <vector>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/options.h"
+#include "solver/plan/settings.h"
 
 namespace flbc::plan {
-
-//! The gap that ends a run.
-struct GapTarget {
-  double gap = 0;        //!< relative; 0 = none
-  bool settles = false;  //!< whether it also waits until the weights hardly move (kSettled), unless
-                         //!< the gap is very small (kSmallGap)
-};
 
 //! The inputs of a choice.
 struct Sizes {
@@ -36,23 +29,19 @@ bool smooths(Method method);
 bool inherits(Method method);
 
 //! The linear solver: a factor of a large mesh takes more time and memory than the iteration.
-LinearSolver linear_solver(const Sizes& sizes, const SolverOptions& options);
+LinearSolver linear_solver(const Sizes& sizes, const Settings& settings);
 
 //! Whether cell duals are initially stored in half precision.
-bool half_precision(Index cells, const SolverOptions& options);
+bool half_precision(Index cells, const Settings& settings);
 
-//! Whether to try an active set, because it may be faster and supports all options.
-bool active_set(const Sizes& sizes, const SolverOptions& options);
+//! Whether to try an active set, because it may be faster and supports all settings.
+bool active_set(const Sizes& sizes, const Settings& settings);
 
 //! Whether a certificate is wanted, which needs the duals of all pairs.
-bool proves(const SolverOptions& options);
-
-//! The gap that ends a run. By default, methods with an estimated error have one if the tolerance
-//! is not set. \param on_active_set  then there is none by default
-GapTarget gap_target(const SolverOptions& options, bool on_active_set);
+bool proves(const Settings& settings);
 
 //! Whether an active set is small enough to be faster. \param density  of its pairs
-bool active_set_pays(double density, const SolverOptions& options);
+bool active_set_pays(double density, const Settings& settings);
 
 //! The factor that converts a penalty for a cage of size 1 to a cage of another size. The penalty
 //! term must scale like total variation, length^(dim - 1). It is mu A |grad w|^2 for kValue, mu A^2
@@ -72,12 +61,12 @@ double published_scale(const DomainMesh<Dim>& mesh) {
 }
 
 //! Numbers of vertices of the coarse meshes of a multilevel start, ascending; empty if it is
-//! disabled or does not pay. \param options  resolved
-std::vector<Index> coarse_sizes(const Sizes& sizes, const SolverOptions& options);
+//! disabled or does not pay.
+std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings);
 
 //! Whether to interpolate distances from a coarser mesh if they are accurate enough.
 //! \param has_coarse_mesh  whether the multilevel start has a coarse mesh
-bool interpolates_distances(const Sizes& sizes, const SolverOptions& options, bool has_coarse_mesh);
+bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh);
 
 //! Number of vertices of a coarse mesh used only for distances.
 Index distances_mesh_size(Index vertices, double tolerance);

@@ -83,10 +83,10 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
 template <int Dim>
 void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
          SolveReport& report) {
-  const double tolerance = *context.options.tolerance;
+  const double tolerance = context.settings.tolerance;
   const int before = state.made;
   const int limit =
-      before + std::min(context.options.max_iterations, std::numeric_limits<int>::max() - before);
+      before + std::min(context.settings.max_iterations, std::numeric_limits<int>::max() - before);
   const int interval = state.stop->interval();
   ThreadChoice choice(omp_get_max_threads());
   while (state.made < limit) {

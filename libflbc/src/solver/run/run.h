@@ -26,8 +26,8 @@ struct RunState {
 template <int Dim>
 struct RunContext {
   const LbcProblem<Dim>& problem;
-  const SolverOptions& options;  //!< resolved
-  const plan::GapTarget gap;
+  const plan::Settings& settings;  //!< resolved
+  const plan::GapTarget gap;       //!< instead of that of the settings
   const Reporter& reporter;
 };
 

@@ -9,18 +9,18 @@ namespace flbc::active_set {
 
 template <class Scalar, int Dim>
 ActiveSet<Scalar, Dim>::ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric,
-                                  const Settings& settings, ActiveLists active)
+                                  const Parameters& parameters, ActiveLists active)
     : problem_(problem),
       metric_(std::move(metric)),
-      settings_(settings),
+      parameters_(parameters),
       first_active_(std::move(active)),
-      rule_(settings.balances, false, problem.smoothness, settings.part) {
+      rule_(parameters.balances, false, problem.smoothness, parameters.part) {
 }
 
 template <class Scalar, int Dim>
 void ActiveSet<Scalar, Dim>::start(const Start<Dim>& start) {
-  rebuild(settings_.part * settings_.penalty, settings_.half, std::exchange(first_active_, {}),
-          start, settings_.balances);
+  rebuild(parameters_.part * parameters_.penalty, parameters_.half,
+          std::exchange(first_active_, {}), start, parameters_.balances);
 }
 
 template <class Scalar, int Dim>
@@ -31,14 +31,14 @@ Step ActiveSet<Scalar, Dim>::iterate(int made, int count, bool measure) {
 
 template <class Scalar, int Dim>
 Start<Dim> ActiveSet<Scalar, Dim>::state() const {
-  return splitting_->state().with_penalty(splitting_->penalty() / settings_.part);
+  return splitting_->state().with_penalty(splitting_->penalty() / parameters_.part);
 }
 
 template <class Scalar, int Dim>
 void ActiveSet<Scalar, Dim>::rebuild(double penalty, bool half, ActiveLists active,
                                      const Start<Dim>& from, bool balances) {
   auto other =
-      std::make_unique<Splitting>(problem_, metric_, penalty, settings_.relaxation, half,
+      std::make_unique<Splitting>(problem_, metric_, penalty, parameters_.relaxation, half,
                                   std::move(active), splitting::system_matrix(problem_, metric_));
   other->start(from, balances);
   splitting_ = std::move(other);

@@ -10,8 +10,8 @@
 
 namespace flbc::active_set {
 
-//! Settings of an iteration on the active set.
-struct Settings {
+//! Parameters of an iteration on the active set.
+struct Parameters {
   double penalty = 1;     //!< of all pairs
   double part = 1;        //!< factor of the penalty for an active set, where fewer weights move
   double relaxation = 1;  //!< alpha in (0, 2)
@@ -25,7 +25,7 @@ template <class Scalar, int Dim>
 class ActiveSet final : public Iteration<Dim> {
  public:
   //! \param metric  see splitting/metric.h \param active  initial pairs, with feasible weights
-  ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric, const Settings& settings,
+  ActiveSet(const LbcProblem<Dim>& problem, splitting::Metric metric, const Parameters& parameters,
             ActiveLists active);
 
   //! \param start  not cold
@@ -56,7 +56,7 @@ class ActiveSet final : public Iteration<Dim> {
 
   const LbcProblem<Dim>& problem_;
   const splitting::Metric metric_;
-  const Settings settings_;
+  const Parameters parameters_;
   ActiveLists first_active_;  // until the start
   std::unique_ptr<Splitting> splitting_;
   splitting::PenaltyRule rule_;

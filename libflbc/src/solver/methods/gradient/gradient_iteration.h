@@ -6,14 +6,14 @@
 #include <optional>
 
 #include "coordinates/poisson_weights.h"
-#include "flbc/options.h"
 #include "solver/methods/gradient/gradient_admm.h"
+#include "solver/plan/settings.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::gradient {
 
-//! Settings of the iteration.
-struct Settings {
+//! Parameters of the iteration.
+struct Parameters {
   double penalty = 1;          //!< mu > 0
   double relaxation = 1;       //!< in (0, 2), 1 for the iteration of the paper
   bool harmonic = false;       //!< starts from harmonic coordinates, otherwise from the least-norm
@@ -25,15 +25,15 @@ struct Settings {
 template <class Scalar, int Dim>
 class GradientIteration final : public Iteration<Dim> {
  public:
-  GradientIteration(const LbcProblem<Dim>& problem, const Settings& settings)
+  GradientIteration(const LbcProblem<Dim>& problem, const Parameters& parameters)
       : problem_(problem),
-        settings_(settings),
-        admm_(problem, settings.penalty, settings.relaxation,
-              boundary_periods(problem, settings.linear_solver)) {}
+        parameters_(parameters),
+        admm_(problem, parameters.penalty, parameters.relaxation,
+              boundary_periods(problem, parameters.linear_solver)) {}
 
-  //! Starts cold, as in the settings; no other iteration hands over to this one.
+  //! Starts cold, as in the parameters; no other iteration hands over to this one.
   void start(const Start<Dim>&) override {
-    if (!settings_.harmonic) {
+    if (!parameters_.harmonic) {
       admm_.start_from_least_norm();
       return;
     }
@@ -54,7 +54,7 @@ class GradientIteration final : public Iteration<Dim> {
   //! harmonic start.
   Weights weights() const override {
     if (start_weights_.size() > 0) return {start_weights_, {}};
-    if (settings_.breadth_first) {
+    if (parameters_.breadth_first) {
       return {integrate_breadth_first(problem_, admm_.gradients()), {}};
     }
     return {integrate_least_squares(problem_, admm_.gradients(), poisson()), {}};
@@ -70,18 +70,18 @@ class GradientIteration final : public Iteration<Dim> {
   }
 
   void describe(SolveReport& report) const override {
-    report.penalty = settings_.penalty;
+    report.penalty = parameters_.penalty;
     report.state_scalars_per_cell = admm_.state_scalars_per_cell();
   }
 
  private:
   const DirichletProblem<Dim>& poisson() const {
-    if (!poisson_) poisson_.emplace(problem_.mesh, problem_.boundary, settings_.linear_solver);
+    if (!poisson_) poisson_.emplace(problem_.mesh, problem_.boundary, parameters_.linear_solver);
     return *poisson_;
   }
 
   const LbcProblem<Dim>& problem_;
-  const Settings settings_;
+  const Parameters parameters_;
   GradientAdmm<Scalar, Dim> admm_;
   mutable std::optional<DirichletProblem<Dim>> poisson_;  // for start and recovery, made on demand
   WeightMatrix start_weights_;                            // until the first iteration

@@ -21,19 +21,20 @@ namespace flbc::compact {
 
 template <class Scalar, int Dim>
 CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
-                                                splitting::Metric metric, const Settings& settings,
+                                                splitting::Metric metric,
+                                                const Parameters& parameters,
                                                 const Kernel<Scalar, Dim>& kernel)
     : problem_(problem),
       kernel_(kernel),
-      loops_(settings.half ? &kernel.half : &kernel.exact),
-      settings_(settings),
+      loops_(parameters.half ? &kernel.half : &kernel.exact),
+      parameters_(parameters),
       n_(problem.num_control_points()),
       stride_(padded(static_cast<std::size_t>(n_))),
       slices_(stride_, omp_get_max_threads()),
       metric_(std::move(metric)),
       unit_(radius_unit(problem, metric_)),
-      penalty_(settings.penalty),
-      solver_(splitting::system_matrix(problem, metric_), stride_, settings.linear_solver),
+      penalty_(parameters.penalty),
+      solver_(splitting::system_matrix(problem, metric_), stride_, parameters.linear_solver),
       data_(make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_)),
       rule_(false, false, problem.smoothness) {
   set_constraints(problem, stride_, data_);
@@ -68,7 +69,7 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.row_target = data_.row_target.data();
   arrays.difference = difference_.data();
   arrays.sigma = static_cast<Scalar>(sigma());
-  arrays.relaxation = static_cast<Scalar>(settings_.relaxation);
+  arrays.relaxation = static_cast<Scalar>(parameters_.relaxation);
   arrays.smoothing = static_cast<Scalar>(smoothing(problem_, penalty_));
   return arrays;
 }
@@ -127,7 +128,7 @@ Step CompactSplitting<Scalar, Dim>::iterate(int made, int count, bool measure) {
 template <class Scalar, int Dim>
 Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure, splitting::Due due) {
   const bool looks = due == splitting::Due::kLook;
-  const bool paper = looks || (measure && settings_.paper_residuals);
+  const bool paper = looks || (measure && parameters_.paper_residuals);
   AlignedArray<Scalar> w, S;
   if (paper) w = all_rows_of_w();
   if (measure || looks) {
@@ -235,10 +236,10 @@ void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start(const Start<Dim>& start) {
-  rule_ = {settings_.balances && start.is_cold(), settings_.looks, problem_.smoothness};
+  rule_ = {parameters_.balances && start.is_cold(), parameters_.looks, problem_.smoothness};
   if (!start.is_cold()) {
     start_from_duals(start);
-  } else if (settings_.harmonic_cold) {
+  } else if (parameters_.harmonic_cold) {
     start_from_weights(harmonic_coordinates(problem_));
   } else {
     start_from_harmonic(plan::kHarmonicSteps);

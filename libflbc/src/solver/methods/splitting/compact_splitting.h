@@ -16,8 +16,8 @@
 
 namespace flbc::compact {
 
-//! Settings of a splitting.
-struct Settings {
+//! Parameters of a splitting.
+struct Parameters {
   double penalty = 1;                                  //!< rho > 0
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid
@@ -31,20 +31,21 @@ struct Settings {
 };
 
 //! The ADMM on problem (2) of the paper, as over-relaxed Douglas-Rachford splitting. It minimizes
-//! sum A (phi |z| + epsilon / 2 |z|^2) over weights with Z = G W + E and U = W, U >= 0 if the metric
-//! has vertex weights. (The paper writes W for U, and Y M + H for the weights W.) An iteration, with
-//! scaled duals D, and the loop of compact_kernel.h that performs each line:
+//! sum A (phi |z| + epsilon / 2 |z|^2) over weights with Z = G W + E and U = W, U >= 0 if the
+//! metric has vertex weights. (The paper writes W for U, and Y M + H for the weights W.) An
+//! iteration, with scaled duals D, and the loop of compact_kernel.h that performs each line:
 //!
 //!     Z-update   Z = shrink(G W + E - D_Z)                              z_step
 //!     W-update   U = max(0, W - D_U)                                    w_step
 //!     duals      D_Z += Z - (G W + E),  D_U += U - W, relaxed           z_step, w_step
-//!     Y-update   right-hand side, from Z, U, and their duals            z_step (-G^T), w_step (k S)
+//!     Y-update   right-hand side, from Z, U, and their duals            z_step (-G^T), w_step (k
+//!     S)
 //!                solve (G^T m G + k) delta = right-hand side            solve_slice
 //!                W = projection of (W + delta) on { sum w = 1, sum w c = x }   y_step
 //!
 //! The loops fuse lines and keep two combinations of the variables:
-//! P = G W' - (Z + D_Z) and S = U + D_U - W', where W' follows W by W' += alpha (W - W') and has the
-//! same values on the boundary. Below, W is this W' and w the weights. With a = 2 w - W,
+//! P = G W' - (Z + D_Z) and S = U + D_U - W', where W' follows W by W' += alpha (W - W') and has
+//! the same values on the boundary. Below, W is this W' and w the weights. With a = 2 w - W,
 //!
 //!     z_step:  P += alpha (theta v + (1 - theta) clip(v) - P), v = P + grad a,
 //!              clip to radius phi A / (rho m), theta = epsilon / (rho + epsilon)
@@ -72,7 +73,7 @@ class CompactSplitting final : public Iteration<Dim> {
   //! \param metric  see metric.h
   //! \param kernel  the loops to use; default: the best for this processor
   CompactSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric,
-                   const Settings& settings,
+                   const Parameters& parameters,
                    const Kernel<Scalar, Dim>& kernel = select_kernel<Kernel<Scalar, Dim>>());
 
   //! Cold: from (nearly) harmonic coordinates.
@@ -150,7 +151,7 @@ class CompactSplitting final : public Iteration<Dim> {
   const LbcProblem<Dim>& problem_;
   const Kernel<Scalar, Dim>& kernel_;
   const Loops<Scalar, Dim>* loops_;
-  const Settings settings_;
+  const Parameters parameters_;
   const Index n_;
   const std::size_t stride_;
   const splitting::ColumnSlices slices_;  // one per thread; P and radii are in their order
