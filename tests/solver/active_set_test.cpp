@@ -166,7 +166,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   SolverOptions options;
   options.tolerance = tolerance;
   options.precision = std::is_same_v<Scalar, double> ? Precision::kDouble : Precision::kAuto;
-  const auto plan = plan::settings_of(options);
+  const auto settings = plan::settings_of(options);
   const WeightMatrix weights = harmonic_coordinates(problem);
   Start<Dim> start;
   start.penalty = 0.1;
@@ -174,19 +174,19 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   start.flux_density = [n = problem.num_control_points()](Index) {
     return Eigen::Matrix<double, Eigen::Dynamic, Dim>::Zero(n, Dim).eval();
   };
-  active_set::Parameters settings;
-  settings.penalty = start.penalty;
-  settings.relaxation = plan.relaxation;
-  settings.half = half;
+  active_set::Parameters parameters;
+  parameters.penalty = start.penalty;
+  parameters.relaxation = settings.relaxation;
+  parameters.half = half;
   active_set::ActiveSet<Scalar, Dim> iteration(problem, splitting::measure_metric(problem, true),
-                                               settings, active_of_harmonic(problem, 0.2));
+                                               parameters, active_of_harmonic(problem, 0.2));
   iteration.start(start);
   RunState<Dim> state{std::make_unique<EstimatedError<Dim>>(
       problem, iteration, std::is_same_v<Scalar, double>, Origin::kCold, true)};
   const Observer nobody;
   const Reporter reporter(nobody);
   SolveReport report;
-  run<Dim>(iteration, state, {problem, options, {}, reporter}, report);
+  run<Dim>(iteration, state, {problem, settings, {}, reporter}, report);
   iteration.describe(report);
   return {iteration.weights().sparse, std::move(report)};
 }
@@ -261,7 +261,8 @@ TEST_IN_2D_AND_3D(ActiveSetTest, GrowsOnlyByPairs) {
 
 TEST_IN_2D_AND_3D(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   const auto problem = make_fine_problem<Dim>(Shape::kStar);
-  expect_same_for_any_threads([&] { return run_on_tight<float>(problem, 1e-6, true).weights.dense(); });
+  expect_same_for_any_threads(
+      [&] { return run_on_tight<float>(problem, 1e-6, true).weights.dense(); });
 }
 
 TEST_IN_2D_AND_3D(ActiveSetTest, LowerPrecisionsFollowDouble) {

@@ -56,8 +56,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExact
     const double largest = expected.cwiseAbs().maxCoeff();
     for (Index v = 0; v < meshes.fine.mesh.num_vertices(); ++v) {
       if (meshes.fine.boundary.boundary_index[v] >= 0) continue;
-      EXPECT_LT((start.weights(v) - expected.col(v)).cwiseAbs().maxCoeff(),
-                1e-12 * largest);
+      EXPECT_LT((start.weights(v) - expected.col(v)).cwiseAbs().maxCoeff(), 1e-12 * largest);
       const Eigen::VectorXd dual = start.vertex_dual_at(1)(v);  // twice at half the penalty
       EXPECT_LT((dual - 2 * expected.col(v)).cwiseAbs().maxCoeff(), 1e-11 * largest);
     }

@@ -51,7 +51,7 @@ CompactSplitting<Scalar, Dim> make_splitting(const Case<Dim>& c, double relaxati
                                              bool half = false) {
   compact::Parameters parameters;
   parameters.penalty = c.penalty;
-  settings.relaxation = relaxation;
+  parameters.relaxation = relaxation;
   parameters.half = half;
   return {c.problem, c.metric, parameters};
 }

@@ -137,22 +137,23 @@ struct Certified : Iteration<2> {
 };
 
 TEST(GapCriterion, TheDefaultOneWaitsForWeightsThatStillMoveFar) {
-  const auto ends = [](double wanted, double gap, double error) {
+  const auto ends = [](std::optional<double> wanted, double gap, double error) {
     Certified iteration;
     iteration.gap = gap;
     SolverOptions options;
     options.gap = wanted;
-    return GapCriterion().is_met(plan::gap_target(options, false), iteration, 500, false, error);
+    return GapCriterion().is_met(plan::settings_of(options).gap, iteration, 500, false, error);
   };
-  const double by_default = *resolve({}).gap;
-  EXPECT_TRUE(ends(by_default, 9e-4, 5));
-  EXPECT_FALSE(ends(by_default, 9e-4, 50));
-  EXPECT_FALSE(ends(by_default, 2e-3, 5));
+  EXPECT_TRUE(ends({}, 9e-4, 5));
+  EXPECT_FALSE(ends({}, 9e-4, 50));
+  EXPECT_FALSE(ends({}, 2e-3, 5));
   // A flat optimum: the weights may never settle.
-  EXPECT_TRUE(ends(by_default, 9e-5, 1e6));
-  // A gap that somebody asks for is all that counts.
-  EXPECT_TRUE(ends(1e-2, 9e-3, 1e6));
-  EXPECT_FALSE(ends(1e-5, 9e-5, 1));
+  EXPECT_TRUE(ends({}, 9e-5, 1e6));
+  // A gap that somebody asks for is all that counts, also if it is the default one.
+  for (const double wanted : {1e-2, 1.0001e-3, 1e-3, 1e-5}) {
+    EXPECT_TRUE(ends(wanted, 0.9 * wanted, 1e6));
+    EXPECT_FALSE(ends(wanted, 1.1 * wanted, 1));
+  }
 }
 
 TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {
