@@ -70,6 +70,7 @@ double integrate_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& wei
   return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
     SparseGradients<Dim> gradients(weights.num_control_points());
     double sum = 0;
+    Index count = 0;
     for (Index s = begin; s < end; ++s) {
       const auto geometry = cell_geometry(mesh, s);
       gradients.add(mesh, s, geometry, weights);
@@ -94,6 +95,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
   for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
     Vector<Dim> error = -points.col(p);
     double sum = 0;
+    Index count = 0;
     if (size_of(weights, p) < control_points.cols()) {
       quality.min_weight = std::min(quality.min_weight, 0.0);
     }
