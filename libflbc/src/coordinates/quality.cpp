@@ -70,7 +70,6 @@ double integrate_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& wei
   return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
     SparseGradients<Dim> gradients(weights.num_control_points());
     double sum = 0;
-    Index count = 0;
     for (Index s = begin; s < end; ++s) {
       const auto geometry = cell_geometry(mesh, s);
       gradients.add(mesh, s, geometry, weights);
