@@ -95,7 +95,7 @@ TEST_F(CompareCommand, GreenCoordinatesAndBiharmonicWeightsDeformModels) {
                       " -o moved.obj --displacement lengths.csv";
   expect("solve " + cage +
          " -q --vertices 500 --method bbw --model 2d/figure_model.obj -o bbw.npy");
-  for (const std::string& way : {" --method green", " --relative --weights bbw.npy"}) {
+  for (const std::string way : {" --method green", " --relative --weights bbw.npy"}) {
     expect(deform + way);
     EXPECT_LT(io::read_weights("lengths.csv").dense().maxCoeff(), 1e-10) << way;
   }

@@ -18,7 +18,7 @@ struct TransferTest {
     model.corners.resize(3, 2 * cells.cols());
     model.corners << cells.template topRows<3>(), cells.template bottomRows<3>();
     weights = mean_value_coordinates<Dim>(sample.cage, model.points);
-    project_non_negative<Dim>(sample.cage.points, model.points, weights);
+    weights = project_non_negative<Dim>(sample.cage.points, model.points, weights).dense();
     size = bounding_box_diagonal<Dim>(model.points);
   }
   WeightMatrix transfer(const PointList<Dim>& to, double limit,

@@ -39,22 +39,22 @@ class MeshFile : public FormatTest {
 template <class Dimension>
 class DomainFile : public FormatTest {
  protected:
-  static constexpr int Dim = Dimension::value;
+  static constexpr int kDim = Dimension::value;
 
   // One cell with these numbers.
-  static DomainMesh<Dim> simplex(double size) {
-    DomainMesh<Dim> mesh;
-    mesh.points.resize(Dim, Dim + 1);
-    mesh.points << PointList<Dim>::Zero(Dim, 1), PointList<Dim>::Identity(Dim, Dim) * size;
-    mesh.cells = CellList<Dim>(Dim + 1, 1);
-    for (Index k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
+  static DomainMesh<kDim> simplex(double size) {
+    DomainMesh<kDim> mesh;
+    mesh.points.resize(kDim, kDim + 1);
+    mesh.points << PointList<kDim>::Zero(kDim, 1), PointList<kDim>::Identity(kDim, kDim) * size;
+    mesh.cells = CellList<kDim>(kDim + 1, 1);
+    for (Index k = 0; k <= kDim; ++k) mesh.cells(k, 0) = k;
     return mesh;
   }
 
   // The mesh written in every format, and read.
   template <class Check>
-  void for_formats(const DomainMesh<Dim>& mesh, const Check& check) const {
-    for (const std::string& extension : readable_extensions<Dim>()) {
+  void for_formats(const DomainMesh<kDim>& mesh, const Check& check) const {
+    for (const std::string& extension : readable_extensions<kDim>()) {
       SCOPED_TRACE(extension);
       const std::string file = this->path("domain." + extension);
       write_domain(file, mesh);

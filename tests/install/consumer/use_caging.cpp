@@ -8,5 +8,5 @@ int main() {
   const auto model = square();
   const auto cage = flbc::cage_from_model<2>(model.points, model.facets).cage;
   const auto mesh = flbc::triangulate(cage, {200});
-  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights);
+  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }

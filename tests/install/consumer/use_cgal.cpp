@@ -5,5 +5,5 @@
 int main() {
   const auto cage = square();
   const auto mesh = flbc::triangulate(cage, {200});
-  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights);
+  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }

@@ -11,5 +11,5 @@ int main() {
   mesh.cells << 0, 1, 2, 3,  //
       1, 2, 3, 0,            //
       4, 4, 4, 4;
-  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights);
+  return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }

@@ -13,5 +13,5 @@ int main() {
       1, 3, 4, 0, 0, 1, 3, 4,             //
       2, 2, 2, 2, 5, 5, 5, 5;
   const auto mesh = flbc::tetrahedralize(cage, {300});
-  return judge<3>(cage, mesh.points, flbc::solve(cage, mesh).weights);
+  return judge<3>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }
