@@ -56,9 +56,9 @@ enum class Distances {
 //! points. The active set contains the pairs whose weights may be positive at the optimum. The
 //! solver finds, extends, and checks it.
 enum class ActiveSet {
-  kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless a certificate is
-          //!< requested
-  kOn,    //!< always; a certificate takes some final iterations on all pairs
+  kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless `certify` or `gap` is
+          //!< set
+  kOn,    //!< always; an error with `certify` or `gap`, which need the duals of all pairs
   kOff    //!< all pairs
 };
 
@@ -108,17 +108,17 @@ struct SolverOptions {
   //! - kValue: estimated mean squared error of the weights (equation (5) of the paper). The
   //!   estimate uses the change of the weights per iteration. Default: 1e-7.
   //! - kGradient: the same, relative to the optimum without non-negativity. The estimate uses
-  //!   weights recovered about every 32 iterations. Default: 1e-6.
+  //!   weights recovered every 40 iterations. Default: 1e-6.
   //! - kPaper, kLbc2014: section 5 of the paper: residual norms at most N_p * tolerance and 10 *
   //!   N_d * tolerance. Default: 1e-7, as in the paper.
   std::optional<double> tolerance{};
 
   //! Certified relative optimality gap (certificate.h) that also ends a run; > 0, or 0 for none.
   //! The run ends when either the gap or the tolerance is met. Default: 1e-3 for kValue and
-  //! kGradient if the tolerance is not set, otherwise none. A flat optimum, for example of a round
-  //! cage, meets the gap long before the tolerance. At a gap of 1e-3, the estimated error of the
-  //! weights must also be at most ten tolerances, or the gap at most 1e-4. The gap is evaluated at
-  //! iteration 500 and then after every 20% more iterations, which costs a few percent of the time.
+  //! kGradient if the tolerance is not set, otherwise none; none on an active set. A flat optimum,
+  //! for example of a round cage, meets the gap long before the tolerance. The default gap also
+  //! waits until the estimated error of the weights is at most ten tolerances, or the gap at most
+  //! 1e-4. The gap is evaluated at iteration 500 and then after every 20% more iterations, which costs a few percent of the time.
   //! An error if weights may be negative, because the bound holds for non-negative weights.
   std::optional<double> gap{};
 

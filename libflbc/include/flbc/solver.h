@@ -104,8 +104,8 @@ class Solver {
   Solver& operator=(Solver&&) noexcept;
 
   //! Solves. The first result is bit-identical to flbc::solve(); later calls resume from the last
-  //! state. If the options set the penalty, an interrupted run is bit-identical to an uninterrupted
-  //! one. Methods that do not iterate start over.
+  //! state, and make the iterations that an uninterrupted run makes, bit for bit. Methods that do
+  //! not iterate start over.
   //! \param budget  of this solve
   //! \return the solution, valid until the next solve. Its report covers only this solve; the
   //! status is kIterationLimit if the budget ended it

@@ -97,8 +97,10 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
     state.made += count;
     report.iterations = state.made - before;
     const bool is_late = context.reporter.is_late();
-    if (count < until && !is_late) continue;
-    if (count < until) break;
+    if (count < until) {
+      if (is_late) break;
+      continue;
+    }
     const auto [primal, dual] = state.stop->judge(step, iteration, state.made, tolerance);
     report.primal_residual = primal;
     report.dual_residual = dual;
