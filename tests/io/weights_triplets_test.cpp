@@ -49,7 +49,6 @@ WeightMatrix awkward_triplets() {
   const auto numbers = awkward_numbers();
   WeightMatrix weights = WeightMatrix::Zero(5, static_cast<Eigen::Index>(numbers.size()));
   for (Eigen::Index v = 0; v < weights.cols() - 1; ++v) weights(v % 4, v) = numbers[v];
-  weights(1, 0) = -0.0;
   return weights;  // the last row and the last column are 0
 }
 

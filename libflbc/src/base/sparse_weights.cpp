@@ -12,8 +12,6 @@
 namespace flbc {
 namespace {
 
-// Below this number of points, starting threads takes longer than collecting their weights.
-
 [[noreturn]] void refuse(Index point, const char* what) {
   throw InputError("the sparse weights of point " + std::to_string(point) + " " + what);
 }
