@@ -118,8 +118,9 @@ struct SolverOptions {
   //! kGradient if the tolerance is not set, otherwise none; none on an active set. A flat optimum,
   //! for example of a round cage, meets the gap long before the tolerance. The default gap also
   //! waits until the estimated error of the weights is at most ten tolerances, or the gap at most
-  //! 1e-4. The gap is evaluated at iteration 500 and then after every 20% more iterations, which costs a few percent of the time.
-  //! An error if weights may be negative, because the bound holds for non-negative weights.
+  //! 1e-4. The gap is evaluated at iteration 500 and then after every 20% more iterations, which
+  //! costs a few percent of the time. An error if weights may be negative, because the bound holds
+  //! for non-negative weights.
   std::optional<double> gap{};
 
   //! Whether kValue works on an active set.

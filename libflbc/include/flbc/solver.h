@@ -66,8 +66,8 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
 
-//! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of the
-//! weights are small enough. It then takes much less memory.
+//! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of
+//! the weights are small enough. It then takes much less memory.
 bool tries_active_set(int dim, Index control_points, Index vertices,
                       const SolverOptions& options = {});
 
