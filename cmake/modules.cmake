@@ -51,13 +51,19 @@ function(flbc_add_module name)
   if(arg_LIBRARY)
     set(library flbc_${arg_LIBRARY})
     set(files_in_unit 16)
-  elseif(name STREQUAL base)
-    # Compiling Eigen dominates build time.
+  endif()
+  if(name STREQUAL base)
+    target_include_directories(${target} PUBLIC ${flbc_GENERATED_HEADERS})
+  endif()
+  # Compiling Eigen dominates build time. GCC compiles all that follows a precompiled header as it
+  # compiled the header, so hot modules have one of their own.
+  if(name STREQUAL base OR name STREQUAL polytope)
     target_precompile_headers(${target} PRIVATE
       <algorithm> <functional> <map> <string> <vector>
       <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore>)
-    target_include_directories(${target} PUBLIC ${flbc_GENERATED_HEADERS})
-  elseif(NOT arg_HOT)  # GCC compiles all that follows as it compiled the header
+  elseif(arg_HOT)
+    target_precompile_headers(${target} REUSE_FROM flbc_module_polytope)
+  else()
     target_precompile_headers(${target} REUSE_FROM flbc_module_base)
   endif()
   flbc_compile_in_units(${target} ${files_in_unit})

@@ -80,7 +80,7 @@ bool VertexLinearProgram<Dim>::choose_basis(const Eigen::VectorXd& start) {
 template <int Dim>
 void VertexLinearProgram<Dim>::push_to_zero(Index entering, double value,
                                             const Eigen::VectorXd& costs) {
-  const Sums column = lu_.solve(Sums(columns_.row(entering).transpose()));
+  const Sums column = lu_.solve(columns_.row(entering).transpose());
   // The basic variables change by column * step when the entering one changes by -step.
   const bool grows = costs[entering] < basic_costs(costs).dot(column);
   double step = grows ? std::numeric_limits<double>::infinity() : value;
@@ -108,7 +108,7 @@ void VertexLinearProgram<Dim>::iterate(const Eigen::VectorXd& costs) {
   double best = -std::numeric_limits<double>::infinity();
   int steps_in_place = 0;
   for (Eigen::Index step = 0; step < limit; ++step) {
-    const Sums multipliers = lu_.transpose().solve(basic_costs(costs));
+    const Sums multipliers = lu_.solve_transposed(basic_costs(costs));
     reduced_costs_ = costs;
     reduced_costs_.noalias() -= columns_ * multipliers;
     const double bound = multipliers[0] + reduced_costs_.minCoeff();
@@ -120,7 +120,7 @@ void VertexLinearProgram<Dim>::iterate(const Eigen::VectorXd& costs) {
     const bool first = steps_in_place > 2 * kRows;
     const Eigen::Index entering = choose_entering(first, tolerance);
     if (entering < 0) return;
-    const Sums column = lu_.solve(Sums(columns_.row(entering).transpose()));
+    const Sums column = lu_.solve(columns_.row(entering).transpose());
     const int leaving = choose_leaving(column, first);
     if (leaving < 0) return;
     steps_in_place = values_[leaving] > 0 ? 0 : steps_in_place + 1;
@@ -166,7 +166,7 @@ void VertexLinearProgram<Dim>::factor() {
   Square matrix;
   for (int k = 0; k < kRows; ++k) matrix.col(k) = columns_.row(basis_[k]).transpose();
   lu_.compute(matrix);
-  values_ = lu_.solve(Sums(Sums::Unit(0)));
+  values_ = lu_.solve(Sums::Unit(0));
 }
 
 // The error of each operation is at most half an epsilon of its result; there are 3 Dim + 1

@@ -5,9 +5,8 @@
 
 #include <array>
 
-#include <Eigen/LU>
-
 #include "flbc/types.h"
+#include "polytope/small_lu.h"
 
 namespace flbc {
 
@@ -49,7 +48,7 @@ class VertexLinearProgram {
   Eigen::VectorXd reduced_costs_;
   std::array<Index, kRows> basis_{};
   Sums values_;  // of the basic variables
-  Eigen::PartialPivLU<Square> lu_;
+  SmallLu<kRows> lu_;
   Sums best_multipliers_;
 };
 
