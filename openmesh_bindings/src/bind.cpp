@@ -6,6 +6,7 @@
 
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "base/stopwatch.h"
 #include "flbc/non_negative.h"
 #include "flbc/solver.h"
@@ -66,6 +67,7 @@ Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& dom
 template <int Dim>
 Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options) {
   if (input.points.cols() == 0) throw InputError("the model has no vertices");
+  check_finite<Dim>(input.points);
   if (options.max_influences > 0) {
     validate<Dim>(SparsifyOptions{options.max_influences});
   } else if (options.max_influences < 0) {

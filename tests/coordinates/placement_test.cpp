@@ -3,6 +3,8 @@
 #include "flbc/placement.h"
 
 #include "flbc/cage_facts.h"
+#include "flbc/deform.h"
+#include "flbc/evaluator.h"
 #include "flbc/mean_value.h"
 #include "flbc/sparsify.h"
 #include "support/test.h"
@@ -217,6 +219,26 @@ TEST_IN_2D_AND_3D(PlacementTest, ExtensionIsContinuousAcrossTheCageAndRoundConve
   for (int k = 0; k < kPoints; ++k) {
     const double change = (extended.col(2 * k) - extended.col(2 * k + 1)).norm();
     EXPECT_LT(change, 20 * kStep) << k;
+  }
+}
+
+TEST_IN_2D_AND_3D(PlacementTest, PointsThatAreNotFiniteAreRefusedByName) {
+  PlacementTest<Dim> t;
+  const Evaluator<Dim> evaluator(t.sample.cage, t.sample.mesh, t.weights);
+  const CellLocator<Dim> locator(t.sample.mesh);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity()}) {
+    PointList<Dim> points = t.sample.mesh.points;
+    points(Dim - 1, 3) = bad;
+    EXPECT_LT(locator.locate(points.col(3), 0.1).cell, 0);
+    const std::vector<std::function<void()>> actions = {
+        [&] { place_points(t.sample.cage, t.sample.mesh, points); },
+        [&] { place_points(t.sample.cage, points, OutsidePoints::kNearest); },
+        [&] { locate_points(t.sample.mesh, points); }, [&] { evaluator.place(points); }};
+    for (const auto& action : actions) expect_refused<InputError>("point 3 at ", action);
+    PointList<Dim> pose = t.sample.cage.points;
+    pose(0, 2) = bad;
+    expect_refused<InputError>("point 2 at ", [&] { deform<Dim>(t.weights, pose); });
   }
 }
 

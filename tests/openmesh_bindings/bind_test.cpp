@@ -195,6 +195,16 @@ Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index fac
   return middle;
 }
 
+TYPED_TEST(Bind, VerticesThatAreNotFiniteAreNamed) {
+  const typename TypeParam::Mesh::VertexHandle vertex(7);
+  auto point = this->model_.point(vertex);
+  point[1] = std::numeric_limits<float>::quiet_NaN();
+  this->model_.set_point(vertex, point);
+  expect_refused<Error>("point 7 at ", [&] {
+    openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
+  });
+}
+
 TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
   constexpr int kDimension = TypeParam::kDim;
   const auto& cage = this->sample_.cage;

@@ -31,6 +31,63 @@ TEST_IN_2D_AND_3D(SolverTest, CoordinatesHaveTheirProperties) {
   }
 }
 
+// Meshes that no reader has checked end in an error that names the element, wherever they come in.
+TEST_IN_2D_AND_3D(SolverTest, RefusesMeshesThatAreNotValid) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
+  const auto refused = [&](const std::string& words, const auto& change) {
+    SCOPED_TRACE(words);
+    auto mesh = sample.mesh;
+    change(mesh);
+    expect_refused<InputError>(words, [&] { solve(sample.cage, mesh); });
+    expect_refused<InputError>(words,
+                               [&] { make_problem(sample.cage, mesh, DistanceScheme::kSquare); });
+  };
+  refused("cell 1 of the domain mesh refers to vertex -1", [](auto& m) { m.cells(0, 1) = -1; });
+  refused("refers to vertex 2000000000", [](auto& m) { m.cells(Dim, 2) = 2000000000; });
+  refused("vertex 4 of the domain mesh is not finite",
+          [](auto& m) { m.points(0, 4) = std::numeric_limits<double>::quiet_NaN(); });
+  refused("cell 3 of the domain mesh is inverted",
+          [](auto& m) { std::swap(m.cells(0, 3), m.cells(1, 3)); });
+  refused("cell 0 of the domain mesh is degenerate",
+          [](auto& m) { m.cells(1, 0) = m.cells(0, 0); });
+  refused("belongs to no cell", [](auto& m) {
+    m.points.conservativeResize(Dim, m.points.cols() + 1);
+    m.points.col(m.points.cols() - 1).setZero();
+  });
+  refused("has no cells", [](auto& m) { m.cells.resize(Dim + 1, 0); });
+}
+
+// A cell that is there twice lies on itself.
+TEST_IN_2D_AND_3D(SolverTest, RefusesCellsThatOverlap) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
+  auto mesh = sample.mesh;
+  mesh.cells.conservativeResize(Dim + 1, mesh.cells.cols() + 1);
+  mesh.cells.col(mesh.cells.cols() - 1) = mesh.cells.col(0);
+  EXPECT_THROW(solve(sample.cage, mesh), InputError);
+  EXPECT_THROW(make_problem(sample.cage, mesh, DistanceScheme::kSquare), InputError);
+}
+
+TEST_IN_2D_AND_3D(SolverTest, RefusesPhiThatIsNotValid) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const Eigen::MatrixXd phi = problem.phi.dense();
+  const auto refused = [&](const std::string& words, const Eigen::MatrixXd& values) {
+    auto other = problem;
+    other.phi = values;
+    expect_refused<InputError>(words, [&] { solve(other); });
+  };
+  refused("phi is " + std::to_string(phi.rows() - 1), phi.topRows(phi.rows() - 1));
+  refused("phi is ", phi.leftCols(phi.cols() - 1));
+  for (const double value : {-1e-3, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    auto values = phi;
+    values(1, 2) = value;
+    refused("phi of control point 1 on cell 2 is ", values);
+  }
+  auto same = problem;
+  same.phi = phi;
+  EXPECT_EQ(solve(same).weights.dense().cols(), sample.mesh.num_vertices());
+}
+
 // Without the projection to weights >= 0, single precision must not remain.
 TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
   const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);

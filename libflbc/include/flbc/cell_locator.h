@@ -33,7 +33,7 @@ class CellLocator {
   //! barycentric coordinates among the cells whose bounding box contains the point.
   //! \param point  in the units of the mesh
   //! \param tolerance  maximum distance of a point outside the mesh, in units of the mesh
-  //! \return cell -1 if the point is outside
+  //! \return cell -1 if the point is outside or not finite
   Location<Dim> locate(const Vector<Dim>& point, double tolerance) const;
 
  private:
@@ -45,8 +45,8 @@ class CellLocator {
 //! \param mesh  valid
 //! \param points  Dim x P, in the units of the mesh
 //! \return P locations; a point within the tolerance outside the mesh is in the nearest cell
-//! \throws InputError if points lie outside the mesh by more than 1e-6 of its size, with the first
-//! such point and their number
+//! \throws InputError if a point is not finite, or if points lie outside the mesh by more than 1e-6
+//! of its size, with the first such point and their number
 template <int Dim>
 std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh, const PointList<Dim>& points);
 

@@ -66,6 +66,9 @@ class WeightFunctions {
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
 
+  //! Whether the values were given instead of made from distances.
+  bool is_given() const { return values_.size() > 0; }
+
   //! The distances that phi was made from, n x V; empty for kConstant and for given values.
   const DistanceMatrix& distances() const { return distances_; }
 

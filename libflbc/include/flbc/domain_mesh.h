@@ -63,7 +63,19 @@ std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num
 template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell);
 
-//! Reverses cells with negative measure, and checks the mesh.
+//! Checks the numbers of a mesh. \throws InputError naming the element if the mesh is empty, an
+//! index is out of range, a coordinate is not finite, a cell is degenerate or inverted, or a vertex
+//! belongs to no cell
+template <int Dim>
+void validate(const DomainMesh<Dim>& mesh);
+
+//! Checks how cells meet. \param mesh  has passed validate() \param topology  of the mesh
+//! \throws InputError naming the element if a facet belongs to two cells on the same side, or parts
+//! touch without a common facet
+template <int Dim>
+void validate(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
+
+//! Reverses cells with negative measure, and performs both checks.
 //! \param mesh  any
 //! \throws InputError naming the element if the mesh is empty, an index is out of range, a
 //! coordinate is not finite, a cell is degenerate, a vertex belongs to no cell, a facet belongs to

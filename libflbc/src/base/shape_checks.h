@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/messages.h"
 #include "flbc/errors.h"
 #include "flbc/sparse_weights.h"
 
@@ -27,6 +28,16 @@ inline void check_size(const WeightMatrix& weights, Eigen::Index num_control_poi
 inline void check_size(const SparseWeights& weights, Eigen::Index num_control_points,
                        Eigen::Index num_points) {
   check_size(weights.num_control_points(), weights.num_points(), num_control_points, num_points);
+}
+
+//! \throws InputError naming the first non-finite point
+template <int Dim>
+void check_finite(const PointList<Dim>& points) {
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    if (points.col(p).allFinite()) continue;
+    throw InputError("point " + std::to_string(p) + " at " + format_point(points.col(p)) +
+                     " is not finite");
+  }
 }
 
 //! \throws InputError naming the first pose that is not finite or does not have `n` control points

@@ -4,16 +4,20 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "coordinates/weighted_sums.h"
 #include "flbc/errors.h"
 
 namespace flbc {
 namespace {
 
-void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
-  if (in_weights == in_pose) return;
-  throw InputError("the weights are for " + std::to_string(in_weights) +
-                   " control points, but the pose has " + std::to_string(in_pose));
+template <int Dim>
+void check_pose(const SparseWeights& weights, const PointList<Dim>& pose) {
+  if (weights.num_control_points() != pose.cols()) {
+    throw InputError("the weights are for " + std::to_string(weights.num_control_points()) +
+                     " control points, but the pose has " + std::to_string(pose.cols()));
+  }
+  check_finite<Dim>(pose);
 }
 
 }  // namespace
@@ -21,7 +25,7 @@ void check_pose(Eigen::Index in_weights, Eigen::Index in_pose) {
 template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
                       int threads) {
-  check_pose(weights.num_control_points(), control_points.cols());
+  check_pose<Dim>(weights, control_points);
   const Eigen::Index count = weights.num_points();
   PointList<Dim> points(Dim, count);
   const PaddedPoints<Dim> cage(control_points);

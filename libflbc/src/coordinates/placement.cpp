@@ -14,6 +14,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
 #include "coordinates/place_on_cage.h"
@@ -238,6 +239,7 @@ template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const CellLocator<Dim>& locator, const PointList<Dim>& points,
                             OutsidePoints policy) {
+  check_finite<Dim>(points);
   const double size = bounding_box_diagonal(cage.points);
   const auto num_points = static_cast<Index>(points.cols());
   Placement<Dim> placement;
@@ -258,6 +260,7 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                             OutsidePoints policy) {
+  check_finite<Dim>(points);
   const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_beside(static_cast<std::size_t>(num_points));

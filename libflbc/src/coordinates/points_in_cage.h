@@ -9,6 +9,7 @@
 
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "cage/facet_locator.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -18,16 +19,6 @@
 namespace flbc {
 
 constexpr double kOnCage = 1e-12;  // fraction of cage size within which a point is on the cage
-
-//! \throws InputError naming the first non-finite point
-template <int Dim>
-void check_finite(const PointList<Dim>& points) {
-  for (Eigen::Index p = 0; p < points.cols(); ++p) {
-    if (points.col(p).allFinite()) continue;
-    throw InputError("point " + std::to_string(p) + " at " + format_point(points.col(p)) +
-                     " is not finite");
-  }
-}
 
 //! Weights of points inside a cage or on it. Points on the cage get their barycentric coordinates
 //! in the facet. Points outside by at most kBoundaryTolerance count as on the cage.

@@ -7,6 +7,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
@@ -127,6 +128,7 @@ CellLocator<Dim>::~CellLocator() = default;
 template <int Dim>
 Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double tolerance) const {
   Location<Dim> best;
+  if (!point.allFinite()) return best;
   double least_outside = tolerance;
   const auto consider = [&](Index number) {
     if (best.cell >= 0 && least_outside == 0) return;  // found
@@ -153,6 +155,7 @@ Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double toleranc
 template <int Dim>
 std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh,
                                          const PointList<Dim>& points) {
+  check_finite<Dim>(points);
   const double tolerance = kBoundaryTolerance * bounding_box_diagonal(mesh.points);
   const CellLocator<Dim> locator(mesh);
   const auto num_points = static_cast<Index>(points.cols());

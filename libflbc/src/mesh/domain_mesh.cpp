@@ -48,15 +48,23 @@ bool is_degenerate(const DomainMesh<Dim>& mesh, Index cell, double measure) {
 
 template <int Dim>
 void orient_cells(DomainMesh<Dim>& mesh) {
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    if (signed_measure(mesh, s) < 0) std::swap(mesh.cells(Dim - 1, s), mesh.cells(Dim, s));
+  }
+}
+
+template <int Dim>
+void check_oriented(const DomainMesh<Dim>& mesh) {
   const Index bad = first_where(mesh.num_cells(), [&](Index s) {
     const double measure = signed_measure(mesh, s);
-    if (is_degenerate(mesh, s, measure)) return true;
-    if (measure < 0) std::swap(mesh.cells(Dim - 1, s), mesh.cells(Dim, s));
-    return false;
+    return measure <= 0 || is_degenerate(mesh, s, measure);
   });
   if (bad == mesh.num_cells()) return;
-  throw InputError("cell " + std::to_string(bad) + " of the domain mesh is degenerate, at " +
-                   format_point(mesh.points.col(mesh.cells(0, bad))));
+  const bool inverted = !is_degenerate(mesh, bad, signed_measure(mesh, bad));
+  throw InputError("cell " + std::to_string(bad) + " of the domain mesh is " +
+                   (inverted ? "inverted" : "degenerate") + ", at " +
+                   format_point(mesh.points.col(mesh.cells(0, bad))) +
+                   (inverted ? "; normalize_and_validate() orients cells" : ""));
 }
 
 template <int Dim>
@@ -132,16 +140,31 @@ double signed_measure(const DomainMesh<Dim>& mesh, Index cell) {
 }
 
 template <int Dim>
-void normalize_and_validate(DomainMesh<Dim>& mesh) {
+void validate(const DomainMesh<Dim>& mesh) {
   check_numbers(mesh);
-  orient_cells(mesh);
+  check_oriented(mesh);
   check_all_vertices_used(mesh);
-  const auto topology = build_topology(mesh);
+}
+
+template <int Dim>
+void validate(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
   check_unfolded(mesh, topology);
   check_no_touching(mesh, topology);
 }
 
+template <int Dim>
+void normalize_and_validate(DomainMesh<Dim>& mesh) {
+  check_numbers(mesh);
+  orient_cells(mesh);
+  validate(mesh);
+  validate(mesh, build_topology(mesh));
+}
+
 FLBC_INSTANTIATE_FUNCTION(signed_measure)
+template void validate(const DomainMesh<2>&);
+template void validate(const DomainMesh<3>&);
+template void validate(const DomainMesh<2>&, const MeshTopology<2>&);
+template void validate(const DomainMesh<3>&, const MeshTopology<3>&);
 FLBC_INSTANTIATE_FUNCTION(normalize_and_validate)
 
 }  // namespace flbc

@@ -21,6 +21,7 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology
 
 template <int Dim>
 LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology) {
+  validate(mesh, topology);
   // Before scaling, so that messages contain unscaled coordinates.
   auto boundary = boundary_values(cage, mesh, topology);
   return make_geometry(std::move(cage), std::move(mesh), std::move(topology), std::move(boundary));
@@ -41,6 +42,7 @@ DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& probl
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme,
                              double smoothness) {
+  validate(mesh);
   auto topology = build_topology(mesh);
   return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme, smoothness);
 }
@@ -48,6 +50,7 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceSchem
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
                              DistanceScheme scheme, double smoothness) {
+  validate(mesh);
   require_connected(mesh);
   auto problem = make_geometry(std::move(cage), std::move(mesh), std::move(topology));
   problem.smoothness = smoothness;

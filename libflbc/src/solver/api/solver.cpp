@@ -53,10 +53,23 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 template <int Dim>
 void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
   if (!is_local(settings.method)) return;
-  if (problem.phi.cols() != problem.mesh.num_cells()) {
-    throw InputError(
-        "the problem has no weight functions phi for the cells of its mesh; make_problem() "
-        "computes them");
+  const auto& phi = problem.phi;
+  if (phi.rows() != problem.num_control_points() || phi.cols() != problem.mesh.num_cells()) {
+    throw InputError("phi is " + std::to_string(phi.rows()) + " x " + std::to_string(phi.cols()) +
+                     ", but the problem has " + std::to_string(problem.num_control_points()) +
+                     " control points and " + std::to_string(problem.mesh.num_cells()) +
+                     " cells; make_problem() computes phi");
+  }
+  if (phi.is_given()) {
+    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+      const Eigen::VectorXd on_cell = phi.col(s);
+      for (Index i = 0; i < phi.rows(); ++i) {
+        if (on_cell[i] >= 0 && std::isfinite(on_cell[i])) continue;
+        throw InputError("phi of control point " + std::to_string(i) + " on cell " +
+                         std::to_string(s) + " is " + format_number(on_cell[i]) +
+                         "; it must be finite and not negative");
+      }
+    }
   }
   if (problem.smoothness != settings.smoothness) {
     throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
@@ -153,6 +166,7 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
                     const CoarseMesher<Dim>& mesher, const Observer& observer,
                     const MeshTopology<Dim>* topology) {
   require_valid_setup(given, bool(mesher));
+  validate(mesh);
   const auto common = plan::settings_of(given);
   const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
                                    const Reporter& reporter, bool stopped) {
