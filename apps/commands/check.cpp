@@ -77,8 +77,7 @@ void check_pose(CheckReport<2>&, const SparseWeights&, const std::string& pose) 
 }
 
 void check_pose(CheckReport<3>& report, const SparseWeights& weights, const std::string& pose) {
-  const auto posed = load_control_points<3>(pose);
-  require_control_points(pose, posed.cols(), report.cage.size(), report.cage_file);
+  const auto posed = RestCage<3>(report.cage_file).load_pose(pose);
   const auto elements = load_model_elements<3>(report.model_file);
   report.creases = check_creases(report.model->points, deform<3>(weights, posed), elements.corners);
 }

@@ -35,8 +35,7 @@ template <int Dim>
 void load_shape_and_pose(Comparison<Dim>& all) {
   const auto& arguments = all.arguments;
   if (!arguments.pose.empty()) {
-    all.pose = load_control_points<Dim>(arguments.pose);
-    require_control_points(arguments.pose, all.pose.cols(), all.cage.size(), arguments.cage);
+    all.pose = RestCage<Dim>(arguments.cage, arguments.quiet).load_pose(arguments.pose);
   }
   if (arguments.model.empty()) return;
   auto model = load_shown_model<Dim>(arguments.model);

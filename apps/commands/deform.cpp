@@ -176,19 +176,15 @@ SparseWeights load_weights(const PointList<Dim>& bound, const PointList<Dim>& re
 }
 
 template <int Dim>
-MovedBy<Dim> green_coordinates_of(const PointList<Dim>& points, const std::vector<Pose<Dim>>& poses,
-                                  const DeformArguments& arguments) {
+MovedBy<Dim> green_coordinates_of(const PointList<Dim>& points, const DeformArguments& arguments) {
   const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
-  for (const auto& pose : poses) {
-    require_control_points(pose.name, pose.points.cols(), cage.size(), arguments.rest);
-  }
   return naming(arguments.file.model, [&] { return by_green_coordinates(cage, points); });
 }
 
 template <int Dim>
 Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
                          const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  if (!arguments.method.empty()) return {green_coordinates_of(points, poses, arguments), {}};
+  if (!arguments.method.empty()) return {green_coordinates_of(points, arguments), {}};
   const auto moved_by = [&](SparseWeights weights) {
     return arguments.is_relative ? by_displacements(weights, rest, points)
                                  : by_control_points<Dim>(std::move(weights));
@@ -311,9 +307,11 @@ template <int Dim>
 void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   const auto layout = find_layout(arguments);
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
-  PointList<Dim> rest;
-  if (!arguments.rest.empty()) rest = load_control_points<Dim>(arguments.rest);
-  auto poses = arguments.keyframes.empty() ? load_poses<Dim>(cages)
+  // Without a rest cage, the poses of a sequence must at least be poses of one cage.
+  const bool has_rest = !arguments.rest.empty();
+  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front(), arguments.quiet);
+  const PointList<Dim> rest = has_rest ? cage.points() : PointList<Dim>();
+  auto poses = arguments.keyframes.empty() ? load_poses(cages, cage)
                                            : load_keyframes<Dim>(arguments.keyframes, rest);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);

@@ -131,8 +131,7 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
   check_reproduction<Dim>(posed.weights, cage.points, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
-  posed.pose = load_control_points<Dim>(arguments.pose);
-  require_control_points(arguments.pose, posed.pose.cols(), cage.size(), arguments.cage);
+  posed.pose = RestCage<Dim>(arguments.cage).load_pose(arguments.pose);
   posed.moved = deform<Dim>(posed.weights, posed.pose);
   return posed;
 }

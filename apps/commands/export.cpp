@@ -89,20 +89,19 @@ void check_files(const ExportArguments& arguments, const CageFiles& poses) {
 
 template <int Dim>
 gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFiles& poses,
-                                 const PointList<Dim>& rest) {
+                                 const RestCage<Dim>& rest) {
   const auto& keyframes = arguments.keyframes;
-  const auto num_control_points = static_cast<Index>(rest.cols());
   if (keyframes.empty()) {
     const double rate = frame_rate(poses.paths.size(), arguments.frames_per_second);
-    auto animation = animation_of(load_poses<Dim>(poses, rate), num_control_points);
+    auto animation = animation_of(load_poses(poses, rest, rate));
     if (animation.poses.size() == 1) {  // one pose does not move: it begins at rest
       animation.times = {0, 1 / rate};
-      animation.poses.insert(animation.poses.begin(), rest);
+      animation.poses.insert(animation.poses.begin(), rest.points());
     }
     return animation;
   }
-  auto animation = animation_of(load_keyframes<Dim>(keyframes, rest), num_control_points);
-  naming(keyframes, [&] { gltf::validate(animation, rest.cols()); });
+  auto animation = animation_of(load_keyframes<Dim>(keyframes, rest.points()));
+  naming(keyframes, [&] { gltf::validate(animation, rest.points().cols()); });
   return animation;
 }
 
@@ -136,8 +135,9 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
 
 template <int Dim>
 void export_model(const ExportArguments& arguments, const CageFiles& poses) {
-  const auto rest = load_control_points<Dim>(arguments.cage);
-  const auto animation = load_motion<Dim>(arguments, poses, rest);
+  const RestCage<Dim> cage(arguments.cage, arguments.quiet);
+  const auto& rest = cage.points();
+  const auto animation = load_motion(arguments, poses, cage);
   const MovedFile same{arguments.model, arguments.model};
   require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);

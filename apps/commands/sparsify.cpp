@@ -82,12 +82,10 @@ SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<D
 }
 
 template <int Dim>
-std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments, Eigen::Index size) {
+std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments) {
+  const RestCage<Dim> rest(arguments.cage, arguments.quiet);
   std::vector<PointList<Dim>> poses;
-  for (const auto& path : arguments.poses) {
-    poses.push_back(load_model<Dim>(path));
-    require_control_points(path, poses.back().cols(), size, arguments.cage);
-  }
+  for (const auto& path : arguments.poses) poses.push_back(rest.load_pose(path));
   return poses;
 }
 
@@ -119,7 +117,7 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
   const auto method = reduction_for(arguments.reduction, arguments.points, model.edges, cage.size(),
                                     model.points.cols());
   const auto before = load_weights(arguments, cage.points, model.points);
-  const auto poses = load_poses<Dim>(arguments, cage.points.cols());
+  const auto poses = load_poses<Dim>(arguments);
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
     return make_sparse<Dim>(cage.points, model, before, poses, method, arguments);

@@ -78,7 +78,7 @@ std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& argument
                                                    const CageFiles& files,
                                                    const PointList<Dim>& rest) {
   if (arguments.keyframes.empty()) {
-    const auto poses = load_poses<Dim>(files);
+    const auto poses = load_poses(files, RestCage<Dim>(arguments.cage, arguments.quiet));
     return shown_poses(poses, times_of_poses(poses.size(), arguments.frames_per_second));
   }
   const auto keyframes = load_keyframes<Dim>(arguments.keyframes, rest);

@@ -63,31 +63,6 @@ FacetList<3> solid_facets(const io::PolygonSoup& soup) {
   return facets;
 }
 
-// The loops of a cage in 2D, each from its least control point.
-std::vector<std::vector<Index>> loops_of(const Cage<2>& cage) {
-  std::vector<std::vector<Index>> neighbours(static_cast<std::size_t>(cage.size()));
-  for (Index e = 0; e < cage.facets.cols(); ++e) {
-    neighbours[cage.facets(0, e)].insert(neighbours[cage.facets(0, e)].begin(), cage.facets(1, e));
-    neighbours[cage.facets(1, e)].push_back(cage.facets(0, e));
-  }
-  std::vector<bool> is_taken(neighbours.size(), false);
-  std::vector<std::vector<Index>> loops;
-  for (Index start = 0; start < cage.size(); ++start) {
-    if (is_taken[start]) continue;
-    std::vector<Index> loop{start};
-    is_taken[start] = true;
-    for (Index next = neighbours[start].front(); !is_taken[next];) {
-      loop.push_back(next);
-      is_taken[next] = true;
-      const auto& around = neighbours[next];
-      next = is_taken[around.front()] ? around.back() : around.front();
-    }
-    loop.push_back(start);
-    loops.push_back(loop);
-  }
-  return loops;
-}
-
 // The corners of all voxels with points, which enclose the points and are far fewer.
 PointList<3> voxel_corners(const PointList<3>& points) {
   if (points.cols() == 0) return points;
@@ -155,22 +130,26 @@ ModelElements<Dim> load_model_elements(const std::string& path) {
 }
 
 template <int Dim>
-void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
+io::PolygonSoup to_polygons(const Cage<Dim>& cage, double height) {
   io::PolygonSoup soup;
   for (Index i = 0; i < cage.size(); ++i) {
     Vector<3> point = Vector<3>::Constant(height);
     point.template head<Dim>() = cage.points.col(i);
     soup.points.push_back(point);
   }
-  if constexpr (Dim == 2) {
-    soup.polylines = loops_of(cage);
-  } else {
-    for (Index f = 0; f < cage.facets.cols(); ++f) {
-      const auto corners = cage.facets.col(f);
-      soup.polygons.push_back({corners(0), corners(1), corners(2)});
-    }
+  for (const auto& facet : cage.facets.colwise()) {
+    (Dim == 2 ? soup.polylines : soup.polygons).emplace_back(facet.begin(), facet.end());
   }
-  io::write_model(path, {soup});
+  if (Dim == 2) {
+    soup.polylines = io::control_polygons<2>(soup).polygons;
+    for (auto& loop : soup.polylines) loop.push_back(loop.front());
+  }
+  return soup;
+}
+
+template <int Dim>
+void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
+  io::write_model(path, {to_polygons(cage, height)});
 }
 
 template <int Dim>
@@ -181,6 +160,8 @@ void require_cage_writable(const std::string& path) {
 
 template ModelElements<2> load_model_elements(const std::string&);
 template ModelElements<3> load_model_elements(const std::string&);
+template io::PolygonSoup to_polygons(const Cage<2>&, double);
+template io::PolygonSoup to_polygons(const Cage<3>&, double);
 template void write_cage(const std::string&, const Cage<2>&, double);
 template void write_cage(const std::string&, const Cage<3>&, double);
 template void require_cage_writable<2>(const std::string&);

@@ -39,6 +39,11 @@ ModelFacets<2> load_silhouette(const std::string& path);
 template <int Dim>
 ModelElements<Dim> load_model_elements(const std::string& path);
 
+//! A sound cage as files have it: triangles, in 2D closed polylines. \param height  2D: the z of
+//! all points
+template <int Dim>
+io::PolygonSoup to_polygons(const Cage<Dim>& cage, double height = 0);
+
 //! Writes a sound cage: .obj, in 3D also .off and .ply. \param height  2D: the z of all points
 template <int Dim>
 void write_cage(const std::string& path, const Cage<Dim>& cage, double height = 0);

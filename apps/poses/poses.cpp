@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <numeric>
 
+#include "files/model_facets.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/keyframes.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/same_vertices.h"
 
 namespace flbc::app {
 namespace {
@@ -76,9 +79,14 @@ std::string with_number(const std::string& pattern, std::int64_t number) {
 }
 
 CageFiles find_cages(const std::vector<std::string>& cages) {
+  // A file that is there is a file, whatever its name.
+  const auto is_pattern = [](const std::string& name) {
+    std::error_code error;
+    return !std::filesystem::exists(name, error) && has_number(name);
+  };
   CageFiles files;
   for (const auto& cage : cages) {
-    if (!has_number(cage)) {
+    if (!is_pattern(cage)) {
       files.paths.push_back(cage);
       continue;
     }
@@ -87,7 +95,7 @@ CageFiles find_cages(const std::vector<std::string>& cages) {
       files.numbers.push_back(file.number);
     }
   }
-  if (cages.size() == 1 && has_number(cages.front())) return files;
+  if (cages.size() == 1 && is_pattern(cages.front())) return files;
   files.numbers.resize(files.paths.size());
   std::iota(files.numbers.begin(), files.numbers.end(), 0);
   return files;
@@ -103,8 +111,33 @@ int dimension_of_cage(const std::string& path) {
 }
 
 template <int Dim>
-PointList<Dim> load_control_points(const std::string& path) {
-  return io::to_points<Dim>(io::read_polygons(path), path);
+RestCage<Dim>::RestCage(const std::string& path, bool quiet)
+    : polygons_(io::control_polygons<Dim>(io::read_polygons(path))),
+      name_(path),
+      quiet_(quiet),
+      points_(io::to_points<Dim>(polygons_, path)) {
+}
+
+template <int Dim>
+RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name, bool quiet)
+    : polygons_(io::control_polygons<Dim>(to_polygons(cage))),
+      name_(std::move(name)),
+      quiet_(quiet),
+      points_(cage.points) {
+}
+
+template <int Dim>
+PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
+  auto pose = io::read_polygons(path);
+  // Mere points have no faces to compare.
+  const bool has_faces = !pose.polygons.empty() || !pose.polylines.empty();
+  if (has_faces) pose = io::control_polygons<Dim>(pose);
+  const auto same = io::find_same_vertices(polygons_, name_, pose, path);
+  if (same.are_renumbered && !quiet_) {
+    std::cerr << "flbc: " << path << ": the vertices have other numbers than those of " << name_
+              << "; they are matched by the faces\n";
+  }
+  return io::to_points<Dim>(pose, path)(Eigen::all, same.numbers);
 }
 
 double frame_rate(std::size_t num_poses, double asked) {
@@ -114,27 +147,20 @@ double frame_rate(std::size_t num_poses, double asked) {
 }
 
 template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second) {
+std::vector<Pose<Dim>> load_poses(const CageFiles& files, const RestCage<Dim>& rest,
+                                  double frames_per_second) {
   std::vector<Pose<Dim>> poses;
   for (std::size_t k = 0; k < files.paths.size(); ++k) {
-    poses.push_back({files.paths[k], files.numbers[k], load_control_points<Dim>(files.paths[k]),
+    poses.push_back({files.paths[k], files.numbers[k], rest.load_pose(files.paths[k]),
                      static_cast<double>(k) / frames_per_second});
   }
   return poses;
 }
 
-void require_control_points(const std::string& file, Eigen::Index count, Eigen::Index expected,
-                            const std::string& cage) {
-  if (count == expected) return;
-  throw InputError(file + ": has " + std::to_string(count) + " vertices, but " + cage + " has " +
-                   std::to_string(expected));
-}
-
 template <int Dim>
-gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num_control_points) {
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
   gltf::Animation<Dim> animation;
   for (const auto& pose : poses) {
-    require_control_points(pose.name, pose.points.cols(), num_control_points, "the cage");
     animation.times.push_back(pose.time);
     animation.poses.push_back(pose.points);
   }
@@ -158,11 +184,11 @@ std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<D
   return poses;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                \
-  template PointList<Dim> load_control_points(const std::string&);                           \
-  template std::vector<Pose<Dim>> load_poses(const CageFiles&, double);                      \
-  template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&); \
-  template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&, Index);
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template class RestCage<Dim>;                                                               \
+  template std::vector<Pose<Dim>> load_poses(const CageFiles&, const RestCage<Dim>&, double); \
+  template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&);  \
+  template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

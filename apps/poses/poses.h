@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "flbc/cage.h"
 #include "flbc/deform.h"
+#include "flbc/io/model.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
 
@@ -35,9 +37,29 @@ CageFiles find_cages(const std::vector<std::string>& cages);
 //! poses need none.
 int dimension_of_cage(const std::string& path);
 
-//! The control points of a cage, which need not be a sound one: a pose may intersect itself.
+//! A cage at rest as its file has it, and its poses in other files. Poses need not be sound cages:
+//! a pose may intersect itself.
 template <int Dim>
-PointList<Dim> load_control_points(const std::string& path);
+class RestCage {
+ public:
+  //! \param quiet  prints no notes
+  explicit RestCage(const std::string& path, bool quiet = false);
+  //! A cage that no file has yet.
+  RestCage(const Cage<Dim>& cage, std::string name, bool quiet = false);
+
+  const PointList<Dim>& points() const { return points_; }
+
+  //! The control points in another file, in the order of this cage. A note that the file has them
+  //! in another order goes to the standard error output.
+  //! \throws InputError unless the file has the same control points and faces
+  PointList<Dim> load_pose(const std::string& path) const;
+
+ private:
+  io::PolygonSoup polygons_;
+  std::string name_;  // for messages
+  bool quiet_;
+  PointList<Dim> points_;
+};
 
 //! Frames per second of a sequence: as asked, or, if that is 0, a single pose within a second and
 //! several as a video.
@@ -45,17 +67,12 @@ double frame_rate(std::size_t num_poses, double asked);
 
 //! One pose per file, `frames_per_second` of them in a second, the first one at 0.
 template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files, double frames_per_second = 1);
-
-//! \throws InputError unless a file has as many vertices as the cage
-void require_control_points(const std::string& file, Eigen::Index count, Eigen::Index expected,
-                            const std::string& cage);
+std::vector<Pose<Dim>> load_poses(const CageFiles& files, const RestCage<Dim>& rest,
+                                  double frames_per_second = 1);
 
 //! The poses at their times.
-//! \param num_control_points  of the cage at rest
-//! \throws InputError if a pose has another number of control points
 template <int Dim>
-gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, Index num_control_points);
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses);
 
 //! One pose per keyframe, at its time; in 2D displacements along z are passed over.
 //! \throws InputError if the file is for another number of control points than `rest` (Dim x n) has

@@ -17,8 +17,11 @@ void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInpu
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
   if (files.paths.empty()) return;
   const double rate = frame_rate(files.paths.size(), arguments.frames_per_second);
-  inputs.poses = load_poses<Dim>(files, rate);
-  inputs.animation = animation_of(inputs.poses, cage.size());
+  const auto& file = arguments.settings.cage;
+  const auto rest = arguments.makes_cage ? RestCage<Dim>(cage, "the cage", arguments.quiet)
+                                         : RestCage<Dim>(file, arguments.quiet);
+  inputs.poses = load_poses<Dim>(files, rest, rate);
+  inputs.animation = animation_of(inputs.poses);
   auto& [times, poses] = inputs.animation;
   // The cage starts where it rests.
   times.push_back(static_cast<double>(poses.size()) / rate);
@@ -29,7 +32,7 @@ template <int Dim>
 void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInputs<Dim>& inputs) {
   inputs.files.push_back(path);
   inputs.poses = load_keyframes<Dim>(path, cage.points);
-  inputs.animation = animation_of(inputs.poses, cage.size());
+  inputs.animation = animation_of(inputs.poses);
   naming(path, [&] { gltf::validate(inputs.animation, cage.size()); });
 }
 

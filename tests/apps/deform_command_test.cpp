@@ -349,7 +349,7 @@ TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
   refused(model + weights + " --pose 3d/limb_cage.obj" + output, 2,
           "w.npy: has weights for 4 control points, but 3d/limb_cage.obj has 54");
   refused(cage + weights + " --pose " + cage + " --pose 3d/limb_cage.obj -o o_%d.obj", 2,
-          "limb_cage.obj has 54");
+          "3d/limb_cage.obj: has 54 vertices, but cage.obj has 4");
   EXPECT_FALSE(std::filesystem::exists("o_0.obj"));
   refused("3d/limb_model.obj" + weights + " --pose " + cage + output, 2,
           "w.npy: has weights of 4 points, but 3d/limb_model.obj has 3352");

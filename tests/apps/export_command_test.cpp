@@ -294,7 +294,7 @@ TEST_F(ExportCommand, SequencesOfCages) {
   expect_export(command + " --pose pose_%d.obj --fps 0", 1, "--fps");
   expect_export(command + " --pose absent_%d.obj", 4, "absent_0.obj");
   expect_export(command + " --pose 3d/limb_cage.obj", 2,
-                "limb_cage.obj: has 54 vertices, but the cage has 4");
+                "limb_cage.obj: has 54 vertices, but cage.obj has 4");
   EXPECT_FALSE(std::filesystem::exists("s.glb"));
 }
 

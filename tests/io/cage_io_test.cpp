@@ -6,6 +6,7 @@
 
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "support/errors.h"
 
 namespace flbc::io {
 namespace {
@@ -33,6 +34,37 @@ TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
     }
     EXPECT_TRUE(find_defects(cage).empty());
   }
+}
+
+TEST(CageIo, VerticesInsideOfAPlanarMeshAreNoControlPoints) {
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  soup.polygons = {{0, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 0, 1}};
+  const auto cage = std::get<Cage<2>>(to_cage(soup, "mesh.obj"));
+  ASSERT_EQ(cage.size(), 4);
+  EXPECT_EQ(cage.points.col(1), Vector<2>(2, 0));
+  EXPECT_TRUE(find_defects(cage).empty());
+  const auto outline = control_polygons<2>(soup);
+  EXPECT_EQ(outline.points.size(), 4u);
+  EXPECT_EQ(outline.polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
+}
+
+TEST(CageIo, PolygonsOfTwoVerticesAreEdges) {
+  auto soup = square();
+  soup.polygons = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const auto cage = std::get<Cage<2>>(to_cage(soup, "square.off"));
+  EXPECT_EQ(cage.facets.cols(), 4);
+  EXPECT_TRUE(find_defects(cage).empty());
+}
+
+TEST(CageIo, AnotherPlaneIsNamed) {
+  auto soup = square();
+  soup.polygons = {{0, 1, 2, 3}};
+  for (auto& point : soup.points) std::swap(point.y(), point.z());
+  testing::expect_refused(
+      "square.obj: is flat, but a 2D cage must have the same z everywhere; all "
+      "vertices have the same y",
+      [&] { to_cage(soup, "square.obj"); });
 }
 
 TEST(CageIo, PointsInSpaceAreNoCage) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -15,40 +16,91 @@ namespace {
 
 using Polygon = std::vector<Index>;
 
-FacetList<2> edges_of_polylines(const std::vector<Polygon>& polylines) {
-  std::vector<std::pair<Index, Index>> edges;
+using Edges = std::vector<std::pair<Index, Index>>;
+
+Edges edges_of_polylines(const std::vector<Polygon>& polylines) {
+  Edges edges;
   for (const auto& polyline : polylines) {
     for (std::size_t k = 0; k + 1 < polyline.size(); ++k) {
       edges.emplace_back(polyline[k], polyline[k + 1]);
     }
   }
-  FacetList<2> facets(2, edges.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) facets.col(e) << edges[e].first, edges[e].second;
-  return facets;
+  return edges;
 }
 
 // The edges of only one polygon, in its direction: the common boundary.
-FacetList<2> boundary_edges(const std::vector<Polygon>& polygons) {
+Edges boundary_edges(const std::vector<Polygon>& polygons) {
   std::map<std::pair<Index, Index>, int> uses;  // by the smaller end
   const auto for_edges = [&](const auto& use) {
     for (const auto& polygon : polygons) {
-      for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const auto count = polygon.size() == 2 ? 1 : polygon.size();
+      for (std::size_t k = 0; k < count; ++k) {
         use(polygon[k], polygon[(k + 1) % polygon.size()]);
       }
     }
   };
   for_edges([&](Index from, Index to) { ++uses[std::minmax(from, to)]; });
-  std::vector<Polygon> edges;
+  Edges edges;
   for_edges([&](Index from, Index to) {
-    if (uses[std::minmax(from, to)] == 1) edges.push_back({from, to});
+    if (uses[std::minmax(from, to)] == 1) edges.emplace_back(from, to);
   });
-  return edges_of_polylines(edges);
+  return edges;
 }
 
-FacetList<2> closed_loop(const Polygon& loop) {
-  Polygon closed = loop;
-  closed.push_back(loop.front());
-  return edges_of_polylines({closed});
+Edges outline_of(const PolygonSoup& soup) {
+  if (!soup.polylines.empty()) return edges_of_polylines(soup.polylines);
+  if (!soup.polygons.empty()) return boundary_edges(soup.polygons);
+  Polygon loop(soup.points.size());
+  std::iota(loop.begin(), loop.end(), 0);
+  loop.push_back(0);
+  return edges_of_polylines({loop});
+}
+
+// The outline of points and polygons in a plane without the vertices inside of it.
+struct Outline {
+  std::vector<Vector<3>> points;
+  Edges edges;
+
+  explicit Outline(const PolygonSoup& soup) : points(soup.points), edges(outline_of(soup)) {
+    if (!soup.polylines.empty()) return;
+    std::vector<bool> is_inside(points.size(), false);
+    for (const auto& polygon : soup.polygons) {
+      for (const Index vertex : polygon) is_inside[vertex] = true;
+    }
+    for (const auto& [from, to] : edges) is_inside[from] = is_inside[to] = false;
+    std::vector<Index> numbers(points.size());
+    points.clear();
+    for (std::size_t v = 0; v < numbers.size(); ++v) {
+      numbers[v] = static_cast<Index>(points.size());
+      if (!is_inside[v]) points.push_back(soup.points[v]);
+    }
+    for (auto& [from, to] : edges) from = numbers[from], to = numbers[to];
+  }
+};
+
+// Edges joined end to end.
+std::vector<Polygon> loops_of(const Edges& edges) {
+  std::multimap<Index, std::size_t> edges_at;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    edges_at.emplace(edges[e].first, e);
+    edges_at.emplace(edges[e].second, e);
+  }
+  std::vector<bool> is_used(edges.size(), false);
+  std::vector<Polygon> loops;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (is_used[start]) continue;
+    Polygon loop;
+    Index end = edges[start].first;
+    for (auto e = start; !is_used[e];) {
+      is_used[e] = true;
+      loop.push_back(end);
+      end = edges[e].first == end ? edges[e].second : edges[e].first;
+      const auto [first, last] = edges_at.equal_range(end);
+      for (auto next = first; next != last && is_used[e]; ++next) e = next->second;
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
 }
 
 bool is_flat(const PolygonSoup& soup) {
@@ -56,6 +108,17 @@ bool is_flat(const PolygonSoup& soup) {
     if (point.z() != soup.points[0].z()) return false;
   }
   return true;
+}
+
+// What to do about points that are in a plane, but in another one.
+std::string plane_hint(const PolygonSoup& soup) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto is_in_plane = [&](const auto& point) { return point[axis] == soup.points[0][axis]; };
+    if (!std::all_of(soup.points.begin(), soup.points.end(), is_in_plane)) continue;
+    const std::string name(1, "xy"[axis]);
+    return "; all vertices have the same " + name + ": exchange " + name + " and z";
+  }
+  return {};
 }
 
 FacetList<3> triangles_of_polygons(const PolygonSoup& soup) {
@@ -79,7 +142,8 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
       throw InputError(name + ": vertex " + std::to_string(v) + " at " +
                        format_point(soup.points[v]) +
                        " is not in the plane of vertex 0; a 2D cage, and a shape in it, must have "
-                       "the same z everywhere");
+                       "the same z everywhere" +
+                       plane_hint(soup));
     }
     points.col(v) = soup.points[v].template head<Dim>();
   }
@@ -94,27 +158,37 @@ AnyCage to_cage(const PolygonSoup& soup, const std::string& name) {
                      "polylines (2D)");
   }
   // A flat closed surface has no boundary in its plane; it is a surface without volume.
-  FacetList<2> outline(2, 0);
-  if (is_flat(soup)) {
-    outline =
-        soup.polylines.empty() ? boundary_edges(soup.polygons) : edges_of_polylines(soup.polylines);
-  }
-  const bool is_surface = !soup.polygons.empty() && outline.cols() == 0;
+  const bool is_surface = !soup.polygons.empty() && (!is_flat(soup) || outline_of(soup).empty());
   if (is_surface && !soup.polylines.empty()) {
     throw InputError(name +
                      ": has both polygons and polylines; a cage is either a surface (3D) or " +
                      "closed polylines (2D)");
   }
+  if (is_surface && !plane_hint(soup).empty()) {
+    throw InputError(name + ": is flat, but a 2D cage must have the same z everywhere" +
+                     plane_hint(soup));
+  }
   if (is_surface) {
     return Cage<3>{to_points<3>(soup, name), triangles_of_polygons(soup)};
   }
-  Cage<2> cage{to_points<2>(soup, name), outline};
-  if (soup.polylines.empty() && soup.polygons.empty()) {
-    Polygon loop(soup.points.size());
-    for (std::size_t v = 0; v < loop.size(); ++v) loop[v] = static_cast<Index>(v);
-    cage.facets = closed_loop(loop);
+  const Outline outline(soup);
+  Cage<2> cage{to_points<2>({outline.points, {}, {}}, name), {}};
+  cage.facets.resize(2, outline.edges.size());
+  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
+    cage.facets.col(e) << outline.edges[e].first, outline.edges[e].second;
   }
   return cage;
+}
+
+template <>
+PolygonSoup control_polygons<3>(const PolygonSoup& soup) {
+  return {soup.points, soup.polygons, {}};
+}
+
+template <>
+PolygonSoup control_polygons<2>(const PolygonSoup& soup) {
+  const Outline outline(soup);
+  return {outline.points, loops_of(outline.edges), {}};
 }
 
 template PointList<2> to_points(const PolygonSoup&, const std::string&);
