@@ -5,15 +5,18 @@
 
 It reads the attributes of mesh.py and needs nothing else, so files work without the add-on. Rest is
 where the weights put the vertex at rest, so the model is unchanged there, and changes by shape keys
-or later edits of the model are added. If the cage has other vertices, the model stays at rest.
+or later edits of the model are added. If the cage or the model has another number of vertices than
+when it was bound, the model stays at rest: new vertices have no weights, and the indices of
+control points, which Blender interpolates for them, mean nothing.
 """
 import bpy
 
 from . import compat, mesh
 
 MODIFIER = 'Local Barycentric Cage'
-CAGE, COUNT = 'Cage', 'Control Points'
+CAGE, COUNT, VERTICES = 'Cage', 'Control Points', 'Vertices'
 _MARK = 'flbc_influences'
+_NODES = 2  # changes whenever the nodes of a group do
 
 
 def _socket(sockets, name):
@@ -69,6 +72,13 @@ def _has_count(builder, geometry, count):
     return equal.outputs['Value']
 
 
+def _product(builder, a, b):
+    node = builder.node('ShaderNodeMath', operation='MULTIPLY')
+    builder.link(a, node.inputs[0])
+    builder.link(b, node.inputs[1])
+    return node.outputs['Value']
+
+
 def _fill(group, influences):
     builder = _Builder(group)
     inputs = builder.node('NodeGroupInput')
@@ -89,7 +99,9 @@ def _fill(group, influences):
     offset = builder.vectors('SUBTRACT', place, builder.attribute(mesh.REST, 'FLOAT_VECTOR'))
     move = builder.node('GeometryNodeSetPosition')
     builder.link(inputs.outputs['Geometry'], move.inputs['Geometry'])
-    builder.link(_has_count(builder, cage, inputs.outputs[COUNT]), move.inputs['Selection'])
+    are_bound = _product(builder, _has_count(builder, cage, inputs.outputs[COUNT]),
+                         _has_count(builder, inputs.outputs['Geometry'], inputs.outputs[VERTICES]))
+    builder.link(are_bound, move.inputs['Selection'])
     builder.link(offset, move.inputs['Offset'])
     builder.link(move.outputs['Geometry'], builder.node('NodeGroupOutput').inputs['Geometry'])
 
@@ -97,16 +109,18 @@ def _fill(group, influences):
 def group_for(influences):
     """The node group for this number of influences. A file has at most one of each."""
     for group in bpy.data.node_groups:
-        if group.get(_MARK) == influences and not group.library:
+        if (group.get(_MARK), group.get('flbc_nodes')) == (influences, _NODES) and not group.library:
             return group
     group = bpy.data.node_groups.new(f'{MODIFIER} ({influences})', 'GeometryNodeTree')
     compat.add_input(group, 'Geometry', 'NodeSocketGeometry')
     compat.add_input(group, CAGE, 'NodeSocketObject')
     compat.add_input(group, COUNT, 'NodeSocketInt')
+    compat.add_input(group, VERTICES, 'NodeSocketInt')
     compat.add_output(group, 'Geometry', 'NodeSocketGeometry')
     compat.mark_as_modifier(group)
     _fill(group, influences)
     group[_MARK] = influences
+    group['flbc_nodes'] = _NODES
     return group
 
 
@@ -128,5 +142,6 @@ def add_modifier(model, cage, influences):
     modifier.node_group = group_for(influences)
     compat.set_input(modifier, CAGE, cage)
     compat.set_input(modifier, COUNT, len(cage.data.vertices))
+    compat.set_input(modifier, VERTICES, len(model.data.vertices))
     compat.move_first(model, modifier)
     model.update_tag()

@@ -218,6 +218,32 @@ class AddonTest(unittest.TestCase):
         self.require_follows(pose)
         self.require_equal(shown(self.model), before[:-100])
 
+    def test_new_vertices_of_the_model_leave_it_at_rest(self):
+        def inset(edited):
+            bmesh.ops.inset_individual(edited, faces=edited.faces[:50], thickness=0.01)
+
+        edits = {
+            'subdivide': lambda edited: bmesh.ops.subdivide_edges(edited, edges=edited.edges[:90],
+                                                                  cuts=1),
+            'inset': inset,
+            'poke': lambda edited: bmesh.ops.poke(edited, faces=edited.faces[:50])}
+        for name, edit in edits.items():
+            with self.subTest(edit=name):
+                self.bind()
+                pose = self.noise()
+                set_key(self.cage, 'Pose', pose)
+                edited = bmesh.new()
+                edited.from_mesh(self.model.data)
+                edit(edited)
+                edited.to_mesh(self.model.data)
+                edited.free()
+                self.assertIn('Rebind', self.problems())
+                self.require_equal(shown(self.model), base(self.model))
+                select(self.model)
+                self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
+                self.assertEqual(self.problems(), '')
+                self.require_follows(pose)
+
     def test_rebinding_after_edits_of_the_cage(self):
         self.bind()
         set_key(self.cage, 'Basis', 1.05 * base(self.cage))
