@@ -139,6 +139,12 @@ void refuse_without_neighbors(int vertex) {
                    "model again");
 }
 
+void refuse_moved(int vertex) {
+  throw InputError("vertex " + std::to_string(vertex) +
+                   " is not where bind() found it, so the model is not at rest; call "
+                   "restore_rest(), or bind the model again if its rest shape has changed");
+}
+
 template Binding<2> bind_points(const BindInput<2>&, const BindOptions&);
 template Binding<3> bind_points(const BindInput<3>&, const BindOptions&);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/openmesh/deform.h"
 
+#include <atomic>
 #include <cstdint>
 
 #include "base/parallel.h"
@@ -56,15 +57,19 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> arranged(const RowBlock<double>&,
 }  // namespace
 
 template <class Block, class Scalar, int Dim>
-void move_points(const Block& weights, const PointList<Dim>& control_points,
-                 const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
+Index move_points(const Block& weights, const PointList<Dim>& control_points,
+                  const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
   require_control_points(control_points_of(weights), control_points.cols());
   const auto cage = arranged<Dim>(weights, control_points);
   const auto count = static_cast<std::int64_t>(weights.size());
   const ThreadScope scope(deform_threads(numbers_in(weights), threads));
+  std::atomic<Index> left{0};
   parallel_for(count, [&](std::int64_t p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);
-    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) return;
+    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) {
+      ++left;
+      return;
+    }
     if (offsets) {
       const auto offset = (*offsets)[static_cast<std::size_t>(p)];
       for (int d = 0; d < Dim; ++d) place[d] += offset[static_cast<std::size_t>(d)];
@@ -72,11 +77,12 @@ void move_points(const Block& weights, const PointList<Dim>& control_points,
     Scalar* point = points.data + static_cast<std::size_t>(p) * points.stride;
     for (int d = 0; d < Dim; ++d) point[d] = static_cast<Scalar>(place[d]);
   });
+  return left;
 }
 
-#define FLBC_INSTANTIATE(Block, Scalar, Dim)                                                   \
-  template void move_points(const Block&, const PointList<Dim>&, const RowBlock<double>*, int, \
-                            const PointsView<Scalar>&);
+#define FLBC_INSTANTIATE(Block, Scalar, Dim)                                                    \
+  template Index move_points(const Block&, const PointList<Dim>&, const RowBlock<double>*, int, \
+                             const PointsView<Scalar>&);
 #define FLBC_INSTANTIATE_BLOCK(Block) \
   FLBC_INSTANTIATE(Block, float, 2)   \
   FLBC_INSTANTIATE(Block, float, 3)   \

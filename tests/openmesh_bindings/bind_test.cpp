@@ -145,9 +145,13 @@ TYPED_TEST(Bind, NewVerticesStayUntilTheyAreBound) {
     const auto rest = model.point(fresh);
 
     const auto pose = this->random_pose(2);
-    openmesh::deform(model, pose);
+    EXPECT_EQ(openmesh::deform(model, pose), 2);
     EXPECT_EQ(model.point(fresh), rest);
     EXPECT_EQ(model.point(inner), rest);
+    const auto before = openmesh::get_weights(model);
+    expect_refused<Error>("the model is not at rest; call restore_rest()",
+                          [&] { openmesh::bind_new_vertices(model); });
+    EXPECT_EQ(openmesh::get_weights(model), before);
     openmesh::restore_rest(model);
     EXPECT_EQ(model.point(fresh), rest);
     EXPECT_EQ(openmesh::points_of<kDimension>(model).leftCols(this->rest_.cols()), this->rest_);
@@ -160,7 +164,7 @@ TYPED_TEST(Bind, NewVerticesStayUntilTheyAreBound) {
     }
     EXPECT_GE(weights.minCoeff(), 0);
     EXPECT_LT((cage.points * weights - all).cwiseAbs().maxCoeff(), TypeParam::kRounding);
-    openmesh::deform(model, pose);
+    EXPECT_EQ(openmesh::deform(model, pose), 0);
     EXPECT_LT((openmesh::points_of<kDimension>(model) - pose * weights).cwiseAbs().maxCoeff(),
               TypeParam::kRounding);
     openmesh::restore_rest(model);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "flbc/bounding_box.h"
 #include "flbc/meshing.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
@@ -84,6 +86,21 @@ Eigen::VectorXd reproducing(const Eigen::MatrixXd& cage, const Eigen::VectorXd& 
                             const Eigen::VectorXd& weights, std::size_t most);
 
 [[noreturn]] void refuse_without_neighbors(int vertex);
+[[noreturn]] void refuse_moved(int vertex);
+
+//! \throws InputError naming the first vertex with weights that is not where it was bound
+template <class Mesh>
+void require_at_rest(const Mesh& mesh, const RowBlock<double>& rest,
+                     const std::vector<bool>& are_bound) {
+  const auto points = points_of<kPointSize<Mesh>>(mesh);
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(points);
+  for (std::size_t v = 0; v < are_bound.size(); ++v) {
+    for (int d = 0; are_bound[v] && d < kPointSize<Mesh>; ++d) {
+      const double moved = points(d, static_cast<Index>(v)) - rest[v][static_cast<std::size_t>(d)];
+      if (!(std::abs(moved) <= tolerance)) refuse_moved(static_cast<int>(v));
+    }
+  }
+}
 
 //! Whether each vertex has weights. All have if the mesh has no weights of this name.
 template <class Mesh>
@@ -241,8 +258,9 @@ BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& doma
 //! weights of their neighbors, changed as little as is needed to reproduce their positions. The
 //! model must be at rest. Other vertices keep their weights.
 //! \return number of new vertices
-//! \throws InputError if the model was not bound, or naming a vertex that no neighbors connect with
-//! bound ones, or that lies outside the convex hull of the cage. Vertices before it may be bound
+//! \throws InputError if the model was not bound, or naming a vertex that is not at rest, that no
+//! neighbors connect with bound ones, or that lies outside the convex hull of the cage. Vertices
+//! before it may be bound
 template <class Model>
 Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
   static_assert(!std::is_same_v<Model, TetMesh>, "the vertices of a TetMesh do not change");
@@ -253,6 +271,7 @@ Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
   }
   auto& rest = internal::get_property<Wide<double>>(model, rest_name).data_vector();
   auto are_bound = internal::bound_vertices(model, weights);
+  internal::require_at_rest(model, rest, are_bound);
   std::vector<OpenMesh::VertexHandle> open;
   for (const auto vertex : model.vertices()) {
     if (!are_bound[static_cast<std::size_t>(vertex.idx())]) open.push_back(vertex);

@@ -58,10 +58,11 @@ bool is_unbound(const RowsView<Weight>& row) {
 
 //! Deforms one point per element of `weights` with the control points (Dim x n).
 //! \param offsets  Dim values per point to add, at distances of offset_stride; may be null
+//! \return number of points without weights
 //! \throws InputError if the numbers of control points differ
 template <class Block, class Scalar, int Dim>
-void move_points(const Block& weights, const PointList<Dim>& control_points,
-                 const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
+Index move_points(const Block& weights, const PointList<Dim>& control_points,
+                  const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
 
 template <class Mesh>
 void update_normals(Mesh& mesh) {
@@ -81,39 +82,40 @@ void update_normals(Mesh& mesh) {
 //! Vertices without weights, such as those that split() added after bind(), stay where they are;
 //! see bind_new_vertices().
 //! \param control_points  Dim x n
+//! \return number of vertices without weights
 //! \throws InputError if the mesh has no weights of this name, or the number of control points
 //! differs
 template <class Mesh, int Dim>
-void deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
+Index deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
   static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");
   const auto points = internal::view_points(mesh);
   const auto* offset =
       internal::find_property<Wide<double>>(mesh, internal::name_of_offset(options.weights));
   const auto* offsets = offset ? &offset->data_vector() : nullptr;
-  if (const auto* influences = internal::find_property<Influences>(mesh, options.weights)) {
-    internal::move_points(influences->data_vector(), control_points, offsets, options.threads,
-                          points);
-  } else {
-    internal::move_points(weights_property(mesh, options.weights).data_vector(), control_points,
-                          offsets, options.threads, points);
-  }
+  const auto move = [&](const auto& weights) {
+    return internal::move_points(weights, control_points, offsets, options.threads, points);
+  };
+  const auto* influences = internal::find_property<Influences>(mesh, options.weights);
+  const Index left = influences ? move(influences->data_vector())
+                                : move(weights_property(mesh, options.weights).data_vector());
   if (options.normals) internal::update_normals(mesh);
+  return left;
 }
 
 //! The same for a posed cage.
 template <class Mesh, int Dim>
-void deform(Mesh& mesh, const Cage<Dim>& pose, const DeformOptions& options = {}) {
-  deform(mesh, pose.points, options);
+Index deform(Mesh& mesh, const Cage<Dim>& pose, const DeformOptions& options = {}) {
+  return deform(mesh, pose.points, options);
 }
 
 //! The same for a cage given as a mesh: a surface whose vertices are the control points, or a
 //! planar mesh whose boundary is the cage (points with two coordinates).
 template <class Mesh, class CageMesh>
-void deform(Mesh& mesh, const CageMesh& pose, const DeformOptions& options = {}) {
+Index deform(Mesh& mesh, const CageMesh& pose, const DeformOptions& options = {}) {
   if constexpr (kPointSize<CageMesh> == 2) {
-    deform(mesh, to_outline(pose).points, options);
+    return deform(mesh, to_outline(pose).points, options);
   } else {
-    deform(mesh, points_of<3>(pose), options);
+    return deform(mesh, points_of<3>(pose), options);
   }
 }
 

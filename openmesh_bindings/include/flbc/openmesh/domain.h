@@ -10,6 +10,7 @@
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 
 #include "flbc/boundary_values.h"
+#include "flbc/bounding_box.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/openmesh/elements.h"
@@ -126,14 +127,13 @@ Domain<2> make_domain(const OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh) {
 //! The faces of a tetrahedral mesh.
 Domain<3> make_domain(const TetMesh& mesh);
 
-//! The domain of a mesh. Boundary vertices within 1e-6 of cage size are moved onto the cage,
+//! The domain of a mesh. Boundary vertices within kBoundaryTolerance are moved onto the cage,
 //! because text formats and default OpenMesh points have single precision.
 //! \throws InputError as make_domain()
 template <class Mesh, int Dim>
 Domain<Dim> snapped_domain(const Mesh& mesh, const Cage<Dim>& cage) {
-  constexpr double kSinglePrecision = 1e-6;
   auto domain = make_domain(mesh);
-  snap_to_cage(cage, domain.topology, kSinglePrecision, domain.mesh);
+  snap_to_cage(cage, domain.topology, kBoundaryTolerance, domain.mesh);
   return domain;
 }
 
